@@ -1,0 +1,60 @@
+#include "base/file.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace voxilux {
+namespace fs = std::filesystem;
+
+std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) {
+    std::error_code status;
+    if (fs::is_directory(path, status))
+        throw Error(ExitCode::input_refused, fmt::format("{}: is a folder, not a file", path.string()));
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    if (!in) {
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: cannot open: {}", path.string(), std::strerror(errno)));
+    }
+    const std::streamoff size = in.tellg();
+    if (size < 0) throw Error(ExitCode::input_refused, fmt::format("{}: cannot be sought", path.string()));
+    if (static_cast<std::size_t>(size) > limit_bytes) {
+        throw Error(ExitCode::input_refused, fmt::format("{}: {} bytes, over the limit of {}", path.string(),
+                                                         size, limit_bytes));
+    }
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    in.seekg(0);
+    in.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!in) throw Error(ExitCode::input_refused, fmt::format("{}: read stopped early", path.string()));
+    return bytes;
+}
+
+void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    fs::path temporary = path;
+    temporary += fmt::format(".{}.tmp", ::getpid());
+    try {
+        write(temporary);
+        fs::rename(temporary, path);
+    } catch (const std::exception& cause) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw Error(ExitCode::cannot_write, fmt::format("{}: cannot write: {}", path.string(), cause.what()));
+    }
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+    write_file_atomically(path, [&](const fs::path& temporary) {
+        errno = 0;
+        std::ofstream out(temporary, std::ios::binary);
+        out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        out.close();
+        if (!out) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
+    });
+}
+
+}  // namespace voxilux

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxilux {
+
+// The whole file. Throws Error(input_refused) when it is absent, unreadable or over `limit_bytes`.
+[[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path,
+                                               std::size_t limit_bytes = std::size_t{8} << 30);
+
+// Calls `write` with a temporary name in the folder of `path`, then renames onto `path`: a reader sees the old
+// file or the whole new one, and a failure leaves nothing behind. Throws Error(cannot_write).
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const std::filesystem::path& temporary)>& write);
+
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+}  // namespace voxilux

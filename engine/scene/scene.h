@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace voxilux {
+
+// Scene space: right handed, z up, one unit is one voxel, and a cell c covers [c, c+1) on each axis. It is
+// MagicaVoxel's world space. Colours are linear Rec. 709.
+
+// How light leaves a surface. Effects that do not exist yet treat the others as diffuse, and the plan says so.
+enum class Surface : std::uint8_t { diffuse, metal, glass, emit, blend, media };
+
+struct Material {
+    std::string name;
+    glm::vec3 albedo{0.8f};    // [0,1] linear
+    glm::vec3 emission{0.0f};  // radiance, W/(m^2 sr) in the units of the sun and the sky; >= 0
+    Surface surface = Surface::diffuse;
+    float roughness = 1.0f;  // [0,1]
+    float ior = 1.5f;        // glass, media: > 1
+    float metallic = 0.0f;
+    float transmission = 0.0f;
+
+    bool operator==(const Material&) const = default;
+};
+
+// A filled cell of a model. `material` indexes Scene::materials.
+struct Voxel {
+    std::uint16_t x = 0;
+    std::uint16_t y = 0;
+    std::uint16_t z = 0;
+    std::uint16_t material = 0;
+
+    bool operator==(const Voxel&) const = default;
+};
+
+// At most one voxel per cell, each inside `size`.
+struct VoxelModel {
+    std::string name;
+    glm::ivec3 size{0};
+    std::vector<Voxel> voxels;
+};
+
+// A signed permutation of the axes: all 24 rotations and 24 mirrored ones. Component i of the result is
+// sign[i] * v[axis[i]].
+struct Rotation {
+    std::array<std::uint8_t, 3> axis{0, 1, 2};
+    std::array<std::int8_t, 3> sign{1, 1, 1};
+
+    bool operator==(const Rotation&) const = default;
+
+    [[nodiscard]] glm::ivec3 apply(glm::ivec3 v) const {
+        return {sign[0] * v[axis[0]], sign[1] * v[axis[1]], sign[2] * v[axis[2]]};
+    }
+    // First `inner`, then this.
+    [[nodiscard]] Rotation after(const Rotation& inner) const {
+        Rotation both;
+        for (std::size_t i = 0; i < 3; ++i) {
+            both.axis[i] = inner.axis[axis[i]];
+            both.sign[i] = static_cast<std::int8_t>(sign[i] * inner.sign[axis[i]]);
+        }
+        return both;
+    }
+};
+
+// A model in the scene. Voxel v of the model fills the scene cell floor(R (v + 1/2 - pivot)) + translation, with
+// pivot = floor(size / 2): MagicaVoxel's rule, exact for odd and even sizes and for mirrors (see world_cell).
+struct Instance {
+    std::uint32_t model = 0;
+    Rotation rotation;
+    glm::ivec3 translation{0};
+};
+
+// The scene cell of voxel `v` of a model of `size` under `instance`.
+[[nodiscard]] glm::ivec3 world_cell(const Instance& instance, glm::ivec3 size, glm::ivec3 v);
+
+struct Sphere {
+    glm::dvec3 centre{0.0};
+    double radius = 1.0;  // > 0
+    std::uint32_t material = 0;
+};
+
+// Light from one direction. It is out when `irradiance` is zero or the direction is not above the horizon (z <= 0).
+struct Sun {
+    float azimuth_deg = 215.0f;   // counter-clockwise from +x, seen from above
+    float elevation_deg = 45.0f;  // above the horizon
+    float angular_diameter_deg = 0.53f;  // 0 gives hard shadows
+    glm::vec3 irradiance{3.0f, 2.8f, 2.5f};  // on a surface that faces the sun
+
+    [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
+};
+
+struct Sky {
+    glm::vec3 radiance{0.55f, 0.7f, 1.0f};  // the same from every direction
+};
+
+// Pinhole. Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.
+struct Camera {
+    glm::dvec3 position{0.0};
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+    double fov_y_deg = 45.0;  // vertical, in (0, 180)
+};
+
+enum class Sequence : std::uint8_t { sobol, halton, white };
+
+struct RenderSettings {
+    glm::ivec2 size{640, 360};  // pixels
+    std::uint32_t spp = 16;     // samples per pixel
+    std::uint32_t ao_rays = 1;  // occlusion rays per sample
+    float ao_radius = 32.0f;    // voxels
+    std::uint32_t seed = 0;
+    Sequence sequence = Sequence::sobol;
+};
+
+// All that a picture depends on, as plain data.
+struct Scene {
+    std::vector<Material> materials;
+    std::vector<VoxelModel> models;
+    std::vector<Instance> instances;  // the visible ones; where two fill a cell the later wins
+    std::vector<Sphere> spheres;
+    Sun sun;
+    Sky sky;
+    std::optional<Camera> camera;  // absent: default_camera() frames the scene
+    RenderSettings settings;
+    std::vector<std::string> warnings;  // what was dropped or repaired while loading, one line each
+};
+
+}  // namespace voxilux

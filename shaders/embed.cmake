@@ -1,0 +1,15 @@
+# Writes OUTPUT: a C++ file whose FUNCTION() returns the SPIR-V words of FILES by stem.
+set(text "#include \"embedded.h\"\n\n#include <array>\n\nnamespace voxilux {\nnamespace {\n")
+set(rows "")
+list(LENGTH FILES count)
+foreach(file IN LISTS FILES)
+  get_filename_component(stem ${file} NAME_WE)
+  file(READ ${file} hex HEX)
+  string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${hex}")
+  string(APPEND text "constexpr std::uint32_t ${stem}_words[] = {${words}};\n")
+  string(APPEND rows "    EmbeddedShader{\"${stem}\", ${stem}_words},\n")
+endforeach()
+string(APPEND text "}  // namespace\n\nstd::span<const EmbeddedShader> ${FUNCTION}() {\n"
+  "    static const std::array<EmbeddedShader, ${count}> shaders = {{\n${rows}    }};\n    return shaders;\n}\n\n}  // namespace voxilux\n")
+string(REPLACE "array<EmbeddedShader, 0> shaders = {{\n    }}" "array<EmbeddedShader, 0> shaders = {}" text "${text}")
+file(WRITE ${OUTPUT} "${text}")
