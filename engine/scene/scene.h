@@ -85,12 +85,14 @@ struct Sphere {
     std::uint32_t material = 0;
 };
 
-// Light from one direction. It is out when `irradiance` is zero or the direction is not above the horizon (z <= 0).
+// Light from one direction. It is out when it is switched off, `irradiance` is zero, or the direction is not above
+// the horizon (z <= 0).
 struct Sun {
     float azimuth_deg = 215.0f;   // counter-clockwise from +x, seen from above
     float elevation_deg = 45.0f;  // above the horizon
     float angular_diameter_deg = 0.53f;  // 0 gives hard shadows
     glm::vec3 irradiance{3.0f, 2.8f, 2.5f};  // on a surface that faces the sun
+    bool on = true;
 
     [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
 };

@@ -1,0 +1,96 @@
+#include "scene/facts.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace voxilux {
+namespace {
+
+bool any_positive(glm::vec3 v) {
+    return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
+}
+
+// One flag per material of the scene.
+std::vector<bool> used_materials(const Scene& scene) {
+    std::vector<bool> instanced(scene.models.size(), false);
+    for (const Instance& instance : scene.instances)
+        instanced.at(instance.model) = true;
+    std::vector<bool> used(scene.materials.size(), false);
+    for (std::size_t m = 0; m < scene.models.size(); ++m) {
+        if (!instanced[m]) continue;
+        for (const Voxel& voxel : scene.models[m].voxels)
+            used.at(voxel.material) = true;
+    }
+    for (const Sphere& sphere : scene.spheres)
+        used.at(sphere.material) = true;
+    return used;
+}
+
+void measure_materials(const Scene& scene, SceneFacts& facts) {
+    const std::vector<bool> used = used_materials(scene);
+    for (std::size_t m = 0; m < used.size(); ++m) {
+        if (!used[m]) continue;
+        const Material& material = scene.materials[m];
+        ++facts.material_count;
+        facts.has_emitters |= any_positive(material.emission);
+        facts.has_glass |= material.surface == Surface::glass;
+        facts.has_metal |= material.surface == Surface::metal;
+    }
+}
+
+double cell_count(const Box& box) {
+    const glm::dvec3 extent(box.extent());
+    return extent.x * extent.y * extent.z;
+}
+
+}  // namespace
+
+SceneFacts measure_scene(const Scene& scene) {
+    SceneFacts facts;
+    for (const Instance& instance : scene.instances)
+        facts.voxel_count += scene.models.at(instance.model).voxels.size();
+    facts.instance_count = scene.instances.size();
+    facts.sphere_count = scene.spheres.size();
+    facts.box = voxel_bounds(scene);
+    facts.has_voxels = !facts.box.empty();
+    facts.has_spheres = !scene.spheres.empty();
+    if (facts.has_voxels) {
+        facts.extent = facts.box.extent();
+        facts.fill_ratio = static_cast<double>(facts.voxel_count) / cell_count(facts.box);
+    }
+    facts.sun_reaches = scene.sun.on && any_positive(scene.sun.irradiance) && scene.sun.direction().z > 0.0f;
+    facts.has_sky = any_positive(scene.sky.radiance);
+    measure_materials(scene, facts);
+    return facts;
+}
+
+std::string describe(const SceneFacts& facts) {
+    const auto yes_no = [](bool fact) { return fact ? "yes" : "no"; };
+    std::string text;
+    const auto line = [&](const char* name, const std::string& value) {
+        text += fmt::format("{}: {}\n", name, value);
+    };
+    line("voxels", fmt::format("{}", facts.voxel_count));
+    line("instances", fmt::format("{}", facts.instance_count));
+    line("spheres", fmt::format("{}", facts.sphere_count));
+    line("materials used", fmt::format("{}", facts.material_count));
+    if (facts.has_voxels) {
+        const Box& box = facts.box;
+        line("box",
+             fmt::format("({} {} {}) to ({} {} {}), {} x {} x {} voxels", box.lo.x, box.lo.y, box.lo.z,
+                         box.hi.x, box.hi.y, box.hi.z, facts.extent.x, facts.extent.y, facts.extent.z));
+        line("filled", fmt::format("{:.3f} %", 100.0 * facts.fill_ratio));
+    } else {
+        line("box", "empty");
+    }
+    line("sun reaches", yes_no(facts.sun_reaches));
+    line("sky", yes_no(facts.has_sky));
+    line("emitters", yes_no(facts.has_emitters));
+    line("glass", yes_no(facts.has_glass));
+    line("metal", yes_no(facts.has_metal));
+    return text;
+}
+
+}  // namespace voxilux

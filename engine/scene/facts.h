@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "scene/scene_bounds.h"
+
+namespace voxilux {
+
+// What the plan needs to know of a scene, measured once. Materials count only when a voxel of an instanced
+// model or a sphere uses them.
+struct SceneFacts {
+    std::uint64_t voxel_count = 0;  // over all instances, before later ones overwrite earlier ones
+    std::uint64_t instance_count = 0;
+    std::uint64_t sphere_count = 0;
+    std::uint64_t material_count = 0;  // used ones
+    Box box;                           // of the voxels; empty when there are none
+    glm::i64vec3 extent{0};            // of `box`, in voxels
+    double fill_ratio = 0.0;           // voxel_count / cells of `box`; over 1 where instances overlap
+
+    bool has_voxels = false;
+    bool has_spheres = false;
+    bool sun_reaches = false;   // switched on, above the horizon, irradiance > 0
+    bool has_sky = false;       // radiance > 0
+    bool has_emitters = false;  // a used material with emission > 0
+    bool has_glass = false;
+    bool has_metal = false;
+
+    bool operator==(const SceneFacts&) const = default;
+};
+
+// Throws Error(input_refused) when the scene reaches beyond kMaxCoordinate.
+[[nodiscard]] SceneFacts measure_scene(const Scene& scene);
+
+// One "name: value" line per fact, stable between runs.
+[[nodiscard]] std::string describe(const SceneFacts& facts);
+
+}  // namespace voxilux

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "scene/scene_bounds.h"
+
+namespace voxilux {
+
+// Where a framing camera looks from. `front` is the -y side of a model, `right` its +x side.
+enum class View : std::uint8_t { three_quarter, front, back, left, right, top, iso };
+
+// The vertical field of view of a framing camera unless the scene says another.
+inline constexpr double kDefaultFovYDeg = 45.0;
+
+// The fraction of the half picture, on each axis, that a framed box leaves free.
+inline constexpr double kFrameMargin = 0.05;
+
+// The camera that looks along `view` from the nearest point at which the whole box is inside the picture less
+// its margin: exact, the box touches the margin on two opposite sides. `aspect` is width / height. An empty
+// box gives a camera that looks at the origin from 64 voxels away.
+[[nodiscard]] Camera framing_camera(const Box& box, View view, double aspect,
+                                    double fov_y_deg = kDefaultFovYDeg);
+
+// The view of a scene that names none: three-quarter from above, the front and the right side in sight.
+[[nodiscard]] Camera default_camera(const Box& box, double aspect);
+
+// The scene's own camera, or the default one for its picture size.
+[[nodiscard]] Camera camera_of(const Scene& scene);
+
+// Columns right, up, forward: orthonormal, right x up = -forward, right is horizontal. Straight up and down
+// are the limit of the pitch at constant yaw: looking down with yaw 90, +y is up in the picture.
+[[nodiscard]] glm::dmat3 camera_basis(const Camera& camera);
+
+// Yaw and pitch of the direction `forward` (any length but zero), the yaw of a vertical one being 90.
+struct YawPitch {
+    double yaw_deg = 0.0;
+    double pitch_deg = 0.0;
+};
+[[nodiscard]] YawPitch yaw_pitch_of(glm::dvec3 forward);
+
+}  // namespace voxilux

@@ -1,0 +1,152 @@
+#include "scene/scene_hash.h"
+
+#include <array>
+#include <bit>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include <xxhash.h>
+
+#include "base/assert.h"
+
+namespace voxilux {
+namespace {
+
+// Collects bytes in blocks and feeds them to XXH3, so that a large scene needs no second copy in memory.
+class Hasher {
+  public:
+    Hasher() : state_(XXH3_createState(), &XXH3_freeState) {
+        if (!state_) throw std::bad_alloc();
+        XXH3_64bits_reset(state_.get());
+        block_.reserve(kBlockBytes + sizeof(std::uint64_t));
+    }
+
+    template <class T>
+    void add(T value) {
+        if constexpr (std::is_enum_v<T>) {
+            add(static_cast<std::underlying_type_t<T>>(value));
+        } else if constexpr (std::is_same_v<T, float>) {
+            add(std::bit_cast<std::uint32_t>(value));
+        } else if constexpr (std::is_same_v<T, double>) {
+            add(std::bit_cast<std::uint64_t>(value));
+        } else {
+            static_assert(std::is_integral_v<T>);
+            const auto bits = static_cast<std::uint64_t>(value);
+            for (std::size_t i = 0; i < sizeof(T); ++i)
+                block_.push_back(static_cast<unsigned char>(bits >> (8 * i)));
+            if (block_.size() >= kBlockBytes) flush();
+        }
+    }
+
+    template <glm::length_t N, class T>
+    void add(const glm::vec<N, T>& v) {
+        for (glm::length_t i = 0; i < N; ++i)
+            add(v[i]);
+    }
+
+    [[nodiscard]] std::uint64_t digest() {
+        flush();
+        return XXH3_64bits_digest(state_.get());
+    }
+
+  private:
+    static constexpr std::size_t kBlockBytes = 1 << 16;
+
+    void flush() {
+        XXH3_64bits_update(state_.get(), block_.data(), block_.size());
+        block_.clear();
+    }
+
+    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+    std::vector<unsigned char> block_;
+};
+
+// Each list starts with its length, so that no two scenes give the same bytes.
+void add_materials(Hasher& hasher, const std::vector<Material>& materials) {
+    hasher.add(std::uint64_t{materials.size()});
+    for (const Material& material : materials) {
+        hasher.add(material.albedo);
+        hasher.add(material.emission);
+        hasher.add(material.surface);
+        hasher.add(material.roughness);
+        hasher.add(material.ior);
+        hasher.add(material.metallic);
+        hasher.add(material.transmission);
+    }
+}
+
+void add_models(Hasher& hasher, const std::vector<VoxelModel>& models) {
+    hasher.add(std::uint64_t{models.size()});
+    for (const VoxelModel& model : models) {
+        hasher.add(model.size);
+        hasher.add(std::uint64_t{model.voxels.size()});
+        for (const Voxel& voxel : model.voxels) {
+            hasher.add(voxel.x);
+            hasher.add(voxel.y);
+            hasher.add(voxel.z);
+            hasher.add(voxel.material);
+        }
+    }
+}
+
+void add_instances(Hasher& hasher, const std::vector<Instance>& instances) {
+    hasher.add(std::uint64_t{instances.size()});
+    for (const Instance& instance : instances) {
+        hasher.add(instance.model);
+        for (const std::uint8_t axis : instance.rotation.axis)
+            hasher.add(axis);
+        for (const std::int8_t sign : instance.rotation.sign)
+            hasher.add(sign);
+        hasher.add(instance.translation);
+    }
+}
+
+void add_spheres(Hasher& hasher, const std::vector<Sphere>& spheres) {
+    hasher.add(std::uint64_t{spheres.size()});
+    for (const Sphere& sphere : spheres) {
+        hasher.add(sphere.centre);
+        hasher.add(sphere.radius);
+        hasher.add(sphere.material);
+    }
+}
+
+void add_light(Hasher& hasher, const Sun& sun, const Sky& sky) {
+    hasher.add(sun.azimuth_deg);
+    hasher.add(sun.elevation_deg);
+    hasher.add(sun.angular_diameter_deg);
+    hasher.add(sun.irradiance);
+    hasher.add(sun.on);
+    hasher.add(sky.radiance);
+}
+
+void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderSettings& settings) {
+    hasher.add(camera.has_value());
+    const Camera view = camera.value_or(Camera{});
+    hasher.add(view.position);
+    hasher.add(view.yaw_deg);
+    hasher.add(view.pitch_deg);
+    hasher.add(view.fov_y_deg);
+    hasher.add(settings.size);
+    hasher.add(settings.spp);
+    hasher.add(settings.ao_rays);
+    hasher.add(settings.ao_radius);
+    hasher.add(settings.seed);
+    hasher.add(settings.sequence);
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const Scene& scene) {
+    Hasher hasher;
+    add_materials(hasher, scene.materials);
+    add_models(hasher, scene.models);
+    add_instances(hasher, scene.instances);
+    add_spheres(hasher, scene.spheres);
+    add_light(hasher, scene.sun, scene.sky);
+    add_view(hasher, scene.camera, scene.settings);
+    return hasher.digest();
+}
+
+}  // namespace voxilux

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace voxilux {
+
+// XXH3-64 of a little-endian serialisation of everything a picture depends on: the same on every machine, and
+// the same for scenes that differ only in names and warnings.
+[[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
+
+}  // namespace voxilux
