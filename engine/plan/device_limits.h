@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace voxilux {
+
+// What a plan needs to know of the device it plans for. The defaults are those of Mesa lavapipe, so that
+// plans can be made and tested with no device.
+struct DeviceLimits {
+    std::uint64_t max_binding_bytes = std::uint64_t{128} << 20;   // one storage buffer seen by a shader
+    std::uint64_t max_allocation_bytes = std::uint64_t{2} << 30;  // one buffer
+    std::array<std::uint32_t, 3> max_groups = {65535, 65535, 65535};
+    std::uint32_t max_push_bytes = 128;
+    bool is_cpu = true;
+    std::string name = "lavapipe";
+
+    bool operator==(const DeviceLimits&) const = default;
+};
+
+}  // namespace voxilux

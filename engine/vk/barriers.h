@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "record/recording.h"
+#include "vk/spirv_reflect.h"
+
+namespace voxilux {
+
+// Where a command touches a buffer.
+enum class Stage { compute, indirect, transfer, host };
+inline constexpr int kStageCount = 4;
+
+// Why two commands must not overlap.
+enum class HazardKind { read_after_write, write_after_read, write_after_write };
+
+// A dependency on earlier commands that must be ordered before `command` (an index into the Recording) may
+// run.
+struct Hazard {
+    std::size_t command = 0;
+    std::string buffer;
+    HazardKind kind = HazardKind::read_after_write;
+    Stage before = Stage::compute;
+    Stage after = Stage::compute;
+
+    bool operator==(const Hazard&) const = default;
+};
+
+// What the derivation must know beside the Recording.
+struct BarrierContext {
+    std::function<const ProgramInfo&(std::string_view shader)> program;
+    std::function<bool(std::string_view buffer)> is_mapped;  // the host reaches its memory; empty: none is
+};
+
+// True when the transfer `command` needs no device command because the host reaches the buffer's memory: an
+// upload before any other use of the buffer, a readback after the last write to it.
+[[nodiscard]] bool is_direct_transfer(const Recording& recording, std::size_t command,
+                                      const BarrierContext& context);
+
+// The hazards between the commands of a recording, in order. The hazards of one command become one barrier,
+// and a barrier orders ALL earlier work of its stages `before` ahead of all later work of its stages `after`,
+// so a later command is not listed for what an earlier barrier has ordered already. Persistent buffers start
+// as written.
+[[nodiscard]] std::vector<Hazard> derive_barriers(const Recording& recording, const BarrierContext& context);
+
+}  // namespace voxilux

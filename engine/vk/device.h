@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plan/device_limits.h"
+
+namespace voxilux {
+
+// One Vulkan device as `voxilux devices` shows it.
+struct DeviceInfo {
+    std::uint32_t index = 0;  // what --device takes
+    std::string name;
+    std::string driver;  // name and version
+    std::string type;    // cpu, integrated, discrete, virtual or other
+    bool usable = false;
+    std::vector<std::string> lacks;  // plain sentences; a usable device can lack optional things
+    bool would_use = false;          // the one an empty selector picks
+    DeviceLimits limits;
+};
+
+// Which device to open and how.
+struct DeviceRequest {
+    std::string selector;                              // index, or part of the name in any case; empty: best
+    bool validation = false;                           // Khronos validation and synchronization validation
+    std::function<void(std::string_view)> on_message;  // each validation message as it comes; may be empty
+};
+
+struct DeviceState;
+
+// An open device with one compute queue, and its validation messages. Everything made from it must be
+// destroyed before it.
+class Device {
+  public:
+    explicit Device(std::unique_ptr<DeviceState> state);
+    Device(Device&&) noexcept;
+    Device& operator=(Device&&) noexcept;
+    ~Device();
+
+    [[nodiscard]] const DeviceInfo& info() const;
+    [[nodiscard]] const DeviceLimits& limits() const { return info().limits; }
+
+    // Warnings and errors of the validation layers so far; always empty without validation.
+    [[nodiscard]] std::vector<std::string> messages() const;
+
+    // For this room only: the Vulkan handles.
+    [[nodiscard]] DeviceState& state() { return *state_; }
+
+  private:
+    std::unique_ptr<DeviceState> state_;
+};
+
+// Every Vulkan device of the machine, usable or not. Throws Error(no_device) only when there is no Vulkan
+// loader.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+// The place in `devices` that `selector` means: an index, else the first usable device whose name contains it
+// (in any case), else, when empty, a real GPU before a CPU. Throws Error(usage) that lists the devices when
+// nothing matches, Error(no_device) when the machine has no usable one or the one meant is not usable.
+[[nodiscard]] std::size_t pick_device(std::span<const DeviceInfo> devices, std::string_view selector);
+
+// Opens the device that `request` means. Throws as pick_device, and Error(no_device) when there is no loader
+// or when validation is asked for and its layer is not installed.
+[[nodiscard]] Device open_device(const DeviceRequest& request);
+
+}  // namespace voxilux

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "embedded.h"
+#include "record/recording.h"
+#include "vk/device.h"
+#include "vk/spirv_reflect.h"
+
+namespace voxilux {
+
+struct ExecutorOptions {
+    std::filesystem::path cache_dir;                // of the pipeline cache; empty: none
+    std::array<std::uint32_t, 2> group_size{8, 8};  // for shaders whose local x and y are both constants
+    bool time_dispatches = true;
+    bool poison_transients = false;  // fills transient buffers with 0xCDCDCDCD first: finds reads of nothing
+    std::uint64_t staging_bytes = std::uint64_t{32} << 20;  // longer transfers go in pieces of this size
+};
+
+// Time on the device of all dispatches of one label in a run. Zero when the device has no timestamps.
+struct PassTime {
+    std::string label;
+    std::uint32_t count = 0;
+    double ms = 0.0;      // sum
+    double max_ms = 0.0;  // longest single dispatch
+};
+
+struct RunResult {
+    std::map<std::string, std::vector<std::byte>> readbacks;  // by buffer
+    std::vector<PassTime> passes;                             // in order of first dispatch
+};
+
+struct MemoryRow {
+    std::string buffer;
+    std::uint64_t bytes = 0;
+};
+
+// Runs Recordings on a device: makes the buffers they declare, the pipelines they name, the barriers between
+// their commands. Persistent buffers live from run to run by name; one that is declared with another size
+// starts anew.
+class Executor {
+  public:
+    // `shaders` is where dispatches find theirs by name; nothing is compiled before it is dispatched.
+    Executor(Device& device, std::span<const EmbeddedShader> shaders, ExecutorOptions options = {});
+    Executor(Executor&&) noexcept;
+    Executor& operator=(Executor&&) noexcept;
+    ~Executor();
+
+    // Runs the commands in order, waits, and returns what was read back and the times. Throws InternalError
+    // that names the shader when a dispatch does not fit it (unknown shader, block or constant, missing
+    // block, push size, extent), Error(out_of_memory) that names the buffer, Error(device_lost), Error(usage)
+    // for a group size that the device cannot run.
+    RunResult run(const Recording& recording);
+
+    // The buffers alive now, by name.
+    [[nodiscard]] std::vector<MemoryRow> memory() const;
+
+    // Pipelines made since construction.
+    [[nodiscard]] std::uint64_t pipelines_created() const;
+
+    // What a shader says of itself. Throws InternalError when there is none of that name.
+    [[nodiscard]] const ProgramInfo& program_info(std::string_view shader);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace voxilux
