@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,8 +13,8 @@
 
 namespace voxilux {
 
-// Planes of one size, row 0 at the top. Channel names follow OpenEXR: bare R G B A for the beauty, Z for depth,
-// layer.R for the rest.
+// Planes of one size, row 0 at the top. Channel names follow OpenEXR: bare R G B A for the beauty, Z for
+// depth, layer.R for the rest. Colours are linear Rec.709.
 struct Image {
     enum class Precision : std::uint8_t { half, single };
 
@@ -23,6 +27,35 @@ struct Image {
     int height = 0;
     std::map<std::string, Channel> channels;
     std::map<std::string, std::string> attributes;  // text attributes of the EXR header
+    bool display_referred =
+        false;  // colours are in [0,1] and each is the decoded value of an 8-bit sRGB code
 };
+
+[[nodiscard]] inline std::size_t pixel_count(const Image& image) {
+    return static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+}
+
+// An image with the named channels, all zero.
+[[nodiscard]] inline Image make_image(int width, int height, std::span<const std::string> names) {
+    Image image{.width = width, .height = height};
+    for (const std::string& name : names)
+        image.channels[name].pixels.resize(pixel_count(image));
+    return image;
+}
+
+// The three colour planes of an image: R G B, or Y for all three. Empty when it has neither, or a plane of
+// another size than the image.
+[[nodiscard]] inline std::optional<std::array<std::span<const float>, 3>> colour_planes(const Image& image) {
+    const bool is_grey = !image.channels.contains("R") && image.channels.contains("Y");
+    const std::array<std::string, 3> names =
+        is_grey ? std::array<std::string, 3>{"Y", "Y", "Y"} : std::array<std::string, 3>{"R", "G", "B"};
+    std::array<std::span<const float>, 3> planes;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const auto found = image.channels.find(names[c]);
+        if (found == image.channels.end() || found->second.pixels.size() != pixel_count(image)) return {};
+        planes[c] = found->second.pixels;
+    }
+    return planes;
+}
 
 }  // namespace voxilux

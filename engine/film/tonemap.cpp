@@ -1,0 +1,68 @@
+// Filmic: of the published curves (Hable 2010, Narkowicz 2016, Khronos PBR Neutral 2024) this is the fit with
+// the fewest constants, it maps 0 to 0, rises everywhere, and HDR-FLIP uses the very same curve, so the error
+// that the metric sees is the one a viewer sees.
+
+#include "film/tonemap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/assert.h"
+#include "film/srgb.h"
+
+namespace voxilux {
+namespace {
+
+constexpr float kPreExposure =
+    0.6f;  // brings the fit to the brightness of the ACES reference (Narkowicz 2016)
+constexpr float kFitWhite =
+    16.0f;  // the fit passes 1 at 7.25; beyond, squares would overflow long before inf
+
+float filmic(float linear) {
+    const float x = std::min(linear * kPreExposure, kFitWhite);
+    return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
+}
+
+void count(float value, DisplayImage& display) {
+    if (std::isnan(value)) {
+        ++display.nan;
+    } else if (std::isinf(value)) {
+        ++display.infinite;
+    } else if (value < 0.0f) {
+        ++display.negative;
+    }
+}
+
+}  // namespace
+
+float tone_map(float linear, ToneMap curve) {
+    if (!(linear > 0.0f)) return 0.0f;
+    return curve == ToneMap::filmic ? filmic(linear) : std::min(linear, 1.0f);
+}
+
+DisplayImage to_display(const Image& image, const ToneMapOptions& options) {
+    const auto planes = colour_planes(image);
+    VX_ASSERT(planes.has_value());
+    const std::array<std::string, 3> names = {"R", "G", "B"};
+    DisplayImage display{.image = make_image(image.width, image.height, names)};
+    display.image.display_referred = true;
+    const float scale = std::min(std::exp2(options.exposure_ev), std::numeric_limits<float>::max());
+    const std::array<float, 256> decoded = decoded_srgb_codes();
+    const std::array<float, 3> magenta = {1.0f, 0.0f, 1.0f};
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        std::vector<float>& shown = display.image.channels[names[c]].pixels;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const float value = (*planes)[c][i];
+            count(value, display);
+            const bool has_nan =
+                options.debug_nan &&
+                (std::isnan((*planes)[0][i]) || std::isnan((*planes)[1][i]) || std::isnan((*planes)[2][i]));
+            shown[i] = has_nan ? magenta[c] : decoded[srgb_code(tone_map(value * scale, options.curve))];
+        }
+    }
+    return display;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "film/image.h"
+
+namespace voxilux {
+
+enum class ToneMap : std::uint8_t { plain, filmic };
+
+struct ToneMapOptions {
+    ToneMap curve = ToneMap::filmic;
+    float exposure_ev = 0.0f;  // stops: colours are multiplied by 2^exposure_ev
+    bool debug_nan = false;    // a pixel with a NaN becomes magenta instead of black
+};
+
+// An image for the screen, and how many values had no place on it.
+struct DisplayImage {
+    Image image;                 // R G B, display_referred
+    std::uint64_t nan = 0;       // values, shown as 0
+    std::uint64_t infinite = 0;  // values, shown as 1 (+inf) or 0 (-inf)
+    std::uint64_t negative = 0;  // finite values, shown as 0
+};
+
+// The curve in linear light: any float in, [0,1] out, rising; NaN gives 0. plain clamps. filmic is the
+// rational fit of the ACES reference by K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016), with its
+// pre-exposure of 0.6.
+[[nodiscard]] float tone_map(float linear, ToneMap curve);
+
+// Exposes, tone maps and rounds to 8-bit sRGB codes; the result holds their decoded values, so write_png
+// stores just these codes. Needs R G B or Y (asserted).
+[[nodiscard]] DisplayImage to_display(const Image& image, const ToneMapOptions& options = {});
+
+}  // namespace voxilux
