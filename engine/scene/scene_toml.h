@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace voxilux {
+
+struct LoadOptions {
+    // "key=value" with a dotted key, as the -D option gives them: "sun.elevation=10", "sphere.0.radius=3".
+    // The value is TOML, or else a text. Applied in order before anything is read.
+    std::vector<std::string> overrides;
+    int frame = 0;  // of the .vox files that name none
+};
+
+// The scene of a .toml file (scenes/README.md describes it) or of a .vox file with our sun and sky.
+// Throws Error(input_refused) with one line "FILE:LINE:COLUMN: what is wrong, and what is allowed".
+// Overrides of a .vox file may set [render], [camera], [sun] and [sky], and add what a .toml could add.
+[[nodiscard]] Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+// As load_scene for the text of a .toml file; `file` names it in messages and its folder holds the models.
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                                const LoadOptions& options = {});
+
+}  // namespace voxilux

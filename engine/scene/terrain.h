@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+namespace voxilux {
+
+// Rolling ground inside a box of columns.
+struct TerrainShape {
+    glm::ivec3 from{0};
+    glm::ivec3 to{1};
+    std::uint32_t seed = 0;
+    int feature = 32;     // voxels from one hill to the next, >= 1
+    bool island = false;  // falls to nothing towards the sides of the box
+};
+
+// How many cells of the column (x, y) are filled, from the floor of the box: in [0, to.z - from.z]. Integer
+// arithmetic only, so it is the same on every machine. Source: value noise on a lattice of hashed heights,
+// Perlin 1985's smoothing of the cell (3 t^2 - 2 t^3), four octaves that halve in size and in weight.
+[[nodiscard]] int terrain_height(const TerrainShape& terrain, int x, int y);
+
+}  // namespace voxilux
