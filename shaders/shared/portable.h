@@ -24,6 +24,7 @@ using glm::ivec2;
 using glm::ivec3;
 using glm::uvec2;
 using glm::uvec3;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;

@@ -1,0 +1,82 @@
+// Exact film sums: signed 64-bit fixed point with kFilmFractionBits fraction bits, held as two words {low,
+// high} in two's complement. Integer sums do not depend on the order of the samples and do not stop growing
+// as float sums do.
+#ifndef VX_FILM_SUM_H
+#define VX_FILM_SUM_H
+
+#include "limits.h"
+#include "portable.h"
+
+VX_BEGIN
+
+// What happened to a sample on its way into the film; bits.
+VX_CONST(uint, kFilmClamped, 1u);
+VX_CONST(uint, kFilmNonFinite, 2u);
+
+struct FilmFixed {
+    uvec2 sum;   // {low, high}
+    uint flags;  // kFilm* bits, 0 when the sample was taken as it is
+};
+
+// -v of a two-word integer.
+VX_FN uvec2 film_negate(uvec2 v) {
+    uint low = ~v.x + 1u;
+    return uvec2(low, ~v.y + (low == 0u ? 1u : 0u));
+}
+
+// a + b with carry, modulo 2^64.
+VX_FN uvec2 film_add(uvec2 a, uvec2 b) {
+    uint low = a.x + b.x;
+    return uvec2(low, a.y + b.y + (low < a.x ? 1u : 0u));
+}
+
+// True where a + b leaves the signed range: both have the sign that the sum lacks.
+VX_FN bool film_add_overflows(uvec2 a, uvec2 b) {
+    uvec2 sum = film_add(a, b);
+    return (((a.y ^ sum.y) & (b.y ^ sum.y)) >> 31u) != 0u;
+}
+
+// mantissa 2^shift rounded to the nearest integer, ties to even. mantissa < 2^24, shift <= 18.
+VX_FN uvec2 film_shift(uint mantissa, int shift) {
+    if (shift >= 0) {
+        uint high = shift == 0 ? 0u : mantissa >> uint(32 - shift);
+        return uvec2(mantissa << uint(shift), high);
+    }
+    if (shift < -24) return uvec2(0u, 0u);
+    uint drop = uint(-shift);
+    uint kept = mantissa >> drop;
+    uint rest = mantissa - (kept << drop);
+    uint half_unit = 1u << (drop - 1u);
+    bool up = rest > half_unit || (rest == half_unit && (kept & 1u) == 1u);
+    return uvec2(kept + (up ? 1u : 0u), 0u);
+}
+
+// A sample as fixed point. Finite values round to the nearest 2^-24, ties to even; magnitudes above
+// kFilmMaxValue become kFilmMaxValue and are flagged; infinities and NaN become 0 and are flagged. Reads the
+// bits of the float, because drivers fold tests such as x - x.
+VX_FN FilmFixed film_fixed(float value) {
+    FilmFixed result;
+    result.sum = uvec2(0u, 0u);
+    result.flags = 0u;
+    uint bits = floatBitsToUint(value);
+    uint magnitude = bits & 0x7FFFFFFFu;
+    if (magnitude >= 0x7F800000u) {
+        result.flags = kFilmNonFinite;
+        return result;
+    }
+    uint largest = floatBitsToUint(kFilmMaxValue);
+    if (magnitude > largest) {
+        magnitude = largest;
+        result.flags = kFilmClamped;
+    }
+    uint exponent = magnitude >> 23u;
+    if (exponent == 0u) return result;  // zero and denormals, below 2^-126
+    uint mantissa = (magnitude & 0x007FFFFFu) | 0x00800000u;
+    result.sum = film_shift(mantissa, int(exponent) - 150 + kFilmFractionBits);
+    if ((bits >> 31u) != 0u) result.sum = film_negate(result.sum);
+    return result;
+}
+
+VX_END
+
+#endif
