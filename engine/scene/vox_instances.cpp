@@ -105,45 +105,47 @@ bool is_within_limit(glm::i64vec3 t) {
     return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
 }
 
+// The step from `from` to the node at `position`.
+Step enter(const VoxFile& file, const std::vector<Pose>& poses, std::uint32_t position, const Step& from) {
+    Step step{.node = position, .world = below(from.world, poses[position]), .transform = from.transform};
+    if (std::holds_alternative<VoxTransform>(file.nodes[position])) {
+        step.transform = position;
+        step.world.layer = poses[position].layer;
+    }
+    return step;
+}
+
+VoxInstance instance_at(const Step& step) {
+    return {.model = step.world.model,
+            .rotation = step.world.rotation,
+            .translation = glm::ivec3(step.world.translation),
+            .hidden = step.world.hidden,
+            .layer = step.world.layer,
+            .node = step.transform};
+}
+
 Result<std::vector<VoxInstance>> walk(const VoxFile& file, const VoxGraph& graph,
                                       const std::vector<Pose>& poses) {
     std::vector<VoxInstance> instances;
     instances.reserve(static_cast<std::size_t>(graph.instances));
-    const auto enter = [&](std::uint32_t node, const Step& from) {
-        Step step{.node = node, .world = below(from.world, poses[node]), .transform = from.transform};
-        if (std::holds_alternative<VoxTransform>(file.nodes[node])) {
-            step.transform = node;
-            step.world.layer = poses[node].layer;
-        }
-        return step;
-    };
     std::vector<Step> path;
-    if (!graph.order.empty()) path.push_back(enter(graph.order.front(), Step{}));
+    if (!graph.order.empty()) path.push_back(enter(file, poses, graph.order.front(), Step{}));
     while (!path.empty()) {
         Step& top = path.back();
         const auto children = children_of(file.nodes[top.node]);
-        if (top.next_child == children.size()) {
-            const Pose& w = top.world;
-            if (w.model != kVoxNoNode) {
-                if (!is_within_limit(w.translation)) {
-                    return Failure{fmt::format("node {}: its place is beyond {} voxels from the origin",
-                                               id_of(file.nodes[top.node]), kVoxMaxTranslation)};
-                }
-                instances.push_back({.model = w.model,
-                                     .rotation = w.rotation,
-                                     .translation = glm::ivec3(w.translation),
-                                     .hidden = w.hidden,
-                                     .layer = w.layer,
-                                     .node = top.transform});
-            }
-            path.pop_back();
+        if (top.next_child < children.size()) {
+            const std::uint32_t child = graph.position_of(children[top.next_child++]);
+            if (child != kVoxNoNode) path.push_back(enter(file, poses, child, Step(top)));
             continue;
         }
-        const std::uint32_t child = graph.position_of(children[top.next_child++]);
-        if (child != kVoxNoNode) {
-            Step next = enter(child, top);
-            path.push_back(next);
+        if (top.world.model != kVoxNoNode) {
+            if (!is_within_limit(top.world.translation)) {
+                return Failure{fmt::format("node {}: its place is beyond {} voxels from the origin",
+                                           id_of(file.nodes[top.node]), kVoxMaxTranslation)};
+            }
+            instances.push_back(instance_at(top));
         }
+        path.pop_back();
     }
     return instances;
 }

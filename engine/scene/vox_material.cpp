@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/colour.h"
 #include "scene/vox_graph.h"
 
 namespace voxilux {
@@ -111,19 +112,14 @@ VoxDict as_properties(const VoxOldMaterial& old, std::vector<std::string>& warni
 
 }  // namespace
 
-double srgb_to_linear(std::uint8_t channel) {
-    const double encoded = channel / 255.0;
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 std::array<Material, 256> vox_materials(const VoxFile& file, std::vector<std::string>& warnings) {
     std::array<Material, 256> materials;
     for (int i = 1; i < 256; ++i) {
         const VoxColour colour = colour_of(file, static_cast<std::uint8_t>(i));
         Material& material = materials[static_cast<std::size_t>(i)];
         material.name = fmt::format("palette {}", i);
-        material.albedo =
-            glm::vec3(srgb_to_linear(colour.r), srgb_to_linear(colour.g), srgb_to_linear(colour.b));
+        material.albedo = {linear_from_srgb(colour.r), linear_from_srgb(colour.g),
+                           linear_from_srgb(colour.b)};
     }
     const auto is_index = [](std::int32_t id) { return id >= 1 && id <= 255; };
     for (const VoxOldMaterial& old : file.old_materials) {

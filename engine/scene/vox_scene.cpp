@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "base/checked_cast.h"
 #include "scene/vox_cells.h"
@@ -63,6 +64,36 @@ std::string model_name(const VoxFile& file, const VoxInstance& instance) {
     return name.empty() ? fmt::format("model {}", instance.model) : name;
 }
 
+// Scene::models of each model of the file, added when an instance first shows it; none for an empty one.
+class ModelTable {
+  public:
+    ModelTable(Scene& scene, const VoxFile& file)
+        : scene_(scene), file_(file), materials_(scene, file), slots_(file.models.size()) {}
+
+    std::uint32_t slot(const VoxInstance& instance) {
+        auto& known = slots_[instance.model];
+        if (!known) known = add(instance);
+        return *known;
+    }
+
+  private:
+    std::uint32_t add(const VoxInstance& instance) {
+        const VoxModel& model = file_.models[instance.model];
+        const auto filled = filled_voxels(model, cells_);
+        if (filled.empty()) return kAbsent;
+        scene_.models.push_back({.name = model_name(file_, instance),
+                                 .size = model.size,
+                                 .voxels = scene_voxels(filled, materials_)});
+        return checked_cast<std::uint32_t>(scene_.models.size() - 1, "models of the scene");
+    }
+
+    Scene& scene_;
+    const VoxFile& file_;
+    MaterialTable materials_;
+    VoxCells cells_;
+    std::vector<std::optional<std::uint32_t>> slots_;
+};
+
 bool is_in_range(glm::i64vec3 t) {
     return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
 }
@@ -72,35 +103,19 @@ bool is_in_range(glm::i64vec3 t) {
 std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int frame) {
     const auto placed = vox_instances(file, frame).value_or_throw(ExitCode::input_refused);
     scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
-    MaterialTable table(scene, file);
-    VoxCells cells;
-    std::vector<std::uint32_t> added(file.models.size(), kAbsent);
-    std::vector<bool> is_read(file.models.size(), false);
+    ModelTable table(scene, file);
     std::vector<Instance> instances;
     std::uint64_t voxels = 0;
     for (const VoxInstance& instance : placed) {
-        if (instance.hidden) continue;
-        const VoxModel& model = file.models[instance.model];
-        if (!is_read[instance.model]) {
-            is_read[instance.model] = true;
-            const auto filled = filled_voxels(model, cells);
-            if (!filled.empty()) {
-                added[instance.model] =
-                    checked_cast<std::uint32_t>(scene.models.size(), "models of the scene");
-                scene.models.push_back({.name = model_name(file, instance),
-                                        .size = model.size,
-                                        .voxels = scene_voxels(filled, table)});
-            }
-        }
-        const std::uint32_t position = added[instance.model];
-        if (position == kAbsent) continue;
-        voxels += scene.models[position].voxels.size();
+        const std::uint32_t model = instance.hidden ? kAbsent : table.slot(instance);
+        if (model == kAbsent) continue;
+        voxels += scene.models[model].voxels.size();
         if (voxels > kVoxMaxInstancedVoxels) {
             throw Error(ExitCode::input_refused,
                         fmt::format("the visible instances have more than {} voxels together",
                                     kVoxMaxInstancedVoxels));
         }
-        instances.push_back({position, instance.rotation, instance.translation});
+        instances.push_back({model, instance.rotation, instance.translation});
     }
     return instances;
 }
