@@ -11,9 +11,9 @@
 
 namespace voxilux {
 
-// Where a command touches a buffer.
-enum class Stage { compute, indirect, transfer, host };
-inline constexpr int kStageCount = 4;
+// Where a command touches a buffer; earlier_run is whatever a previous recording did to a persistent one.
+enum class Stage { compute, indirect, transfer, host, earlier_run };
+inline constexpr std::size_t kStageCount = 5;
 
 // Why two commands must not overlap.
 enum class HazardKind { read_after_write, write_after_read, write_after_write };
@@ -37,7 +37,7 @@ struct BarrierContext {
 };
 
 // True when the transfer `command` needs no device command because the host reaches the buffer's memory: an
-// upload before any other use of the buffer, a readback after the last write to it.
+// upload before any other use of the buffer, a readback after every other use of it.
 [[nodiscard]] bool is_direct_transfer(const Recording& recording, std::size_t command,
                                       const BarrierContext& context);
 

@@ -44,6 +44,8 @@ struct MemoryRow {
     std::uint64_t bytes = 0;
 };
 
+struct ExecutorState;
+
 // Runs Recordings on a device: makes the buffers they declare, the pipelines they name, the barriers between
 // their commands. Persistent buffers live from run to run by name; one that is declared with another size
 // starts anew.
@@ -71,8 +73,7 @@ class Executor {
     [[nodiscard]] const ProgramInfo& program_info(std::string_view shader);
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<ExecutorState> state_;
 };
 
 }  // namespace voxilux

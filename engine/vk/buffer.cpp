@@ -1,0 +1,84 @@
+#include "vk/buffer.h"
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "base/error.h"
+#include "vk/check.h"
+
+namespace voxilux {
+namespace {
+
+constexpr VkMemoryPropertyFlags kHost =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kCachedHost = kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+
+// Wishes for memory, best first. Mapped memory of a discrete GPU is not cached, so reading it is very slow:
+// such a GPU gets unmapped memory although some of its types are mapped.
+constexpr std::array kDeviceWishes{kLocal | kCachedHost, kLocal, kCachedHost, kHost};
+constexpr std::array kStagingWishes{kCachedHost, kHost};
+
+std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed,
+                          std::span<const VkMemoryPropertyFlags> wishes, const std::string& name) {
+    for (const VkMemoryPropertyFlags wish : wishes) {
+        for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type) {
+            const bool is_allowed = ((allowed >> type) & 1u) != 0;
+            if (is_allowed && (device.memory.memoryTypes[type].propertyFlags & wish) == wish) return type;
+        }
+    }
+    throw Error(ExitCode::no_device,
+                fmt::format("device '{}' has no memory for buffer '{}'", device.info.name, name));
+}
+
+Buffer create(const DeviceState& device, const std::string& name, std::uint64_t bytes,
+              std::span<const VkMemoryPropertyFlags> wishes) {
+    const std::string what = fmt::format("buffer '{}' ({} bytes)", name, bytes);
+    if (bytes > device.info.limits.max_allocation_bytes) {
+        throw Error(ExitCode::out_of_memory,
+                    fmt::format("out of memory: {} is over the {} bytes that device '{}' allocates at once",
+                                what, device.info.limits.max_allocation_bytes, device.info.name));
+    }
+    Buffer buffer{.name = name, .bytes = bytes};
+    const VkBufferCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+        .size = (bytes + 3) / 4 * 4,  // fills work on whole words
+        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    VkBuffer handle = VK_NULL_HANDLE;
+    vk_check(vkCreateBuffer(device.handle, &info, nullptr, &handle), "create " + what);
+    buffer.handle = {device.handle, handle};
+
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device.handle, handle, &needs);
+    const std::uint32_t type = choose_type(device, needs.memoryTypeBits, wishes, name);
+    const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                          .allocationSize = needs.size,
+                                          .memoryTypeIndex = type};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    vk_check(vkAllocateMemory(device.handle, &allocation, nullptr, &memory), "allocate " + what);
+    buffer.memory = {device.handle, memory};
+    vk_check(vkBindBufferMemory(device.handle, handle, memory, 0), "bind the memory of " + what);
+    if ((device.memory.memoryTypes[type].propertyFlags & kHost) == kHost &&
+        (device.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0) {
+        void* mapped = nullptr;
+        vk_check(vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map " + what);
+        buffer.mapped = static_cast<std::byte*>(mapped);
+    }
+    set_debug_name(device, VK_OBJECT_TYPE_BUFFER, to_bits(handle), name);
+    set_debug_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, to_bits(memory), name);
+    return buffer;
+}
+
+}  // namespace
+
+Buffer create_buffer(const DeviceState& device, const std::string& name, std::uint64_t bytes) {
+    return create(device, name, bytes, kDeviceWishes);
+}
+
+Buffer create_staging_buffer(const DeviceState& device, const std::string& name, std::uint64_t bytes) {
+    return create(device, name, bytes, kStagingWishes);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "vk/device_state.h"
+#include "vk/handle.h"
+
+namespace voxilux {
+
+// A buffer with an allocation of its own. `mapped` is null when the host does not reach its memory.
+struct Buffer {
+    std::string name;
+    std::uint64_t bytes = 0;
+    UniqueMemory memory;
+    UniqueBuffer handle;
+    std::byte* mapped = nullptr;
+};
+
+// A storage buffer in memory of the device, mapped when that memory is also cached memory of the host
+// (software devices, shared-memory GPUs). Its contents are undefined. Throws Error(out_of_memory) that names
+// it.
+[[nodiscard]] Buffer create_buffer(const DeviceState& device, const std::string& name, std::uint64_t bytes);
+
+// A mapped buffer to copy to and from. Throws Error(out_of_memory) that names it.
+[[nodiscard]] Buffer create_staging_buffer(const DeviceState& device, const std::string& name,
+                                           std::uint64_t bytes);
+
+}  // namespace voxilux

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <volk.h>
+
+#include <utility>
+
+namespace voxilux {
+
+// Owns one Vulkan object that `Destroy(device, handle, nullptr)` ends. Destroy is a reference to the loader's
+// pointer because that is filled at run time.
+template <class Handle, auto& Destroy>
+class UniqueHandle {
+  public:
+    UniqueHandle() = default;
+    UniqueHandle(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
+    UniqueHandle(UniqueHandle&& other) noexcept
+        : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
+    UniqueHandle& operator=(UniqueHandle&& other) noexcept {
+        if (this != &other) {
+            reset();
+            device_ = other.device_;
+            handle_ = std::exchange(other.handle_, Handle{});
+        }
+        return *this;
+    }
+    ~UniqueHandle() { reset(); }
+
+    [[nodiscard]] Handle get() const { return handle_; }
+    explicit operator bool() const { return handle_ != Handle{}; }
+
+    void reset() {
+        if (handle_ != Handle{}) Destroy(device_, handle_, nullptr);
+        handle_ = Handle{};
+    }
+
+  private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    Handle handle_{};
+};
+
+using UniqueBuffer = UniqueHandle<VkBuffer, vkDestroyBuffer>;
+using UniqueMemory = UniqueHandle<VkDeviceMemory, vkFreeMemory>;
+using UniqueShaderModule = UniqueHandle<VkShaderModule, vkDestroyShaderModule>;
+using UniqueSetLayout = UniqueHandle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
+using UniquePipelineLayout = UniqueHandle<VkPipelineLayout, vkDestroyPipelineLayout>;
+using UniquePipeline = UniqueHandle<VkPipeline, vkDestroyPipeline>;
+using UniquePipelineCache = UniqueHandle<VkPipelineCache, vkDestroyPipelineCache>;
+using UniqueDescriptorPool = UniqueHandle<VkDescriptorPool, vkDestroyDescriptorPool>;
+using UniqueCommandPool = UniqueHandle<VkCommandPool, vkDestroyCommandPool>;
+using UniqueFence = UniqueHandle<VkFence, vkDestroyFence>;
+using UniqueQueryPool = UniqueHandle<VkQueryPool, vkDestroyQueryPool>;
+
+}  // namespace voxilux

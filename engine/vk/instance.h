@@ -1,0 +1,45 @@
+#pragma once
+
+#include <volk.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxilux {
+
+// Where the validation layers' warnings and errors go. Layers may call from any thread.
+struct MessageSink {
+    std::mutex mutex;
+    std::vector<std::string> messages;
+    std::function<void(std::string_view)> on_message;
+};
+
+// A Vulkan instance, with its messenger when validation is on. The sink's address must stay.
+class Instance {
+  public:
+    Instance() = default;
+    Instance(Instance&& other) noexcept;
+    Instance& operator=(Instance&& other) noexcept;
+    ~Instance();
+
+    [[nodiscard]] VkInstance get() const { return handle_; }
+    [[nodiscard]] bool has_debug_utils() const { return has_debug_utils_; }
+
+  private:
+    friend Instance create_instance(bool validation, MessageSink* sink);
+
+    VkInstance handle_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    bool has_debug_utils_ = false;
+};
+
+// Loads the Vulkan loader and makes an instance of version 1.3 (drivers of 1.2 are welcome in it). Throws
+// Error(no_device) when there is no loader or driver, or no validation layer although `validation` asks for
+// it.
+[[nodiscard]] Instance create_instance(bool validation, MessageSink* sink);
+
+}  // namespace voxilux

@@ -1,0 +1,152 @@
+#include "vk/physical.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vk/check.h"
+
+namespace voxilux {
+
+FeatureChain::FeatureChain() {
+    base.pNext = &v11;
+    v11.pNext = &v12;
+}
+
+const std::vector<OptionalFeature>& optional_features() {
+    // Numbers of the capabilities: SPIR-V specification, section 3.31.
+    static const std::vector<OptionalFeature> features = {
+        {"no 64-bit integers (shaderInt64): exact 64-bit sums cannot run",
+         [](FeatureChain& c) { return &c.base.features.shaderInt64; },
+         {11}},
+        {"no 64-bit atomics (shaderBufferInt64Atomics): exact 64-bit sums of many threads cannot run",
+         [](FeatureChain& c) { return &c.v12.shaderBufferInt64Atomics; },
+         {12}},
+        {"no doubles (shaderFloat64): double-precision references cannot run on it",
+         [](FeatureChain& c) { return &c.base.features.shaderFloat64; },
+         {10}},
+        {"no 16-bit integers (shaderInt16)",
+         [](FeatureChain& c) { return &c.base.features.shaderInt16; },
+         {22}},
+        {"no 8-bit integers (shaderInt8)", [](FeatureChain& c) { return &c.v12.shaderInt8; }, {39}},
+        {"no 16-bit storage (storageBuffer16BitAccess)",
+         [](FeatureChain& c) { return &c.v11.storageBuffer16BitAccess; },
+         {4433}},
+        {"no 8-bit storage (storageBuffer8BitAccess)",
+         [](FeatureChain& c) { return &c.v12.storageBuffer8BitAccess; },
+         {4448}},
+        {"no buffer device addresses (bufferDeviceAddress): buffers end at the binding limit",
+         [](FeatureChain& c) { return &c.v12.bufferDeviceAddress; },
+         {5347}},
+    };
+    return features;
+}
+
+void query_features(VkPhysicalDevice device, FeatureChain& chain) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    if (properties.apiVersion >= VK_API_VERSION_1_2) vkGetPhysicalDeviceFeatures2(device, &chain.base);
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+    std::uint32_t count = 0;
+    vk_check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "count the devices");
+    std::vector<VkPhysicalDevice> devices(count);
+    vk_check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "list the devices");
+    return devices;
+}
+
+namespace {
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families;
+}
+
+std::string type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "cpu";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated";
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual";
+        default:
+            return "other";
+    }
+}
+
+std::string version_text(std::uint32_t version) {
+    return fmt::format("{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version));
+}
+
+bool has_timestamps(VkPhysicalDevice device, int family) {
+    return family >= 0 && queue_families(device)[static_cast<std::size_t>(family)].timestampValidBits > 0;
+}
+
+void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info) {
+    const int family = compute_family(device);
+    info.usable = true;
+    const auto require = [&](bool holds, std::string lack) {
+        if (!holds) info.lacks.push_back(std::move(lack) + ": it cannot be used");
+        info.usable = info.usable && holds;
+    };
+    require(family >= 0, "no compute queue");
+    require(api_version >= VK_API_VERSION_1_2, "no Vulkan 1.2, only " + version_text(api_version));
+    if (!info.usable) return;
+    FeatureChain chain;
+    query_features(device, chain);
+    require(chain.v12.scalarBlockLayout == VK_TRUE, "no scalar block layout (scalarBlockLayout)");
+    for (const OptionalFeature& feature : optional_features()) {
+        if (*feature.member(chain) == VK_FALSE) info.lacks.emplace_back(feature.lack);
+    }
+    if (!has_timestamps(device, family)) info.lacks.emplace_back("no timestamps: passes show 0 ms");
+}
+
+}  // namespace
+
+int compute_family(VkPhysicalDevice device) {
+    const auto families = queue_families(device);
+    int best = -1;
+    for (std::size_t i = 0; i < families.size(); ++i) {
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
+        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) return static_cast<int>(i);
+        if (best < 0) best = static_cast<int>(i);
+    }
+    return best;
+}
+
+DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
+    VkPhysicalDeviceVulkan12Properties v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties allocation{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 two{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    VkPhysicalDeviceProperties& base = two.properties;
+    vkGetPhysicalDeviceProperties(device, &base);
+    if (base.apiVersion >= VK_API_VERSION_1_2) {
+        two.pNext = &allocation;
+        allocation.pNext = &v12;
+        vkGetPhysicalDeviceProperties2(device, &two);
+    }
+    DeviceInfo info{.index = index,
+                    .name = base.deviceName,
+                    .driver = fmt::format("{} {}", v12.driverName, v12.driverInfo),
+                    .type = type_name(base.deviceType)};
+    const auto& limits = base.limits;
+    info.limits = {.max_binding_bytes = limits.maxStorageBufferRange,
+                   .max_allocation_bytes = allocation.maxMemoryAllocationSize,
+                   .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
+                                  limits.maxComputeWorkGroupCount[2]},
+                   .max_push_bytes = limits.maxPushConstantsSize,
+                   .is_cpu = base.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
+                   .name = info.name};
+    judge(device, base.apiVersion, info);
+    return info;
+}
+
+}  // namespace voxilux

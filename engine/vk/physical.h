@@ -1,0 +1,43 @@
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "vk/device.h"
+
+namespace voxilux {
+
+// The features this program knows of, in one chain for vkGetPhysicalDeviceFeatures2 and for vkCreateDevice.
+// Not movable: the chain points into it.
+struct FeatureChain {
+    FeatureChain();
+    FeatureChain(const FeatureChain&) = delete;
+    FeatureChain& operator=(const FeatureChain&) = delete;
+
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+    VkPhysicalDeviceFeatures2 base{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+};
+
+// A feature that shaders may use when the device has it, and what goes without it.
+struct OptionalFeature {
+    const char* lack;  // sentence for DeviceInfo::lacks
+    VkBool32* (*member)(FeatureChain&);
+    std::vector<std::uint32_t> capabilities;  // SPIR-V capabilities that need it
+};
+[[nodiscard]] const std::vector<OptionalFeature>& optional_features();
+
+// Fills `chain` with what the device offers; all false below Vulkan 1.2.
+void query_features(VkPhysicalDevice device, FeatureChain& chain);
+
+[[nodiscard]] std::vector<VkPhysicalDevice> physical_devices(VkInstance instance);
+
+// Index of a queue family that computes, dedicated ones last; -1 when there is none.
+[[nodiscard]] int compute_family(VkPhysicalDevice device);
+
+// The facts of one device; would_use is left false.
+[[nodiscard]] DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index);
+
+}  // namespace voxilux

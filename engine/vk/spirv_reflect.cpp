@@ -1,0 +1,206 @@
+#include "vk/spirv_reflect.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/assert.h"
+#include "vk/spirv_module.h"
+
+namespace voxilux {
+namespace {
+
+// Deepest nesting of types that is followed; valid modules cannot nest themselves, broken ones can.
+constexpr int kMaxTypeDepth = 32;
+
+using spirv::Module;
+using spirv::Type;
+
+std::uint32_t end_of_struct(const Module& module, std::uint32_t type_id, int depth);
+
+// Bytes that one value of the type covers in memory; 0 for arrays without a length.
+std::uint32_t size_of_type(const Module& module, std::uint32_t type_id, std::uint32_t matrix_stride,
+                           int depth) {
+    if (depth > kMaxTypeDepth) spirv::fail("types nest too deep");
+    const Type& type = module.type(type_id);
+    switch (type.kind) {
+        case Type::scalar:
+            return type.width_bits / 8;
+        case Type::vector:
+            return type.count * size_of_type(module, type.element, 0, depth + 1);
+        case Type::matrix:
+            return type.count * matrix_stride;
+        case Type::array:
+            return module.constant(type.count) * module.array_stride(type_id);
+        case Type::structure:
+            return end_of_struct(module, type_id, depth + 1);
+        case Type::pointer:
+            return 8;  // a buffer device address
+        case Type::runtime_array:
+        case Type::other:
+            return 0;
+    }
+    return 0;
+}
+
+std::uint32_t end_of_struct(const Module& module, std::uint32_t type_id, int depth) {
+    const Type& type = module.type(type_id);
+    std::uint32_t end = 0;
+    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
+        const spirv::MemberFacts facts = module.member(type_id, i);
+        const std::uint32_t bytes = size_of_type(module, type.members[i], facts.matrix_stride, depth);
+        end = std::max(end, facts.offset.value_or(0) + bytes);
+    }
+    return end;
+}
+
+std::vector<StructMember> members_of(const Module& module, std::uint32_t type_id) {
+    std::vector<StructMember> members;
+    const Type& type = module.type(type_id);
+    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
+        const spirv::MemberFacts facts = module.member(type_id, i);
+        members.push_back({.name = facts.name, .offset = facts.offset.value_or(0)});
+    }
+    return members;
+}
+
+bool has_layout(const Module& module, std::uint32_t type_id) {
+    const Type& type = module.type(type_id);
+    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
+        if (!module.member(type_id, i).offset) return false;
+    }
+    return type.kind == Type::structure && !type.members.empty();
+}
+
+std::uint32_t stride_of_arrays_of(const Module& module, std::uint32_t struct_id) {
+    for (const auto& [id, type] : module.types) {
+        const bool is_array = type.kind == Type::array || type.kind == Type::runtime_array;
+        if (is_array && type.element == struct_id) return module.array_stride(id);
+    }
+    return 0;
+}
+
+std::vector<StructInfo> structs_of(const Module& module) {
+    std::vector<StructInfo> structs;
+    for (const auto& [id, type] : module.types) {
+        if (!has_layout(module, id)) continue;
+        const bool open = module.type(type.members.back()).kind == Type::runtime_array;
+        structs.push_back({.name = module.name(id),
+                           .members = members_of(module, id),
+                           .size_bytes = open ? 0 : end_of_struct(module, id, 0),
+                           .array_stride = stride_of_arrays_of(module, id)});
+    }
+    return structs;
+}
+
+// The struct a variable points to.
+std::uint32_t pointee(const Module& module, const spirv::Variable& variable) {
+    const Type& pointer = module.type(variable.type);
+    if (pointer.kind != Type::pointer) spirv::fail("a variable's type is not a pointer");
+    return pointer.element;
+}
+
+StorageBlock block_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
+    const std::uint32_t struct_id = pointee(module, variable);
+    const Type& type = module.type(struct_id);
+    if (type.kind != Type::structure) spirv::fail("a storage buffer is not a block (an array of blocks?)");
+    const spirv::VariableFacts facts = module.variable_facts(variable_id);
+    bool all_non_writable = !type.members.empty();
+    bool all_non_readable = !type.members.empty();
+    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
+        const spirv::MemberFacts member = module.member(struct_id, i);
+        all_non_writable = all_non_writable && member.non_writable;
+        all_non_readable = all_non_readable && member.non_readable;
+    }
+    if (!facts.binding) spirv::fail("a storage buffer has no binding");
+    StorageBlock block{.name = module.name(struct_id),
+                       .set = facts.set.value_or(0),
+                       .binding = *facts.binding,
+                       .readable = !facts.non_readable && !all_non_readable,
+                       .writable = !facts.non_writable && !all_non_writable};
+    if (block.name.empty()) spirv::fail("a storage block has no name");
+    return block;
+}
+
+void check_blocks(const std::vector<StorageBlock>& blocks) {
+    std::set<std::string> names;
+    std::set<std::uint32_t> bindings;
+    for (const StorageBlock& block : blocks) {
+        if (block.set != 0) spirv::fail("a storage block is not in set 0");
+        if (!names.insert(block.name).second) spirv::fail("two storage blocks share a name");
+        if (!bindings.insert(block.binding).second) spirv::fail("two storage blocks share a binding");
+    }
+}
+
+void add_variables(const Module& module, ProgramInfo& info) {
+    for (const auto& [id, variable] : module.variables) {
+        // Blocks that are declared but not used have no binding of their own and need no buffer.
+        if (!module.used_variables.contains(id)) continue;
+        if (variable.storage == spirv::StorageClass::storage_buffer) {
+            info.blocks.push_back(block_of(module, id, variable));
+        } else if (variable.storage == spirv::StorageClass::push_constant) {
+            const std::uint32_t struct_id = pointee(module, variable);
+            info.push_members = members_of(module, struct_id);
+            info.push_bytes = end_of_struct(module, struct_id, 0);
+        } else if (spirv::is_descriptor(variable.storage)) {
+            spirv::fail("a resource is not a storage buffer");
+        }
+    }
+    std::ranges::sort(info.blocks, {}, &StorageBlock::binding);
+    check_blocks(info.blocks);
+}
+
+void add_constants(const Module& module, ProgramInfo& info) {
+    for (const auto& [id, constant] : module.constants) {
+        const auto spec_id = module.spec_id(id);
+        if (!spec_id) continue;
+        if (!constant.value) spirv::fail("a specialization constant is not of 32 bits");
+        info.constants.push_back({.name = module.name(id), .id = *spec_id, .default_value = *constant.value});
+    }
+    std::ranges::sort(info.constants, {}, &SpecConstant::id);
+}
+
+void add_local_size(const Module& module, ProgramInfo& info) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        LocalSizeAxis& out = info.local_size[axis];
+        out.size = module.local_size[axis];
+        if (module.local_size_ids[axis] == 0) continue;
+        const std::uint32_t id = module.local_size_ids[axis];
+        out.size = module.constant(id);
+        out.spec_id = module.spec_id(id);
+    }
+    for (const LocalSizeAxis& axis : info.local_size) {
+        if (axis.size == 0) spirv::fail("a local size is 0");
+    }
+}
+
+template <class Row>
+const Row* find_named(const std::vector<Row>& rows, std::string_view name) {
+    const auto found = std::ranges::find(rows, name, &Row::name);
+    return found == rows.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const StorageBlock* ProgramInfo::find_block(std::string_view name) const {
+    return find_named(blocks, name);
+}
+const SpecConstant* ProgramInfo::find_constant(std::string_view name) const {
+    return find_named(constants, name);
+}
+const StructInfo* ProgramInfo::find_struct(std::string_view name) const {
+    return find_named(structs, name);
+}
+
+ProgramInfo reflect(std::span<const std::uint32_t> words) {
+    const Module module = spirv::parse(words);
+    ProgramInfo info;
+    info.capabilities = module.capabilities;
+    add_variables(module, info);
+    add_constants(module, info);
+    add_local_size(module, info);
+    info.structs = structs_of(module);
+    return info;
+}
+
+}  // namespace voxilux
