@@ -1,0 +1,155 @@
+// Compares the layout of the structs of gpu_types.h in C++ with the layout in the compiled shaders.
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "embedded.h"
+#include "shared/gpu_types.h"
+#include "vk/spirv_reflect.h"
+
+namespace voxilux {
+namespace {
+
+struct Layout {
+    std::string name;
+    std::size_t size_bytes = 0;
+    std::vector<StructMember> members;
+};
+
+#define VX_MEMBER(type, member)                                            \
+    StructMember {                                                         \
+#member, static_cast < std::uint32_t>(offsetof(gpu::type, member)) \
+    }
+#define VX_LAYOUT(type, ...)        \
+    Layout {                        \
+#type, sizeof(gpu::type), { \
+            __VA_ARGS__             \
+        }                           \
+    }
+
+// One row per struct that lives in a buffer, all members in order.
+const std::vector<Layout>& layouts() {
+    static const std::vector<Layout> rows = {
+        VX_LAYOUT(Hit, VX_MEMBER(Hit, cell), VX_MEMBER(Hit, face), VX_MEMBER(Hit, fraction),
+                  VX_MEMBER(Hit, t), VX_MEMBER(Hit, material), VX_MEMBER(Hit, sphere)),
+        VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, emission)),
+        VX_LAYOUT(Sphere, VX_MEMBER(Sphere, anchor), VX_MEMBER(Sphere, curvature), VX_MEMBER(Sphere, normal)),
+        VX_LAYOUT(SphereRecord, VX_MEMBER(SphereRecord, shape), VX_MEMBER(SphereRecord, material)),
+        VX_LAYOUT(FrameParams, VX_MEMBER(FrameParams, chunks), VX_MEMBER(FrameParams, world_origin),
+                  VX_MEMBER(FrameParams, camera_cell), VX_MEMBER(FrameParams, camera_fraction),
+                  VX_MEMBER(FrameParams, camera_right), VX_MEMBER(FrameParams, camera_up),
+                  VX_MEMBER(FrameParams, camera_forward), VX_MEMBER(FrameParams, width),
+                  VX_MEMBER(FrameParams, height), VX_MEMBER(FrameParams, first_row),
+                  VX_MEMBER(FrameParams, row_count), VX_MEMBER(FrameParams, band_first_row),
+                  VX_MEMBER(FrameParams, sample_index), VX_MEMBER(FrameParams, seed),
+                  VX_MEMBER(FrameParams, sequence), VX_MEMBER(FrameParams, ao_rays),
+                  VX_MEMBER(FrameParams, ao_radius), VX_MEMBER(FrameParams, sky_radiance),
+                  VX_MEMBER(FrameParams, sun_direction), VX_MEMBER(FrameParams, sun_irradiance),
+                  VX_MEMBER(FrameParams, sun_cone_height), VX_MEMBER(FrameParams, sphere_count)),
+        VX_LAYOUT(FilmAddPush, VX_MEMBER(FilmAddPush, count), VX_MEMBER(FilmAddPush, values_stride),
+                  VX_MEMBER(FilmAddPush, first_sum)),
+    };
+    return rows;
+}
+
+// One line per difference between the row and the shader's struct; empty when they agree.
+std::vector<std::string> layout_differences(const Layout& row, const StructInfo& in_shader) {
+    std::vector<std::string> lines;
+    if (row.size_bytes != in_shader.size_bytes)
+        lines.push_back(row.name + ": " + std::to_string(row.size_bytes) + " bytes in C++, " +
+                        std::to_string(in_shader.size_bytes) + " in the shader");
+    if (in_shader.array_stride != 0 && in_shader.array_stride != row.size_bytes)
+        lines.push_back(row.name + ": array stride " + std::to_string(in_shader.array_stride));
+    if (row.members.size() != in_shader.members.size())
+        lines.push_back(row.name + ": " + std::to_string(row.members.size()) + " members in C++, " +
+                        std::to_string(in_shader.members.size()) + " in the shader");
+    for (std::size_t i = 0; i < std::min(row.members.size(), in_shader.members.size()); ++i) {
+        const StructMember& a = row.members[i];
+        const StructMember& b = in_shader.members[i];
+        if (!(a == b))
+            lines.push_back(row.name + ": C++ " + a.name + " at " + std::to_string(a.offset) + ", shader " +
+                            b.name + " at " + std::to_string(b.offset));
+    }
+    return lines;
+}
+
+struct NamedProgram {
+    std::string shader;
+    ProgramInfo info;
+};
+
+// Every shader, passes and probes, by reflection.
+const std::vector<NamedProgram>& programs() {
+    static const std::vector<NamedProgram> all = [] {
+        std::vector<NamedProgram> found;
+        for (const auto shaders : {pass_shaders(), probe_shaders()})
+            for (const EmbeddedShader& shader : shaders)
+                found.push_back({std::string(shader.name), reflect(shader.spirv)});
+        return found;
+    }();
+    return all;
+}
+
+StructInfo first_in_shaders(const std::string& name) {
+    for (const NamedProgram& program : programs())
+        if (const StructInfo* type = program.info.find_struct(name)) return *type;
+    return {};
+}
+
+TEST(StructLayout, every_struct_has_the_same_offsets_in_cpp_and_in_every_shader) {
+    for (const Layout& row : layouts()) {
+        int shaders = 0;
+        for (const NamedProgram& program : programs()) {
+            const StructInfo* type = program.info.find_struct(row.name);
+            if (type == nullptr) continue;
+            ++shaders;
+            for (const std::string& line : layout_differences(row, *type))
+                ADD_FAILURE() << program.shader << ": " << line;
+        }
+        EXPECT_GT(shaders, 0) << row.name << " is in no shader";
+    }
+}
+
+// Blocks are not structs of gpu_types.h: they end in an array without a length, or some shader binds them by
+// name.
+bool is_block(const StructInfo& type) {
+    if (type.size_bytes == 0 || type.name == "Push") return true;
+    return std::any_of(programs().begin(), programs().end(), [&](const NamedProgram& program) {
+        return program.info.find_block(type.name) != nullptr;
+    });
+}
+
+TEST(StructLayout, every_struct_inside_a_buffer_of_a_pass_has_a_row) {
+    for (const EmbeddedShader& shader : pass_shaders()) {
+        const ProgramInfo info = reflect(shader.spirv);
+        for (const StructInfo& type : info.structs) {
+            const bool has_row = std::any_of(layouts().begin(), layouts().end(),
+                                             [&](const Layout& row) { return row.name == type.name; });
+            EXPECT_TRUE(has_row || is_block(type))
+                << shader.name << " uses " << type.name << " without a row here";
+        }
+    }
+}
+
+TEST(StructLayout, a_moved_a_renamed_and_a_missing_member_are_caught) {
+    const Layout& row = layouts().front();
+    const StructInfo good = first_in_shaders(row.name);
+    ASSERT_TRUE(layout_differences(row, good).empty());
+    StructInfo moved = good;
+    moved.members[1].offset += 4;
+    StructInfo renamed = good;
+    renamed.members[1].name = "axis";
+    StructInfo shorter = good;
+    shorter.members.pop_back();
+    StructInfo longer = good;
+    longer.size_bytes += 4;
+    for (const StructInfo& bad : {moved, renamed, shorter, longer})
+        EXPECT_EQ(layout_differences(row, bad).size(), 1u);
+}
+
+}  // namespace
+}  // namespace voxilux
