@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "passes/plane.h"
+#include "shared/gpu_types.h"
+
+namespace voxilux {
+
+// The camera and the lights of a frame in the shaders' terms, relative to the world's corner. Slice and sample are
+// filled per recording. Throws Error(input_refused) for a camera further than 2^23 voxels from the world, where a
+// float can no longer tell neighbouring voxels apart.
+[[nodiscard]] gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const Naadf& naadf);
+
+// One sample of every pixel of a slice, from camera rays to the film.
+void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params, std::uint32_t sample,
+                  Recording& recording);
+
+}  // namespace voxilux

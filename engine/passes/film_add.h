@@ -1,0 +1,12 @@
+#pragma once
+
+#include "passes/plane.h"
+#include "plan/film_planes.h"
+
+namespace voxilux {
+
+// Adds a plane of the slice to the exact sums of a film plane.
+void record_film_add(const RenderPlan& plan, const Slice& slice, const FilmPlane& film, const Plane& values,
+                     Recording& recording);
+
+}  // namespace voxilux

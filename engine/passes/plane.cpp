@@ -1,0 +1,85 @@
+#include "passes/plane.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "shared/gpu_types.h"
+
+namespace voxilux {
+
+std::string use_buffer(const RenderPlan& plan, const std::string& name, Recording& recording) {
+    const auto planned = std::ranges::find(plan.buffers, name, &PlannedBuffer::buffer);
+    if (planned == plan.buffers.end())
+        throw InternalError(fmt::format("internal error: the plan has no buffer '{}'", name));
+    recording.declare({.name = name, .size_bytes = planned->bytes, .persistent = planned->persistent});
+    return name;
+}
+
+namespace {
+
+// Declares a buffer of constants and fills it the first time it is used in a recording.
+std::string use_constant(const std::string& name, std::uint64_t size_bytes, std::uint32_t word, Recording& recording) {
+    if (recording.find(name) == nullptr) {
+        recording.declare({.name = name, .size_bytes = size_bytes});
+        recording.clear(name, word);
+    }
+    return name;
+}
+
+std::string use_or_placeholder(const RenderPlan& plan, bool on, const std::string& name, Recording& recording) {
+    if (on) return use_buffer(plan, name, recording);
+    return use_constant("constant.placeholder", sizeof(std::uint32_t), 0, recording);
+}
+
+}  // namespace
+
+Plane constant_miss(Recording& recording) {
+    return {use_constant("constant.miss", sizeof(gpu::Hit), 0xFFFFFFFFu, recording), 0};
+}
+
+Plane constant_value(float value, Recording& recording) {
+    const std::string name = fmt::format("constant.{}", value);
+    return {use_constant(name, sizeof(float), std::bit_cast<std::uint32_t>(value), recording), 0};
+}
+
+Extent pixel_extent(const RenderPlan& plan, const Slice& slice) {
+    return {static_cast<std::uint32_t>(plan.settings.size.x), slice.row_count, 1};
+}
+
+std::string materials_buffer(const RenderPlan& plan, Recording& recording) {
+    const bool traced = plan.has(Effect::voxels) || plan.has(Effect::spheres);
+    return use_or_placeholder(plan, traced, "materials", recording);
+}
+
+std::string spheres_buffer(const RenderPlan& plan, Recording& recording) {
+    return use_or_placeholder(plan, plan.has(Effect::spheres), "sphere.records", recording);
+}
+
+std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording) {
+    return {{"Frame", use_buffer(plan, "frame", recording)},
+            {"Tally", use_buffer(plan, "tally", recording)},
+            {"Chunks", use_or_placeholder(plan, plan.has(Effect::voxels), "world.chunks", recording)},
+            {"Bricks", use_or_placeholder(plan, plan.has(Effect::voxels), "world.bricks", recording)},
+            {"Voxels", use_or_placeholder(plan, plan.has(Effect::voxels), "world.voxels", recording)},
+            {"Spheres", spheres_buffer(plan, recording)}};
+}
+
+std::vector<Constant> surface_constants(const RenderPlan& plan) {
+    return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u}, {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
+}
+
+Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass, const Plane& hits,
+                          Recording& recording) {
+    const Plane output{use_buffer(plan, pass.output_buffer, recording)};
+    Dispatch dispatch{.label = pass.label,
+                      .shader = pass.shader,
+                      .extent = pixel_extent(plan, slice),
+                      .bindings = surface_bindings(plan, recording),
+                      .constants = surface_constants(plan)};
+    dispatch.bindings.push_back({"Hits", hits.buffer});
+    dispatch.bindings.push_back({pass.output_block, output.buffer});
+    recording.dispatch(std::move(dispatch));
+    return output;
+}
+
+}  // namespace voxilux

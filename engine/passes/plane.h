@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plan/render_plan.h"
+#include "record/recording.h"
+
+namespace voxilux {
+
+// A per-pixel quantity of the current slice. An effect that is off yields a constant: one element, stride 0, so
+// that whoever reads it never changes.
+struct Plane {
+    std::string buffer;
+    std::uint32_t stride = 1;
+};
+
+// Declares a buffer of the plan in the recording and returns its name. A buffer that the plan does not hold is our
+// mistake: absent effects have no buffers.
+std::string use_buffer(const RenderPlan& plan, const std::string& name, Recording& recording);
+
+// One hit that is a miss, for a frame that marches nothing.
+[[nodiscard]] Plane constant_miss(Recording& recording);
+
+// One float.
+[[nodiscard]] Plane constant_value(float value, Recording& recording);
+
+// The run of rows that a recording renders.
+struct Slice {
+    std::uint32_t band = 0;
+    std::uint32_t band_first_row = 0;  // image rows
+    std::uint32_t first_row = 0;
+    std::uint32_t row_count = 0;
+};
+
+// Invocations of a pass over the pixels of a slice.
+[[nodiscard]] Extent pixel_extent(const RenderPlan& plan, const Slice& slice);
+
+// Bindings and constants of every pass that leaves surfaces (shaders/lib/surface.glsl). Structures of effects
+// that are off are bound to a placeholder word that no shader reads.
+[[nodiscard]] std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording);
+[[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
+
+// The materials and the spheres, or the placeholder when the plan has none.
+[[nodiscard]] std::string materials_buffer(const RenderPlan& plan, Recording& recording);
+[[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);
+
+// A pass that reads hits and writes one float for each.
+struct SurfacePass {
+    std::string label;
+    std::string shader;
+    std::string output_block;
+    std::string output_buffer;
+};
+
+[[nodiscard]] Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
+                                        const Plane& hits, Recording& recording);
+
+}  // namespace voxilux

@@ -1,0 +1,24 @@
+#include "passes/shade.h"
+
+namespace voxilux {
+
+Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const ShadeInputs& inputs,
+                           Recording& recording) {
+    const Plane color{use_buffer(plan, "shade.color", recording)};
+    recording.dispatch({.label = "shade.resolve",
+                        .shader = "shade_resolve",
+                        .extent = pixel_extent(plan, slice),
+                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                                     {"Tally", use_buffer(plan, "tally", recording)},
+                                     {"Hits", inputs.hits.buffer},
+                                     {"Materials", materials_buffer(plan, recording)},
+                                     {"Ao", inputs.ao.buffer},
+                                     {"Sun", inputs.sun.buffer},
+                                     {"Color", color.buffer}},
+                        .constants = {{"hits_stride", inputs.hits.stride},
+                                      {"ao_stride", inputs.ao.stride},
+                                      {"sun_stride", inputs.sun.stride}}});
+    return color;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "passes/plane.h"
+
+namespace voxilux {
+
+// What shading reads; each may be a constant.
+struct ShadeInputs {
+    Plane hits;
+    Plane ao;
+    Plane sun;
+};
+
+// Linear RGB radiance of each camera ray.
+[[nodiscard]] Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const ShadeInputs& inputs,
+                                         Recording& recording);
+
+}  // namespace voxilux

@@ -1,0 +1,9 @@
+#include "passes/sun.h"
+
+namespace voxilux {
+
+Plane record_sun_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
+    return record_surface_pass(plan, slice, {"sun.trace", "sun_trace", "Sun", "sun.lit"}, hits, recording);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "plan/render_plan.h"
+#include "record/recording.h"
+#include "shared/gpu_types.h"
+
+namespace voxilux {
+
+// Puts the scene on the device: world, materials, spheres, whatever the plan has.
+void record_scene_upload(const RenderPlan& plan, const Scene& scene, const Naadf& naadf, Recording& recording);
+
+// Puts the parameters of one slice on the device and sets the tally to zero.
+void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording);
+
+// Sets every film plane to zero.
+void record_film_clear(const RenderPlan& plan, Recording& recording);
+
+}  // namespace voxilux

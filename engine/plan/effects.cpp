@@ -1,0 +1,102 @@
+#include "plan/effects.h"
+
+#include "base/error.h"
+
+namespace voxilux {
+namespace {
+
+// One row per effect: its need (without it the effect has no meaning), and whether the scene's picture would change.
+struct Verdict {
+    bool possible = false;
+    bool called_for = false;
+    std::string reason;
+};
+
+struct EffectRow {
+    Effect effect;
+    std::string_view name;
+    Verdict (*judge)(const SceneFacts&, const EffectRequest&);
+};
+
+Verdict judge_voxels(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_voxels) return {false, false, "the scene has no voxels"};
+    return {true, true, fmt::format("{} voxels", facts.voxel_count)};
+}
+
+Verdict judge_spheres(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_spheres) return {false, false, "the scene has no analytic spheres"};
+    return {true, true, fmt::format("{} analytic spheres", facts.sphere_count)};
+}
+
+Verdict judge_ao(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_voxels && !facts.has_spheres) return {false, false, "nothing casts or receives occlusion"};
+    if (!facts.has_sky) return {true, false, "the sky is black: there is no light to occlude"};
+    return {true, true, "surfaces see the sky"};
+}
+
+Verdict judge_sun(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.sun_reaches) return {false, false, "the sun is off, black or not above the horizon"};
+    if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
+    return {true, true, "the sun is above the horizon"};
+}
+
+Verdict judge_sky(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_sky) return {false, false, "the sky is black"};
+    return {true, true, "constant sky radiance"};
+}
+
+Verdict judge_emission(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_emitters) return {false, false, "no used material emits"};
+    return {true, true, "emissive materials are seen directly; they do not light others yet"};
+}
+
+Verdict judge_aov(const SceneFacts&, const EffectRequest& request) {
+    if (!request.wants_aov) return {true, false, "the output holds colour only"};
+    return {true, true, "the output is an EXR"};
+}
+
+constexpr std::array<EffectRow, kEffectCount> kEffects = {{
+    {Effect::voxels, "voxels", judge_voxels},
+    {Effect::spheres, "spheres", judge_spheres},
+    {Effect::ao, "ao", judge_ao},
+    {Effect::sun, "sun", judge_sun},
+    {Effect::sky, "sky", judge_sky},
+    {Effect::emission, "emission", judge_emission},
+    {Effect::aov, "aov", judge_aov},
+}};
+
+EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRequest& request) {
+    const Verdict verdict = row.judge(facts, request);
+    const auto asked = request.switches.find(row.effect);
+    const Switch choice = asked == request.switches.end() ? Switch::automatic : asked->second;
+    if (choice == Switch::off && verdict.possible)
+        return {row.effect, false, fmt::format("switched off by the user ({})", verdict.reason)};
+    if (choice == Switch::on && verdict.possible && !verdict.called_for)
+        return {row.effect, true, fmt::format("switched on by the user, though {}", verdict.reason)};
+    return {row.effect, verdict.possible && verdict.called_for, verdict.reason};
+}
+
+}  // namespace
+
+std::string_view name_of(Effect effect) {
+    return kEffects[static_cast<std::size_t>(effect)].name;
+}
+
+Effect effect_named(std::string_view name) {
+    std::string known;
+    for (const EffectRow& row : kEffects) {
+        if (row.name == name) return row.effect;
+        known += known.empty() ? "" : ", ";
+        known += row.name;
+    }
+    throw Error(ExitCode::usage, fmt::format("--effect: there is no effect '{}'; known are {}", name, known));
+}
+
+EffectStates decide_effects(const SceneFacts& facts, const EffectRequest& request) {
+    EffectStates states;
+    for (std::size_t i = 0; i < kEffectCount; ++i)
+        states[i] = decide(kEffects[i], facts, request);
+    return states;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,188 @@
+#include "plan/render_plan.h"
+
+#include <algorithm>
+
+#include "base/checked_cast.h"
+#include "base/error.h"
+#include "plan/film_planes.h"
+#include "shared/gpu_types.h"
+#include "shared/naadf_cell.h"
+#include "shared/tally.h"
+
+namespace voxilux {
+namespace {
+
+// Pixels of one film band: small enough that every buffer of a band stays far below 128 MiB, large enough that pictures
+// up to 1024 x 1024 are one band.
+constexpr std::uint64_t kBandPixels = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxImagePixels = (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
+constexpr std::uint32_t kGroupEdge = 8;
+
+void check_settings(const RenderSettings& settings) {
+    const auto refuse = [](const std::string& what) { throw Error(ExitCode::input_refused, what); };
+    if (settings.size.x < 1 || settings.size.y < 1)
+        refuse(fmt::format("picture size {}x{}: both sides must be at least 1", settings.size.x, settings.size.y));
+    if (static_cast<std::uint64_t>(settings.size.x) * static_cast<std::uint64_t>(settings.size.y) > kMaxImagePixels)
+        refuse(fmt::format("picture size {}x{}: over 2^32 pixels", settings.size.x, settings.size.y));
+    if (settings.spp < 1) refuse("spp must be at least 1");
+    if (settings.ao_rays < 1) refuse("ao_rays must be at least 1");
+    if (!(settings.ao_radius > 0.0f)) refuse(fmt::format("ao_radius {} must be above 0", settings.ao_radius));
+}
+
+void split_image(RenderPlan& plan) {
+    const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
+    const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
+    const std::uint64_t rows = std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
+    plan.band_rows = static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
+    plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
+    plan.slice_rows = plan.band_rows;
+}
+
+void count_rays(RenderPlan& plan) {
+    const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
+                                  static_cast<std::uint64_t>(plan.settings.size.y) * plan.settings.spp;
+    plan.rays.primary = plan.has(Effect::voxels) || plan.has(Effect::spheres) ? samples : 0;
+    plan.rays.ao = plan.has(Effect::ao) ? samples * plan.settings.ao_rays : 0;
+    plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
+}
+
+void list_passes(RenderPlan& plan) {
+    const std::uint64_t slices = std::uint64_t{plan.band_count} * plan.settings.spp;
+    const auto add = [&](bool on, const char* label, std::uint64_t count) {
+        if (on) plan.passes.push_back({label, count});
+    };
+    add(plan.has(Effect::voxels), "primary.march", slices);
+    add(plan.has(Effect::spheres), "sphere.trace", slices);
+    add(plan.has(Effect::ao), "ao.trace", slices);
+    add(plan.has(Effect::sun), "sun.trace", slices);
+    add(true, "shade.resolve", slices);
+    add(plan.has(Effect::aov), "aov.surface", slices);
+    add(plan.has(Effect::aov), "aov.position", plan.band_count);
+    add(true, "film.add", slices * (film_planes(plan).size() - 1));
+}
+
+void list_buffers(RenderPlan& plan) {
+    const auto transient = [&](bool on, const std::string& name, std::uint64_t bytes) {
+        if (on) plan.buffers.push_back({name, bytes, false});
+    };
+    const auto persistent = [&](bool on, const std::string& name, std::uint64_t bytes) {
+        if (on) plan.buffers.push_back({name, bytes, true});
+    };
+    const bool traced = plan.has(Effect::voxels) || plan.has(Effect::spheres);
+    const std::uint64_t pixels = plan.slice_pixels();
+    transient(true, "frame", sizeof(gpu::FrameParams));
+    transient(true, "tally", gpu::kTallyCount * sizeof(gpu::uint));
+    persistent(plan.has(Effect::voxels), "world.chunks", plan.world.chunk_bytes);
+    persistent(plan.has(Effect::voxels), "world.bricks", plan.world.brick_bytes);
+    persistent(plan.has(Effect::voxels), "world.voxels", plan.world.voxel_bytes);
+    persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
+    persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
+    transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));
+    transient(plan.has(Effect::spheres), "sphere.hits", pixels * sizeof(gpu::Hit));
+    transient(plan.has(Effect::ao), "ao.open", pixels * sizeof(float));
+    transient(plan.has(Effect::sun), "sun.lit", pixels * sizeof(float));
+    transient(true, "shade.color", pixels * sizeof(gpu::vec3));
+    transient(plan.has(Effect::aov), "aov.albedo", pixels * sizeof(gpu::vec3));
+    transient(plan.has(Effect::aov), "aov.normal", pixels * sizeof(gpu::vec3));
+    for (std::uint32_t band = 0; band < plan.band_count; ++band) {
+        for (const FilmPlane& plane : film_planes(plan))
+            persistent(true, film_buffer(plane.name, band), plan.band_pixels() * plane.components * 8);
+        persistent(plan.has(Effect::aov), film_buffer("position", band), plan.band_pixels() * sizeof(gpu::vec3));
+        persistent(plan.has(Effect::aov), film_buffer("depth", band), plan.band_pixels() * sizeof(float));
+    }
+}
+
+void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const DeviceLimits& limits) {
+    for (const PlannedBuffer& planned : plan.buffers) {
+        const std::uint64_t limit = std::min(limits.max_binding_bytes, limits.max_allocation_bytes);
+        if (planned.bytes > limit) {
+            throw Error(ExitCode::out_of_memory,
+                        fmt::format("buffer '{}' needs {} bytes but {} takes {} at most; make the {} smaller",
+                                    planned.buffer, planned.bytes, limits.name, limit,
+                                    planned.buffer.starts_with("world") ? "scene" : "picture"));
+        }
+    }
+    if (budget_bytes != 0 && plan.total_bytes() > budget_bytes) {
+        const auto largest = std::ranges::max_element(plan.buffers, {}, &PlannedBuffer::bytes);
+        throw Error(ExitCode::out_of_memory,
+                    fmt::format("the render needs {} MiB on the device, over the budget of {} MiB; the largest buffer "
+                                "is '{}' with {} MiB",
+                                plan.total_bytes() >> 20, budget_bytes >> 20, largest->buffer, largest->bytes >> 20));
+    }
+}
+
+void add_notes(RenderPlan& plan, const SceneFacts& facts) {
+    if (facts.has_glass) plan.notes.push_back("glass is drawn as a diffuse surface: refraction is not simulated yet");
+    if (facts.has_metal) plan.notes.push_back("metal is drawn as a diffuse surface: reflection is not simulated yet");
+    if (facts.has_emitters) plan.notes.push_back("emitters glow but do not light other surfaces yet");
+}
+
+}  // namespace
+
+WorldFacts measure_world(const Naadf& naadf) {
+    // A binding needs at least one word, also where a level has no cells.
+    const auto bytes = [](const std::vector<std::uint32_t>& words) {
+        return std::max<std::uint64_t>(words.size(), 1) * sizeof(std::uint32_t);
+    };
+    return {naadf.size(), bytes(naadf.chunks), bytes(naadf.bricks), bytes(naadf.voxels)};
+}
+
+std::uint64_t RenderPlan::total_bytes() const {
+    std::uint64_t total = 0;
+    for (const PlannedBuffer& planned : buffers)
+        total += planned.bytes;
+    return total;
+}
+
+std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
+    std::vector<FilmPlane> planes = {{"beauty_a", 3}, {"beauty_b", 3}};
+    if (!plan.has(Effect::aov)) return planes;
+    planes.push_back({"albedo", 3});
+    planes.push_back({"normal", 3});
+    if (plan.has(Effect::ao)) planes.push_back({"ao", 1});
+    if (plan.has(Effect::sun)) planes.push_back({"sun", 1});
+    return planes;
+}
+
+std::string film_buffer(const std::string& plane, std::uint32_t band) {
+    return fmt::format("film.{}.{}", plane, band);
+}
+
+RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
+                       const PlanRequest& request, const DeviceLimits& limits) {
+    check_settings(scene.settings);
+    RenderPlan plan;
+    plan.settings = scene.settings;
+    plan.effects = decide_effects(facts, request.effects);
+    plan.world = world;
+    plan.material_count = checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
+    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
+    split_image(plan);
+    count_rays(plan);
+    list_passes(plan);
+    list_buffers(plan);
+    add_notes(plan, facts);
+    check_memory(plan, request.memory_budget_bytes, limits);
+    return plan;
+}
+
+std::string describe(const RenderPlan& plan) {
+    const RenderSettings& s = plan.settings;
+    std::string text = fmt::format("picture   {}x{}, {} samples per pixel, {} occlusion rays of {} voxels each\n", s.size.x,
+                                   s.size.y, s.spp, s.ao_rays, s.ao_radius);
+    text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
+    for (const EffectState& state : plan.effects)
+        text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off", state.reason);
+    for (const PlannedPass& pass : plan.passes)
+        text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
+    for (const PlannedBuffer& planned : plan.buffers)
+        text += fmt::format("buffer    {:<22} {} bytes\n", planned.buffer, planned.bytes);
+    text += fmt::format("memory    {:.1f} MiB on the device\n", static_cast<double>(plan.total_bytes()) / 1048576.0);
+    text += fmt::format("rays      primary {}, ao at most {}, sun at most {}\n", plan.rays.primary, plan.rays.ao,
+                        plan.rays.sun);
+    for (const std::string& note : plan.notes)
+        text += fmt::format("note      {}\n", note);
+    return text;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "plan/device_limits.h"
+#include "plan/effects.h"
+#include "scene/facts.h"
+#include "scene/scene.h"
+#include "world/naadf.h"
+
+namespace voxilux {
+
+// What a plan needs to know of the built world.
+struct WorldFacts {
+    glm::ivec3 size{0};  // cells
+    std::uint64_t chunk_bytes = 0;
+    std::uint64_t brick_bytes = 0;
+    std::uint64_t voxel_bytes = 0;
+
+    bool operator==(const WorldFacts&) const = default;
+};
+
+[[nodiscard]] WorldFacts measure_world(const Naadf& naadf);
+
+struct PlannedPass {
+    std::string label;
+    std::uint64_t count = 0;  // dispatches over the whole render, when no slice is cut smaller
+
+    bool operator==(const PlannedPass&) const = default;
+};
+
+struct PlannedBuffer {
+    std::string buffer;
+    std::uint64_t bytes = 0;
+    bool persistent = false;  // its contents outlive a recording
+
+    bool operator==(const PlannedBuffer&) const = default;
+};
+
+// Most rays that the whole render can march.
+struct PlannedRays {
+    std::uint64_t primary = 0;
+    std::uint64_t ao = 0;
+    std::uint64_t sun = 0;
+
+    bool operator==(const PlannedRays&) const = default;
+};
+
+// Everything that is decided before the first command: pure data, printable, comparable, made with no device.
+struct RenderPlan {
+    RenderSettings settings;
+    EffectStates effects;
+    WorldFacts world;
+    std::uint32_t material_count = 0;
+    std::uint32_t sphere_count = 0;
+    std::uint32_t band_rows = 0;   // rows of one film band: what one set of film buffers covers
+    std::uint32_t band_count = 0;
+    std::uint32_t slice_rows = 0;  // most rows that one recording renders
+    PlannedRays rays;
+    std::vector<PlannedPass> passes;
+    std::vector<PlannedBuffer> buffers;
+    std::vector<std::string> notes;  // what the picture will lack, one line each
+
+    [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    [[nodiscard]] std::uint64_t total_bytes() const;
+    [[nodiscard]] std::uint64_t slice_pixels() const {
+        return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
+    }
+    [[nodiscard]] std::uint64_t band_pixels() const {
+        return std::uint64_t{band_rows} * static_cast<std::uint64_t>(settings.size.x);
+    }
+};
+
+struct PlanRequest {
+    EffectRequest effects;
+    std::uint64_t memory_budget_bytes = 0;  // 0: no limit
+};
+
+// Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming the
+// largest, and Error(input_refused) for settings out of range.
+[[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
+                                     const PlanRequest& request, const DeviceLimits& limits);
+
+// The plan as text, stable between runs: what `voxilux plan` prints.
+[[nodiscard]] std::string describe(const RenderPlan& plan);
+
+}  // namespace voxilux

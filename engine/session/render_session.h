@@ -1,0 +1,79 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "film/image.h"
+#include "plan/render_plan.h"
+#include "scene/scene.h"
+#include "vk/device.h"
+#include "vk/executor.h"
+
+namespace voxilux {
+
+struct RenderOptions {
+    PlanRequest plan;
+    DeviceRequest device;
+    ExecutorOptions executor;
+    std::optional<double> time_limit_s;  // a whole first sample is finished all the same
+    std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
+    const std::atomic<bool>* interrupted = nullptr;
+};
+
+struct Progress {
+    double done = 0.0;         // [0,1], of the samples asked for
+    double elapsed_s = 0.0;
+    double remaining_s = 0.0;  // at the pace so far
+    std::uint32_t sample = 0;
+    std::optional<double> error;  // last estimate
+};
+
+enum class StopReason : std::uint8_t { finished, error_target, time_limit, interrupted };
+
+// What a render did: the numbers of the report.
+struct RenderStatistics {
+    DeviceInfo device;
+    double wall_s = 0.0;
+    double cpu_s = 0.0;
+    double peak_rss_mib = 0.0;
+    double load_s = 0.0;         // world and structure on the CPU
+    double first_pixel_s = 0.0;  // from the start of the session to the end of the first slice
+    double gpu_ms = 0.0;
+    std::vector<PassTime> passes;
+    std::map<std::string, std::uint64_t> work;
+    std::map<std::string, std::uint64_t> faults;
+    std::vector<MemoryRow> memory;
+    std::uint64_t pipelines = 0;
+    std::uint32_t samples = 0;  // whole ones
+    ErrorEstimate error;
+    StopReason stop = StopReason::finished;
+    std::vector<std::string> warnings;
+    std::vector<std::string> validation;  // messages of the layers
+};
+
+struct RenderOutcome {
+    Image image;
+    RenderPlan plan;
+    RenderStatistics statistics;
+};
+
+// Renders a scene: world, plan, recordings, film. Always returns a whole picture; a pixel that no sample reached (only
+// after an interruption) is black with sampleCount 0.
+[[nodiscard]] RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
+                                         const std::function<void(const Progress&)>& on_progress = {});
+
+// The world of the scene as the march needs it, and the facts and the plan that follow. No device is used.
+struct PreparedScene {
+    SceneFacts facts;
+    Naadf naadf;
+    RenderPlan plan;
+};
+
+[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits);
+
+}  // namespace voxilux

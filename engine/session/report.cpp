@@ -1,0 +1,140 @@
+#include "session/report.h"
+
+#include <cmath>
+
+#include "scene/scene_hash.h"
+
+namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
+    Json rows = Json::array();
+    for (const EffectState& state : plan.effects) {
+        const std::string name(name_of(state.effect));
+        Json row = {{"name", name}, {"on", state.on}, {"reason", state.reason}};
+        if (statistics != nullptr) {
+            double ms = 0.0;
+            for (const PassTime& pass : statistics->passes) {
+                const std::string stem = pass.label.substr(0, pass.label.find('.'));
+                const bool is_own = stem == name || (stem == "primary" && state.effect == Effect::voxels) ||
+                                    (stem == "sphere" && state.effect == Effect::spheres);
+                if (is_own) ms += pass.ms;
+            }
+            row["ms"] = ms;
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+Json error_json(const ErrorEstimate& error) {
+    Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
+    json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
+    json["confidence"] = error.confidence;
+    return json;
+}
+
+Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) {
+    return {{"version", VX_VERSION},
+            {"command", command},
+            {"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+            {"seed", plan.settings.seed},
+            {"size", {plan.settings.size.x, plan.settings.size.y}}};
+}
+
+std::string_view name_of(StopReason reason) {
+    switch (reason) {
+        case StopReason::finished: return "finished";
+        case StopReason::error_target: return "error target reached";
+        case StopReason::time_limit: return "time limit reached";
+        case StopReason::interrupted: return "interrupted";
+    }
+    VX_ASSERT(false);
+}
+
+Json planned_passes_json(const RenderPlan& plan) {
+    Json rows = Json::array();
+    for (const PlannedPass& pass : plan.passes)
+        rows.push_back({{"label", pass.label}, {"count", pass.count}});
+    return rows;
+}
+
+Json planned_memory_json(const RenderPlan& plan) {
+    Json rows = Json::array();
+    for (const PlannedBuffer& planned : plan.buffers)
+        rows.push_back({{"buffer", planned.buffer}, {"bytes", planned.bytes}});
+    return rows;
+}
+
+}  // namespace
+
+Json report_json(const Scene& scene, const RenderOutcome& outcome) {
+    const RenderStatistics& statistics = outcome.statistics;
+    Json json = head_json(scene, outcome.plan, "render");
+    json["device"] = {{"name", statistics.device.name},
+                      {"driver", statistics.device.driver},
+                      {"type", statistics.device.type}};
+    json["samples"] = statistics.samples;
+    json["stopped"] = name_of(statistics.stop);
+    json["wall_s"] = statistics.wall_s;
+    json["cpu_s"] = statistics.cpu_s;
+    json["load_s"] = statistics.load_s;
+    json["first_pixel_s"] = statistics.first_pixel_s;
+    json["peak_rss_mib"] = statistics.peak_rss_mib;
+    json["gpu_ms"] = statistics.gpu_ms;
+    json["passes"] = Json::array();
+    for (const PassTime& pass : statistics.passes)
+        json["passes"].push_back({{"label", pass.label}, {"count", pass.count}, {"ms", pass.ms}, {"max_ms", pass.max_ms}});
+    json["work"] = statistics.work;
+    json["memory"] = Json::array();
+    for (const MemoryRow& row : statistics.memory)
+        json["memory"].push_back({{"buffer", row.buffer}, {"bytes", row.bytes}});
+    json["effects"] = effects_json(outcome.plan, &statistics);
+    json["error"] = error_json(statistics.error);
+    json["forecast"] = nullptr;  // there is no pilot yet
+    json["faults"] = statistics.faults;
+    json["notes"] = outcome.plan.notes;
+    json["warnings"] = statistics.warnings;
+    return json;
+}
+
+Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) {
+    Json json = head_json(scene, outcome.plan, "render");
+    json["samples"] = outcome.statistics.samples;
+    json["work"] = outcome.statistics.work;
+    json["effects"] = effects_json(outcome.plan, nullptr);
+    json["error"] = error_json(outcome.statistics.error);
+    json["faults"] = outcome.statistics.faults;
+    return json;
+}
+
+Json plan_json(const Scene& scene, const RenderPlan& plan) {
+    Json json = head_json(scene, plan, "plan");
+    json["effects"] = effects_json(plan, nullptr);
+    json["passes"] = planned_passes_json(plan);
+    json["memory"] = planned_memory_json(plan);
+    json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
+    json["forecast"] = nullptr;  // there is no pilot yet
+    json["notes"] = plan.notes;
+    return json;
+}
+
+std::string describe(const RenderOutcome& outcome) {
+    const RenderStatistics& s = outcome.statistics;
+    std::string text = fmt::format("device    {} ({})\n", s.device.name, s.device.driver);
+    text += fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.settings.spp, name_of(s.stop));
+    text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU; first pixels after {:.2f} s\n", s.wall_s, s.cpu_s,
+                        s.first_pixel_s);
+    for (const PassTime& pass : s.passes)
+        text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
+    text += fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate, s.error.metric,
+                        100.0 * s.error.confidence, s.error.low, s.error.high);
+    for (const auto& [name, count] : s.faults) {
+        if (count != 0) text += fmt::format("fault     {} {}\n", name, count);
+    }
+    return text;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,36 @@
+// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as width x row_count.
+#ifndef VX_FRAME_ACCESS_GLSL
+#define VX_FRAME_ACCESS_GLSL
+
+#include "shared/gpu_types.h"
+
+layout(scalar) readonly buffer Frame {
+    FrameParams frame;
+};
+
+struct Pixel {
+    uint x;
+    uint y;      // image row, 0 at the top
+    uint index;  // in the buffers of this slice
+    bool inside;
+};
+
+// Software devices give each thread one contiguous half of the workgroups, and the sky is cheap: rows of groups are
+// dealt alternately to both halves, so that a picture with sky on top keeps all threads busy.
+uint interleaved_row(uint row, uint rows) {
+    uint first_half = (rows + 1u) / 2u;
+    return row < first_half ? 2u * row : 2u * (row - first_half) + 1u;
+}
+
+Pixel this_pixel() {
+    uint group_row = interleaved_row(gl_WorkGroupID.y, gl_NumWorkGroups.y);
+    uint row = group_row * gl_WorkGroupSize.y + gl_LocalInvocationID.y;
+    Pixel pixel;
+    pixel.x = gl_GlobalInvocationID.x;
+    pixel.y = frame.first_row + row;
+    pixel.index = row * frame.width + pixel.x;
+    pixel.inside = pixel.x < frame.width && row < frame.row_count;
+    return pixel;
+}
+
+#endif

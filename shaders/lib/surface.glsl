@@ -1,0 +1,79 @@
+// Hits, spheres, and rays that leave a surface.
+#ifndef VX_SURFACE_GLSL
+#define VX_SURFACE_GLSL
+
+#include "lib/frame_access.glsl"
+#include "lib/tally_access.glsl"
+#include "lib/world_access.glsl"
+#include "shared/camera.h"
+#include "shared/sampling.h"
+
+layout(constant_id = 0) const uint has_voxels = 1u;
+layout(constant_id = 1) const uint has_spheres = 0u;
+
+layout(scalar) readonly buffer Spheres {
+    SphereRecord spheres[];
+};
+
+const uint kNoSphere = 0xFFFFFFFFu;
+
+// Position relative to the world's corner, voxels.
+vec3 local_position(ivec3 cell, vec3 fraction) {
+    return vec3(cell) + fraction;
+}
+
+bool is_surface(Hit hit) {
+    return hit.face <= kFaceSphere;
+}
+
+vec3 surface_normal(Hit hit) {
+    if (has_spheres != 0u && hit.face == kFaceSphere) {
+        Sphere shape = spheres[hit.sphere].shape;
+        vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
+        return normalize(shape.normal + shape.curvature * from_anchor);
+    }
+    return face_normal(hit.face);
+}
+
+// A ray off the surface of a hit. `direction` points out of it.
+Ray ray_from(Hit hit, vec3 direction, float t_max) {
+    if (has_spheres != 0u && hit.face == kFaceSphere) {
+        Ray ray;
+        ray.cell = hit.cell;
+        ray.fraction = hit.fraction;
+        ray.direction = direction;
+        ray.t_max = t_max;
+        return ray;
+    }
+    return leave_surface(hit.cell, hit.face, hit.fraction, direction, t_max);
+}
+
+bool hits_voxels(Ray ray) {
+    if (has_voxels == 0u) return false;
+    if (has_spheres != 0u) {  // only rays off a sphere can start outside the world
+        WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
+        if (!entry.enters) return false;
+        ray = entry.ray;
+    }
+    MarchHit hit = march(ray, frame.chunks);
+    count(kFaultRayUnsound, hit.fault == kMarchUnsound ? 1u : 0u);
+    count(kFaultMarchExhausted, hit.fault == kMarchExhausted ? 1u : 0u);
+    return hit.face != kFaceMiss;
+}
+
+// `own` is the sphere that the ray leaves outwards: convex, so the ray cannot meet it again.
+bool hits_spheres(Ray ray, uint own) {
+    if (has_spheres == 0u) return false;
+    vec3 origin = local_position(ray.cell, ray.fraction);
+    for (uint i = 0u; i < frame.sphere_count; ++i) {
+        if (i == own) continue;
+        if (sphere_intersect(spheres[i].shape, origin, ray.direction, 0.0, ray.t_max).hit) return true;
+    }
+    return false;
+}
+
+bool is_occluded(Ray ray, uint own) {
+    return hits_voxels(ray) || hits_spheres(ray, own);
+}
+
+#endif

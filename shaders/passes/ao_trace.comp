@@ -1,0 +1,44 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Share of cosine-weighted rays off each hit that meet nothing within the radius: 1 in the open, and for misses.
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/surface.glsl"
+
+layout(scalar) readonly buffer Hits {
+    Hit hits[];
+};
+layout(scalar) writeonly buffer Ao {
+    float ao[];
+};
+
+float trace_openness(Pixel pixel, Hit hit) {
+    uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
+    SampleKey key;
+    key.stream = pixel.y * frame.width + pixel.x;
+    key.seed = frame.seed;
+    uint open = 0u;
+    for (uint i = 0u; i < frame.ao_rays; ++i) {
+        key.index = frame.sample_index * frame.ao_rays + i;
+        vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
+        vec3 direction = hit.face == kFaceSphere ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
+        open += is_occluded(ray_from(hit, direction, frame.ao_radius), own) ? 0u : 1u;
+    }
+    return float(open) / float(frame.ao_rays);
+}
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    Hit hit = hits[pixel.index];
+    float openness = 1.0;
+    if (hit.face == kFaceInside) openness = 0.0;
+    bool traced = is_surface(hit) && hit.face != kFaceInside;
+    if (traced) openness = trace_openness(pixel, hit);
+    count(kWorkAoRays, traced ? frame.ao_rays : 0u);
+    ao[pixel.index] = openness;
+}

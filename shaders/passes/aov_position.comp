@@ -1,0 +1,34 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Position in scene space and depth along the view axis of each hit. Misses have position 0 and depth kMissDepth.
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+#include "shared/limits.h"
+
+layout(constant_id = 2) const uint hits_stride = 1u;
+
+layout(scalar) readonly buffer Hits {
+    Hit hits[];
+};
+layout(scalar) writeonly buffer Position {
+    vec3 position[];
+};
+layout(scalar) writeonly buffer Depth {
+    float depth[];
+};
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    Hit hit = hits[pixel.index * hits_stride];
+    bool is_hit = hit.face <= kFaceSphere;
+    vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
+    uint film_index = (pixel.y - frame.band_first_row) * frame.width + pixel.x;
+    position[film_index] = is_hit ? vec3(frame.world_origin + hit.cell) + hit.fraction : vec3(0.0);
+    depth[film_index] = is_hit ? dot(from_camera, frame.camera_forward) : kMissDepth;
+}

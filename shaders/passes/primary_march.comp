@@ -1,0 +1,48 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// First voxel that each camera ray of the slice meets.
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+#include "lib/tally_access.glsl"
+#include "lib/world_access.glsl"
+#include "shared/camera.h"
+
+layout(scalar) writeonly buffer Hits {
+    Hit hits[];
+};
+
+Hit no_hit() {
+    Hit hit;
+    hit.cell = ivec3(-1);
+    hit.face = kFaceMiss;
+    hit.fraction = vec3(0.0);
+    hit.t = 0.0;
+    hit.material = 0u;
+    hit.sphere = 0u;
+    return hit;
+}
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    Hit hit = no_hit();
+    WorldEntry entry = enter_world(camera_ray(frame, pixel.x, pixel.y), frame.chunks << kChunkLog2);
+    if (entry.enters) {
+        MarchHit found = march(entry.ray, frame.chunks);
+        count(kFaultRayUnsound, found.fault == kMarchUnsound ? 1u : 0u);
+        count(kFaultMarchExhausted, found.fault == kMarchExhausted ? 1u : 0u);
+        if (found.face != kFaceMiss) {
+            hit.cell = found.cell;
+            hit.face = found.face;
+            hit.fraction = hit_fraction(entry.ray, found);
+            hit.t = entry.t + found.t;
+            hit.material = found.material;
+        }
+    }
+    hits[pixel.index] = hit;
+}

@@ -1,0 +1,40 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Sunlight that reaches each hit, as a share of the irradiance on a surface that faces the sun: visibility of a random
+// point of the sun's disc times the cosine. 0 for misses.
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/surface.glsl"
+
+layout(scalar) readonly buffer Hits {
+    Hit hits[];
+};
+layout(scalar) writeonly buffer Sun {
+    float sun[];
+};
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    Hit hit = hits[pixel.index];
+    float lit = 0.0;
+    bool traced = false;
+    if (is_surface(hit) && hit.face != kFaceInside) {
+        SampleKey key;
+        key.stream = pixel.y * frame.width + pixel.x;
+        key.index = frame.sample_index;
+        key.seed = frame.seed;
+        vec2 u = sample_2d(frame.sequence, key, kPairSun);
+        vec3 direction = uniform_cone(frame.sun_direction, frame.sun_cone_height, u);
+        float cosine = dot(surface_normal(hit), direction);
+        traced = cosine > 0.0;
+        uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
+        if (traced && !is_occluded(ray_from(hit, direction, kUnbounded), own)) lit = cosine;
+    }
+    count(kWorkSunRays, traced ? 1u : 0u);
+    sun[pixel.index] = lit;
+}

@@ -1,0 +1,80 @@
+// Structs that live in device buffers, with the same layout in C++ and in GLSL (scalar block layout). A test compares
+// every offset with the compiled SPIR-V.
+#ifndef VX_GPU_TYPES_H
+#define VX_GPU_TYPES_H
+
+#include "portable.h"
+#include "sphere.h"
+
+VX_BEGIN
+
+// Faces of a cell are numbered -x +x -y +y -z +z. The other values of Hit::face:
+VX_CONST(uint, kFaceInside, 6u);   // the ray started inside a solid cell
+VX_CONST(uint, kFaceSphere, 7u);   // analytic sphere
+VX_CONST(uint, kFaceMiss, 0xFFu);  // nothing was hit
+
+struct Ray {
+    ivec3 cell;      // of the origin, local to the world
+    vec3 fraction;   // of the origin inside its cell, [0,1]
+    vec3 direction;  // unit length unless stated
+    float t_max;     // hits at or beyond are misses
+};
+
+// First hit of a camera ray. All bits set is a miss, so a cleared buffer is a sky of misses.
+struct Hit {
+    ivec3 cell;     // solid cell local to the world; for a sphere the cell of the hit point
+    uint face;      // low 8 bits
+    vec3 fraction;  // hit point inside the cell, [0,1]; exact on the face's axis
+    float t;        // distance from the camera in voxels
+    uint material;  // index into Materials
+    uint sphere;    // index into Spheres when face is kFaceSphere
+};
+
+// How light leaves a surface, as the passes read it.
+struct SurfaceMaterial {
+    vec3 albedo;    // linear, [0,1]
+    vec3 emission;  // radiance
+};
+
+// Analytic sphere; its anchor is local to the world.
+struct SphereRecord {
+    Sphere shape;
+    uint material;
+};
+
+// What all passes of one slice of one sample share. A slice is a run of whole image rows.
+struct FrameParams {
+    ivec3 chunks;           // of the world, per axis
+    ivec3 world_origin;     // scene cell of the world's cell 0
+    ivec3 camera_cell;      // local to the world
+    vec3 camera_fraction;
+    vec3 camera_right;      // half the image plane's width at distance 1
+    vec3 camera_up;         // half its height
+    vec3 camera_forward;    // unit
+    uint width;             // of the whole image, pixels
+    uint height;
+    uint first_row;         // of the slice, image row
+    uint row_count;
+    uint band_first_row;    // of the film band that the slice is in
+    uint sample_index;
+    uint seed;
+    uint sequence;          // of sequence.h
+    uint ao_rays;           // per sample
+    float ao_radius;        // voxels
+    vec3 sky_radiance;
+    vec3 sun_direction;     // unit, towards the sun
+    vec3 sun_irradiance;    // on a surface facing the sun
+    float sun_cone_height;  // cone_height of the sun's angular radius
+    uint sphere_count;
+};
+
+// Push constants of film_add.
+struct FilmAddPush {
+    uint count;          // values to add
+    uint values_stride;  // 0 repeats the first value
+    uint first_sum;      // where the values' sums begin
+};
+
+VX_END
+
+#endif

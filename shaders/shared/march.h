@@ -1,0 +1,218 @@
+// The march of a ray through nested distance fields (naadf_cell.h), exact by construction.
+//
+// A ray starts in an integer cell at a fraction in [0,1]^3 of it. Let T_a(j) be the float time at which it crosses its
+// j-th plane of axis a. One fixed `precise` expression computes T_a(j), and it never decreases with j, so sorting all
+// crossings by (T, axis) gives one walk through the cells, whatever structure is marched. A box of empty cells is
+// left at its earliest exit plane, and the cell on the other two axes is the number of planes whose (T, axis) comes
+// before: estimated from the position, then corrected by comparing one T. So every traversal visits the same cells
+// as the plain voxel-by-voxel walk, and no epsilon is needed. (Incremental walk: Amanatides & Woo 1987.)
+//
+// Tie rule: a ray crosses one face at a time; where it meets an edge or a corner exactly it crosses x before y
+// before z. So each walk is 6-connected: no ray slips between two solids that touch along an edge, and a shell that
+// a 6-connected walk cannot leave is light-tight. A cell owns its low faces; a ray in a face plane is in the upper cell.
+//
+// The including side defines VX_WORLD_PARAM, VX_WORLD_ARG and load_chunk(), load_brick(), load_voxel_word().
+#ifndef VX_MARCH_H
+#define VX_MARCH_H
+
+#include "gpu_types.h"
+#include "limits.h"
+#include "naadf_cell.h"
+#include "portable.h"
+
+VX_BEGIN
+
+// What does not change along a ray. Axis a advances by planes: after n crossings the ray is in cell[a] + n or
+// cell[a] - n. `flip` is 0 for directions >= 0 and -1 below, so (n ^ flip) - flip is the signed step.
+struct MarchAxes {
+    ivec3 cell;    // of the start
+    ivec3 flip;
+    vec3 speed;    // |direction|, 0 where it counts as zero
+    vec3 pace;     // 1 / speed, or kNeverCrossed
+    vec3 offset;   // T(j) = (j + flip + offset) * pace
+    ivec3 toward;  // number of the direction -x +x -y +y -z +z that the ray takes on each axis
+};
+
+VX_CONST(uint, kMarchFine, 0u);
+VX_CONST(uint, kMarchUnsound, 1u);    // the ray is not finite or has no direction: a miss
+VX_CONST(uint, kMarchExhausted, 2u);  // the step limit ended the march
+
+struct MarchHit {
+    ivec3 cell;     // solid cell, local to the world
+    uint face;      // 0..5 = -x +x -y +y -z +z, kFaceInside, or kFaceMiss
+    float t;        // entry time in units of the direction's length
+    uint material;
+    ivec3 crossed;  // planes crossed per axis
+    uint steps;
+    uint fault;     // kMarch*
+};
+
+// Whether a ray can be marched: finite, with a direction. Reads the bits, because drivers fold tests such as x - x.
+VX_FN bool is_sound(Ray ray) {
+    const vec3 d = ray.direction;
+    const vec3 f = ray.fraction;
+    const uint largest = max(max(max(floatBitsToUint(d.x) & 0x7FFFFFFFu, floatBitsToUint(d.y) & 0x7FFFFFFFu),
+                                 floatBitsToUint(d.z) & 0x7FFFFFFFu),
+                             max(max(floatBitsToUint(f.x) & 0x7FFFFFFFu, floatBitsToUint(f.y) & 0x7FFFFFFFu),
+                                 floatBitsToUint(f.z) & 0x7FFFFFFFu));
+    const bool has_direction = max(max(abs(d.x), abs(d.y)), abs(d.z)) >= kMinDirection;
+    return largest < 0x7F800000u && has_direction;
+}
+
+VX_FN MarchAxes march_axes(Ray ray) {
+    const vec3 d = ray.direction;
+    const vec3 speed = abs(d);
+    const vec3 used = vec3(speed.x < kMinDirection ? 0.0f : 1.0f, speed.y < kMinDirection ? 0.0f : 1.0f,
+                           speed.z < kMinDirection ? 0.0f : 1.0f);
+    MarchAxes axes;
+    axes.cell = ray.cell;
+    axes.speed = speed * used;
+    axes.flip = ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
+                      axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
+    axes.pace = vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
+                     used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
+    axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.flip);
+    axes.toward = ivec3(1, 3, 5) + axes.flip;
+    return axes;
+}
+
+// Number of the direction that the ray takes on an axis.
+VX_FN int toward_axis(MarchAxes axes, int axis) {
+    return axis == 0 ? axes.toward.x : (axis == 1 ? axes.toward.y : axes.toward.z);
+}
+
+// Times at which plane j of each axis is crossed. The only place where such a time is computed.
+VX_FN vec3 plane_times(MarchAxes axes, ivec3 j) {
+    VX_PRECISE vec3 t = (vec3(j + axes.flip) + axes.offset) * axes.pace;
+    return t;
+}
+
+// First of the three in the order (time, axis).
+VX_FN int first_axis(vec3 t) {
+    const int yz = t.z < t.y ? 2 : 1;
+    return min(t.y, t.z) < t.x ? yz : 0;
+}
+
+// Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and `high` are
+// not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
+VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
+    const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.flip) - kPlaneMargin;
+    ivec3 n = clamp(ivec3(floor(estimate)), low, high);
+    const vec3 next = plane_times(axes, n + 1);
+    n.x += next.x < t || (next.x == t && 0 < axis) ? 1 : 0;
+    n.y += next.y < t || (next.y == t && 1 < axis) ? 1 : 0;
+    n.z += next.z < t ? 1 : 0;
+    return n;
+}
+
+struct MarchCell {
+    uint cell;   // state and payload
+    int log2;    // edge of the cell in voxels
+    uint bits;   // of one distance
+};
+
+// The coarsest cell of the structure that holds `local` (inside the world) and has no children.
+VX_FN MarchCell find_cell(VX_WORLD_PARAM ivec3 local, ivec3 chunks) {
+    const ivec3 c = local >> kChunkLog2;
+    MarchCell found;
+    found.cell = load_chunk(VX_WORLD_ARG uint(c.x + chunks.x * (c.y + chunks.y * c.z)));
+    found.log2 = kChunkLog2;
+    found.bits = kChunkDistanceBits;
+    if (cell_state(found.cell) == kCellMixed) {
+        const uint slot = child_slot((local >> kBrickLog2) & 3);
+        found.cell = load_brick(VX_WORLD_ARG cell_payload(found.cell) * 64u + slot);
+        found.log2 = kBrickLog2;
+        found.bits = kInnerDistanceBits;
+        if (cell_state(found.cell) == kCellMixed) {
+            const uint voxel = child_slot(local & 3);
+            const uint word = load_voxel_word(VX_WORLD_ARG cell_payload(found.cell) * 32u + (voxel >> 1u));
+            found.cell = cell_of_voxel((word >> (16u * (voxel & 1u))) & 0xFFFFu);
+            found.log2 = 0;
+        }
+    }
+    return found;
+}
+
+// Planes to cross on each axis to leave the empty box around `local`.
+VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
+    const uint ones = (1u << found.bits) - 1u;
+    const uint payload = cell_payload(found.cell);
+    const ivec3 extent = ivec3(int((payload >> (uint(axes.toward.x) * found.bits)) & ones),
+                               int((payload >> (uint(axes.toward.y) * found.bits)) & ones),
+                               int((payload >> (uint(axes.toward.z) * found.bits)) & ones));
+    const ivec3 passed = (local ^ axes.flip) & ((1 << found.log2) - 1);
+    return ((extent + 1) << found.log2) - passed;
+}
+
+VX_FN bool is_outside(ivec3 local, ivec3 size) {
+    return uint(local.x) >= uint(size.x) || uint(local.y) >= uint(size.y) || uint(local.z) >= uint(size.z);
+}
+
+// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0. The world has
+// `chunks` chunks per axis. Each step crosses at least one plane, so a sound world never meets the step limit.
+VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
+    const MarchAxes axes = march_axes(ray);
+    const ivec3 size = chunks << kChunkLog2;
+    const uint limit = uint(size.x + size.y + size.z) + kMarchSlack;
+    MarchHit hit;
+    hit.cell = ray.cell;
+    hit.face = kFaceMiss;
+    hit.t = 0.0f;
+    hit.material = 0u;
+    hit.crossed = ivec3(0);
+    hit.steps = 0u;
+    hit.fault = is_sound(ray) ? kMarchFine : kMarchUnsound;
+    if (hit.fault != kMarchFine) return hit;
+    int axis = -1;
+    for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
+        if (is_outside(hit.cell, size)) return hit;
+        const MarchCell found = find_cell(VX_WORLD_ARG hit.cell, chunks);
+        if (cell_state(found.cell) == kCellSolid) {
+            hit.face = axis < 0 ? kFaceInside : uint(toward_axis(axes, axis) ^ 1);
+            hit.material = cell_payload(found.cell);
+            return hit;
+        }
+        const ivec3 exit = hit.crossed + planes_to_exit(found, hit.cell, axes);
+        const vec3 times = plane_times(axes, exit);
+        axis = first_axis(times);
+        const float t = min(times.x, min(times.y, times.z));
+        if (!(t < ray.t_max)) return hit;
+        const ivec3 n = planes_before(axes, t, axis, hit.crossed, exit - 1);
+        hit.crossed = ivec3(axis == 0 ? exit.x : n.x, axis == 1 ? exit.y : n.y, axis == 2 ? exit.z : n.z);
+        hit.cell = axes.cell + (hit.crossed ^ axes.flip) - axes.flip;
+        hit.t = t;
+    }
+    hit.fault = kMarchExhausted;
+    return hit;
+}
+
+// Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face.
+VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
+    const MarchAxes axes = march_axes(ray);
+    const vec3 passed = hit.t * axes.speed - axes.offset - vec3(axes.flip) - vec3(hit.crossed);
+    const vec3 along = clamp(passed, vec3(0.0f), vec3(1.0f));
+    const float on_face = float(hit.face & 1u);
+    vec3 fraction;
+    fraction.x = axes.speed.x == 0.0f ? ray.fraction.x : (axes.flip.x < 0 ? 1.0f - along.x : along.x);
+    fraction.y = axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - along.y : along.y);
+    fraction.z = axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - along.z : along.z);
+    const uint a = hit.face >> 1u;
+    return vec3(a == 0u ? on_face : fraction.x, a == 1u ? on_face : fraction.y, a == 2u ? on_face : fraction.z);
+}
+
+// Where a ray that leaves the surface starts: the cell in front of the face, with the position on the face.
+VX_FN Ray leave_surface(ivec3 cell, uint face, vec3 fraction, vec3 direction, float t_max) {
+    const uint a = face >> 1u;
+    const int outward = int(face & 1u) * 2 - 1;
+    const float behind = 1.0f - float(face & 1u);
+    Ray ray;
+    ray.cell = cell + ivec3(a == 0u ? outward : 0, a == 1u ? outward : 0, a == 2u ? outward : 0);
+    ray.fraction = vec3(a == 0u ? behind : fraction.x, a == 1u ? behind : fraction.y, a == 2u ? behind : fraction.z);
+    ray.direction = direction;
+    ray.t_max = t_max;
+    return ray;
+}
+
+VX_END
+
+#endif

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "support.h"
+
+namespace voxilux {
+
+struct DevicesCommand {
+    std::string json;
+};
+
+CLI::App* add_devices(CLI::App& app, DevicesCommand& command);
+
+// Lists the Vulkan devices, which would be used, and what each lacks. no_device when none is usable.
+[[nodiscard]] int run_devices(const DevicesCommand& command);
+
+}  // namespace voxilux
