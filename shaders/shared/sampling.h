@@ -102,8 +102,8 @@ VX_FN vec3 from_basis(Basis basis, vec3 local) {
     return v;
 }
 
-// Cosine-weighted direction around a unit normal; unit length and inside the hemisphere within
-// kUnitLengthError.
+// Cosine-weighted direction around a unit normal; its length is 1 within kUnitLengthError, its component
+// along the normal at least 2^-13.
 VX_FN vec3 cosine_about(vec3 normal, vec2 u) {
     return from_basis(basis_around(normal), cosine_hemisphere(u));
 }

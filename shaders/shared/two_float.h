@@ -1,9 +1,13 @@
 // Numbers of about 48 bits as the unevaluated sum of two floats, for places where 24 bits are too few and
 // doubles are not portable. No fma: devices need not fuse it. Every step is precise, because the error terms
-// are zero in real arithmetic and a driver that re-associates removes them. Sources: Dekker 1971, "A
-// Floating-Point Technique for Extending the Available Precision"; Joldes, Muller and Popescu 2017, "Tight
-// and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic" (algorithm numbers below).
-// Domain: magnitudes in [2^-50, 2^60] or zero, so neither a split overflows nor an error term underflows.
+// are zero in real arithmetic and a driver that re-associates removes them.
+//
+// Domain: operands of magnitude 2^-100 to 2^100 or zero; products, quotients and numerators of 2^-70 to 2^100
+// or zero. There no split overflows and no error term underflows.
+//
+// Sources: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"; Joldes, Muller and
+// Popescu 2017, "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic", whose
+// algorithm numbers are given below.
 #ifndef VX_TWO_FLOAT_H
 #define VX_TWO_FLOAT_H
 

@@ -33,12 +33,12 @@ inline double relative_error(gpu::TwoFloat got, long double want) {
     return static_cast<double>(want == 0.0L ? error : error / std::abs(want));
 }
 
-// Operands of magnitude 2^-20 to 2^20 with random signs, plus pairs that nearly cancel in a sum.
+// Operands of magnitude 2^-35 to 2^35 with random signs, plus pairs that nearly cancel in a sum.
 inline std::vector<TwoFloatCase> two_float_cases(int count) {
     TestRandom random(10);
     const auto draw = [&] {
         const double sign = random.bits32() % 2 == 0 ? 1.0 : -1.0;
-        return sign * random.uniform(1.0, 2.0) * std::exp2(std::floor(random.uniform(-20.0, 20.0)));
+        return sign * random.uniform(1.0, 2.0) * std::exp2(std::floor(random.uniform(-35.0, 35.0)));
     };
     std::vector<TwoFloatCase> cases;
     for (int i = 0; i < count; ++i) {

@@ -89,6 +89,14 @@ TEST(Sequence, ao_error_of_sobol_is_at_most_halton_is_at_most_white) {
     expect_sobol_below_halton_below_white(print_table("AO beside a wall", 64, 256, 4096, ao_error));
 }
 
+// The first samples are what a preview shows. One sample is white noise in any sequence.
+TEST(Sequence, ao_error_of_2_to_128_samples_of_sobol_is_below_halton_is_below_white) {
+    auto tables = print_table("AO beside a wall", 1024, 1, 128, ao_error);
+    for (std::vector<double>& table : tables)
+        table.erase(table.begin());
+    expect_sobol_below_halton_below_white(tables);
+}
+
 TEST(Sequence, smooth_error_of_sobol_is_at_most_halton_is_at_most_white) {
     expect_sobol_below_halton_below_white(print_table("exp(x + y)", 64, 256, 4096, smooth_error));
 }
