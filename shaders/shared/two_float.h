@@ -5,9 +5,9 @@
 // Domain: operands of magnitude 2^-100 to 2^100 or zero; products, quotients and numerators of 2^-70 to 2^100
 // or zero. There no split overflows and no error term underflows.
 //
-// Sources: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"; Joldes, Muller and
-// Popescu 2017, "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic", whose
-// algorithm numbers are given below.
+// Sources: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"; Joldes, Muller
+// and Popescu 2017, "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic",
+// whose algorithm numbers are given below.
 #ifndef VX_TWO_FLOAT_H
 #define VX_TWO_FLOAT_H
 
