@@ -3,7 +3,8 @@
 // angles. Each inequality is linear, so over all corners they read
 //   max(a - tx c) + tx w <= u <= min(a + tx c) - tx w
 // and the same for v: the largest w that leaves both intervals non-empty is the nearest camera, and the
-// middle of each interval centres the box.
+// middle of each interval centres the box. Seen with a field of view wider than the box's own corner that
+// camera would sit on the corner itself, hence one more bound on w.
 
 #include "scene/scene_camera.h"
 
@@ -69,14 +70,16 @@ Camera framing_camera(const Box& box, View view, double aspect, double fov_y_deg
     const glm::dvec3 centre = 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
     const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
     Slack across, upright;
+    double nearest = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 sign((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
         const glm::dvec3 p = sign * half * basis;  // its coordinates along right, up, forward
         across.hold(p.x, p.z, tan_x);
         upright.hold(p.y, p.z, tan_y);
+        nearest = std::min(nearest, p.z);
     }
-    const double w =
-        std::min((across.high - across.low) / (2.0 * tan_x), (upright.high - upright.low) / (2.0 * tan_y));
+    const double w = std::min({(across.high - across.low) / (2.0 * tan_x),
+                               (upright.high - upright.low) / (2.0 * tan_y), nearest - kFrameClearance});
     const glm::dvec3 offset(0.5 * (across.low + across.high), 0.5 * (upright.low + upright.high), w);
     camera.position = centre + basis * offset;
     return camera;

@@ -18,9 +18,14 @@ inline constexpr double kDefaultFovYDeg = 45.0;
 // The fraction of the half picture, on each axis, that a framed box leaves free.
 inline constexpr double kFrameMargin = 0.05;
 
+// Voxels between a framing camera and the plane through the nearest corner: a corner at depth 0 has no place
+// in the picture. It decides only where the field of view is wider than the box's own corner, beyond about 90
+// degrees.
+inline constexpr double kFrameClearance = 0.125;
+
 // The camera that looks along `view` from the nearest point at which the whole box is inside the picture less
-// its margin: exact, the box touches the margin on two opposite sides. `aspect` is width / height. An empty
-// box gives a camera that looks at the origin from 64 voxels away.
+// its margin: exact, the box touches the margin on two opposite sides (but see kFrameClearance). `aspect` is
+// width / height. An empty box gives a camera that looks at the origin from 64 voxels away.
 [[nodiscard]] Camera framing_camera(const Box& box, View view, double aspect,
                                     double fov_y_deg = kDefaultFovYDeg);
 

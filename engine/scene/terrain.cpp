@@ -55,11 +55,13 @@ int terrain_height(const TerrainShape& terrain, int x, int y) {
     std::int64_t sum = 0;
     for (std::uint32_t octave = 0; octave < kOctaves; ++octave)
         sum += octave_height(x, y, octave, terrain) << (kOctaves - 1 - octave);
-    std::int64_t height = sum / ((1 << kOctaves) - 1);  // the weights 8, 4, 2, 1
+    // The weights are 8, 4, 2, 1. Sums of noise crowd around the middle: the stretch makes plains and peaks.
+    const std::int64_t mean = sum / ((1 << kOctaves) - 1);
+    std::int64_t height = std::clamp<std::int64_t>((16 * mean - 4 * kOne) / 8, 0, kOne);
     if (terrain.island) {
         const std::int64_t middle =
             (arch(x, terrain.from.x, terrain.to.x) * arch(y, terrain.from.y, terrain.to.y)) >> kFraction;
-        height = (smooth(middle) * (kOne + height) / 2) >> kFraction;
+        height = (smooth(middle) * (kOne + 3 * height) / 4) >> kFraction;
     }
     const std::int64_t cells = std::int64_t{terrain.to.z} - terrain.from.z;
     return static_cast<int>((height * cells + kOne / 2) >> kFraction);

@@ -17,7 +17,8 @@ struct TerrainShape {
 
 // How many cells of the column (x, y) are filled, from the floor of the box: in [0, to.z - from.z]. Integer
 // arithmetic only, so it is the same on every machine. Source: value noise on a lattice of hashed heights,
-// Perlin 1985's smoothing of the cell (3 t^2 - 2 t^3), four octaves that halve in size and in weight.
+// Perlin 1985's smoothing of the cell (3 t^2 - 2 t^3), four octaves that halve in size and in weight,
+// stretched to the range.
 [[nodiscard]] int terrain_height(const TerrainShape& terrain, int x, int y);
 
 }  // namespace voxilux
