@@ -6,13 +6,15 @@
 
 namespace voxilux {
 
-// A set of cells of one model, 2 MiB: one bit for each (x, y, z) that three bytes can name. Made once for a
-// file, since forgetting the cells of a model costs only as much as the model.
+// A set of cells of one model: one bit for each (x, y, z) up to the highest seen, at most 2 MiB. Made once
+// for a file, since forgetting the cells of a model costs only as much as the model.
 class VoxCells {
   public:
     // Whether the cell is new; it is in the set afterwards.
     bool insert(const VoxVoxel& voxel) {
-        std::uint64_t& word = words_[slot(voxel)];
+        const std::size_t at = slot(voxel);
+        if (at >= words_.size()) words_.resize(at + 1);
+        std::uint64_t& word = words_[at];
         const std::uint64_t bit = std::uint64_t{1} << (voxel.x & 63);
         const bool is_new = (word & bit) == 0;
         word |= bit;
@@ -20,15 +22,16 @@ class VoxCells {
     }
     // Empties the set, which must hold no other cells than these.
     void forget(const std::vector<VoxVoxel>& voxels) {
-        for (const VoxVoxel& voxel : voxels)
-            words_[slot(voxel)] = 0;
+        for (const VoxVoxel& voxel : voxels) {
+            if (slot(voxel) < words_.size()) words_[slot(voxel)] = 0;
+        }
     }
 
   private:
     static std::size_t slot(const VoxVoxel& v) {
         return (std::size_t{v.z} << 8 | std::size_t{v.y}) << 2 | std::size_t{v.x} >> 6;
     }
-    std::vector<std::uint64_t> words_ = std::vector<std::uint64_t>(std::size_t{1} << 18);
+    std::vector<std::uint64_t> words_;
 };
 
 [[nodiscard]] bool is_inside(const VoxVoxel& voxel, glm::ivec3 size);

@@ -126,7 +126,7 @@ inline std::vector<std::byte> file(std::string_view chunks, int version = 150) {
 // A model with no symmetry: no rotation or mirror of it is itself.
 inline std::string chiral_model(int x, int y, int z) {
     return size_chunk(x, y, z) +
-           voxels_chunk({{0, 0, 0, 1}, {x - 1, 0, 0, 2}, {0, y - 1, 0, 3}, {0, 0, z - 1, 4}, {1, 0, 0, 5}});
+           voxels_chunk({{0, 0, 0, 1}, {x - 1, 0, 0, 2}, {0, y - 1, 0, 3}, {0, 0, z - 1, 4}, {1, 1, 0, 5}});
 }
 
 // A small file with every chunk and attribute that the reader knows, and two that it does not.
