@@ -1,0 +1,61 @@
+#include "vk/device.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "support/device_fixture.h"
+
+namespace voxilux {
+namespace {
+
+TEST(Device, list_names_each_device_and_marks_the_one_to_use) {
+    const std::vector<DeviceInfo> devices = list_devices();
+    ASSERT_FALSE(devices.empty());
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        EXPECT_EQ(devices[i].index, i);
+        EXPECT_FALSE(devices[i].name.empty());
+        EXPECT_FALSE(devices[i].driver.empty());
+        EXPECT_EQ(devices[i].limits.is_cpu, devices[i].type == "cpu");
+        EXPECT_TRUE(devices[i].usable || !devices[i].lacks.empty());
+    }
+    EXPECT_EQ(std::ranges::count(devices, true, &DeviceInfo::would_use), 1);
+    EXPECT_TRUE(devices[pick_device(devices, "")].would_use);
+}
+
+TEST(Device, default_limits_are_those_of_lavapipe) {
+    const std::vector<DeviceInfo> devices = list_devices();
+    const auto lavapipe = std::ranges::find(devices, "cpu", &DeviceInfo::type);
+    if (lavapipe == devices.end()) GTEST_SKIP() << "no software device here";
+    const DeviceLimits expected;
+    EXPECT_EQ(lavapipe->limits.max_binding_bytes, expected.max_binding_bytes);
+    EXPECT_EQ(lavapipe->limits.max_allocation_bytes, expected.max_allocation_bytes);
+    EXPECT_EQ(lavapipe->limits.max_groups, expected.max_groups);
+    EXPECT_GE(lavapipe->limits.max_push_bytes, expected.max_push_bytes);
+}
+
+TEST(Device, unknown_name_is_a_usage_error) {
+    try {
+        (void)open_device({.selector = "no such device"});
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::usage);
+    }
+}
+
+TEST(Device, two_devices_can_be_open_at_once) {
+    Device other = open_device({.selector = std::to_string(test_device().info().index)});
+    EXPECT_EQ(other.info().name, test_device().info().name);
+    EXPECT_TRUE(other.messages().empty());
+    Executor first(other, all_shaders());
+    Executor second(test_device(), all_shaders());
+    Recording recording;
+    recording.declare({.name = "t.a", .size_bytes = 16});
+    recording.clear("t.a", 3);
+    recording.readback("t.a");
+    EXPECT_EQ(first.run(recording).readbacks, second.run(recording).readbacks);
+}
+
+}  // namespace
+}  // namespace voxilux
