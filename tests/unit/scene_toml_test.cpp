@@ -117,6 +117,11 @@ TEST(SceneTomlOverride, values_replace_and_add) {
     EXPECT_EQ(scene.materials.at(scene.spheres[0].material).albedo, glm::vec3(0.0f));
 }
 
+std::string contents_of(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 // Every scene of the repository loads, has its line on what it is for, and its expected plan.
 TEST(SceneTomlFiles, all_load_and_explain_themselves) {
     namespace fs = std::filesystem;
@@ -128,12 +133,36 @@ TEST(SceneTomlFiles, all_load_and_explain_themselves) {
         const Scene scene = load_scene(entry.path());
         EXPECT_NO_THROW((void)measure_scene(scene));
         EXPECT_TRUE(scene.warnings.empty());
-        std::ifstream in(entry.path());
-        const std::string text((std::istreambuf_iterator<char>(in)), {});
+        const std::string text = contents_of(entry.path());
         EXPECT_EQ(text.substr(0, 2), "# ");
         EXPECT_NE(text.find("Plan: "), std::string::npos);
     }
     EXPECT_GE(count, 12);
+}
+
+// The example of scenes/README.md, less its .vox file, reads; and where it names defaults they are the
+// defaults.
+TEST(SceneTomlFiles, example_of_the_readme_is_true) {
+    const std::string page = contents_of(std::filesystem::path(VX_SOURCE_DIR) / "scenes/README.md");
+    const std::size_t from = page.find("```toml\n") + 8, to = page.find("```", from);
+    ASSERT_NE(to, std::string::npos);
+    std::string text = page.substr(from, to - from);
+    const std::size_t model = text.find("[[model]]"), shape = text.find("[[shape]]");
+    ASSERT_LT(model, shape);
+    text.erase(model, shape - model);
+    Scene scene = parse_scene(text, "README.md");
+    EXPECT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(measure_scene(scene).voxel_count, 40u * 40u * 2u);
+    EXPECT_EQ(scene.spheres.size(), 1u);
+    const YawPitch direction = yaw_pitch_of(glm::dvec3(0, 0, 5) - glm::dvec3(40, -60, 30));
+    EXPECT_NEAR(direction.yaw_deg, 123.7, 0.05);
+    EXPECT_NEAR(direction.pitch_deg, -19.1, 0.05);
+    scene.materials.clear();
+    scene.models.clear();
+    scene.instances.clear();
+    scene.spheres.clear();
+    scene.camera.reset();
+    EXPECT_EQ(scene_hash(scene), scene_hash(Scene{}));
 }
 
 SceneFacts facts_of(const std::string& name) {
