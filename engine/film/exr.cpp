@@ -41,10 +41,10 @@ class CheckedStream : public Imf::OStream {
         out_.write(c, n);
         check();
     }
+    // Called from a destructor of the library, outside of any catch: it must not throw.
     std::uint64_t tellp() override {
-        const std::streamoff at = out_.tellp();
-        check();
-        return static_cast<std::uint64_t>(at);
+        note();
+        return out_ ? static_cast<std::uint64_t>(static_cast<std::streamoff>(out_.tellp())) : 0;
     }
     void seekp(std::uint64_t position) override {
         out_.seekp(static_cast<std::streamoff>(position));
@@ -56,8 +56,11 @@ class CheckedStream : public Imf::OStream {
     }
 
   private:
-    void check() {
+    void note() {
         if (!out_ && failure_ == 0) failure_ = errno != 0 ? errno : EIO;
+    }
+    void check() {
+        note();
         if (failure_ != 0) throw std::runtime_error(std::strerror(failure_));
     }
 

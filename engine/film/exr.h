@@ -17,7 +17,8 @@ namespace voxilux {
 inline constexpr int kMaxExrSide = 1 << 17;                            // pixels, per axis of a window
 inline constexpr int kMaxExrChannels = 1024;                           // channels of one part
 inline constexpr std::size_t kMaxExrFileBytes = std::size_t{4} << 30;  // the file as it lies on disk
-inline constexpr std::size_t kMaxExrBytes = std::size_t{16} << 30;     // all planes as floats
+inline constexpr std::size_t kMaxExrBytes = std::size_t{16} << 30;  // all planes of the data window as floats
+inline constexpr std::size_t kMaxExrFrameBytes = std::size_t{1} << 30;  // of a display window around a crop
 // A deflate stream grows at most 1032 times and halves become floats; more than this per file byte is a lie.
 inline constexpr std::size_t kMaxExrGrowth = 2064;
 inline constexpr std::size_t kFreeExrBytes = std::size_t{64} << 20;  // allowed whatever the size of the file

@@ -79,8 +79,11 @@ void check_header(const Imf::Header& header, std::size_t file_bytes) {
     const auto bytes_of = [&](const Window& w) {
         return static_cast<std::size_t>(w.width * w.height) * channels * sizeof(float);
     };
-    if (bytes_of(data) > kMaxExrBytes || bytes_of(display) > kMaxExrBytes)
+    if (bytes_of(data) > kMaxExrBytes)
         throw std::runtime_error(fmt::format("its planes need more than {} bytes", kMaxExrBytes));
+    if (bytes_of(display) > std::max(bytes_of(data), kMaxExrFrameBytes))
+        throw std::runtime_error(
+            fmt::format("the frame around its crop needs more than {} bytes", kMaxExrFrameBytes));
     if (bytes_of(data) > kFreeExrBytes + kMaxExrGrowth * file_bytes) {
         throw std::runtime_error(fmt::format("{}x{} pixels of {} channels cannot lie in {} bytes", data.width,
                                              data.height, channels, file_bytes));

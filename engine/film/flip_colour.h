@@ -6,9 +6,6 @@ namespace voxilux::flip_colour {
 
 using Vec3 = std::array<double, 3>;
 
-// Weights of linear Rec.709 red, green and blue in the luminance Y.
-inline constexpr Vec3 kLuminance = {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0};
-
 // YCxCz of a linear RGB colour, and back: a linear opponent space with Y in [0,100] whose axes match those of
 // CIELab.
 [[nodiscard]] Vec3 opponent_of(const Vec3& rgb);

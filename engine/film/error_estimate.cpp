@@ -1,0 +1,210 @@
+// The two-halves argument. Let A and B be the means of nA and nB independent samples of variance v. Then
+// E[(A-B)^2] = v (1/nA + 1/nB), and the mean of all samples has variance v / (nA + nB), so
+//     D^2 = (A-B)^2 nA nB / (nA+nB)^2
+// estimates the squared error of the mean without bias, whatever the distribution of the samples.
+//
+// The error of the picture is relMSE = mean of D^2 / (r^2 + kRelMseEpsilon) over pixels and channels, r the
+// true value. Putting the pixel's own mean m for r fails where it is needed most: a firefly makes D and m
+// large together, and the estimate comes out several times too small. So where the halves disagree (|D| over
+// a quarter of |m|), r is taken from m and the mean of the 24 pixels around it: the smaller of the two for
+// the estimate, the larger for the lower end of the interval. Where they agree, and so everywhere in the end,
+// m itself is used.
+//
+// The interval comes from square blocks of pixels, which keep it honest when neighbours are correlated.
+// Blocks differ by noise and by what they show; differences between neighbouring blocks cancel most of the
+// latter and what is left errs on the wide side (J. von Neumann et al., "The mean square successive
+// difference", 1941). The true relMSE scatters about its expectation as much as the estimate does and
+// independently of it (A+B and A-B are uncorrelated), hence the factor 2. The interval is laid on
+// log(relMSE), which is nearer to normal and cannot turn negative; Student's t stands for the number of
+// blocks being finite.
+
+#include "film/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "film/metrics.h"
+#include "film/sum.h"
+
+namespace voxilux {
+namespace {
+
+constexpr double kAgreement =
+    0.25;                  // |D| / |m| up to which m is trusted: it is then off by a third at the very most
+constexpr int kReach = 2;  // pixels: the neighbourhood is 5x5
+constexpr int kLargestBlock = 8;                     // pixels a side
+constexpr std::size_t kManyBlocks = 32;              // blocks shrink until there are so many
+constexpr std::size_t kFewestBlocks = 8;             // below, a variance of blocks means nothing
+constexpr double kDegreesPerDifference = 2.0 / 3.0;  // successive differences share a block
+// Normal quantile, two-sided, at 97 %: the spread is itself an estimate, and the trials of the tests, which
+// count how often the interval holds the truth, need that much to stay above kErrorConfidence.
+constexpr double kNormalQuantile = 2.170090377584560;
+
+using Rgb = std::array<double, 3>;
+
+// The means of the rows around the current one; rows outside the picture are empty.
+class RowWindow {
+  public:
+    RowWindow(int width, int height, const FilmHalf& a, const FilmHalf& b)
+        : width_(width), height_(height), a_(a), b_(b), rows_(2 * kReach + 1) {
+        for (int y = 0; y < kReach; ++y)
+            load(y);
+    }
+
+    // Makes `y` the current row; rows must come in order from 0.
+    void advance(int y) { load(y + kReach); }
+
+    // Mean over the pixels around (x, y) without it; the pixel's own where it is alone.
+    [[nodiscard]] Rgb neighbourhood(int x, int y) const {
+        Rgb sum = {};
+        const int x0 = std::max(x - kReach, 0), x1 = std::min(x + kReach, width_ - 1);
+        const int y0 = std::max(y - kReach, 0), y1 = std::min(y + kReach, height_ - 1);
+        for (int j = y0; j <= y1; ++j) {
+            const std::vector<Rgb>& row = row_of(j);
+            for (int i = x0; i <= x1; ++i) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    sum[c] += row[static_cast<std::size_t>(i)][c];
+            }
+        }
+        const Rgb& own = row_of(y)[static_cast<std::size_t>(x)];
+        const int others = (x1 - x0 + 1) * (y1 - y0 + 1) - 1;
+        if (others == 0) return own;
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] = (sum[c] - own[c]) / others;
+        return sum;
+    }
+
+  private:
+    [[nodiscard]] const std::vector<Rgb>& row_of(int y) const {
+        return rows_[static_cast<std::size_t>(y) % rows_.size()];
+    }
+
+    void load(int y) {
+        if (y >= height_) return;
+        std::vector<Rgb>& row = rows_[static_cast<std::size_t>(y) % rows_.size()];
+        row.resize(static_cast<std::size_t>(width_));
+        const std::size_t first = static_cast<std::size_t>(y) * row.size();
+        for (std::size_t x = 0; x < row.size(); ++x)
+            row[x] = half_means(a_, b_, first + x).mean;
+    }
+
+    int width_, height_;
+    const FilmHalf &a_, &b_;
+    std::vector<std::vector<Rgb>> rows_;
+};
+
+// A pixel's share of relMSE with the cautious and with the hopeful choice of the true value.
+struct RelativeError {
+    double cautious = 0.0, hopeful = 0.0;
+};
+
+RelativeError relative_error(const HalfMeans& pixel, const Rgb& around) {
+    RelativeError error;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double d = (pixel.a[c] - pixel.b[c]) * pixel.weight;
+        const double own = std::abs(pixel.mean[c]), other = std::abs(around[c]);
+        const bool is_trusted = std::abs(d) <= kAgreement * own;
+        const double least = is_trusted ? own : std::min(own, other);
+        const double most = is_trusted ? own : std::max(own, other);
+        error.cautious += d * d / (least * least + kRelMseEpsilon) / 3.0;
+        error.hopeful += d * d / (most * most + kRelMseEpsilon) / 3.0;
+    }
+    return error;
+}
+
+struct Block {
+    CompensatedSum error;
+    double pixels = 0.0;
+};
+
+// Square blocks in rows of `across`, and the sums over all of them.
+struct Blocks {
+    int side = 1;
+    std::size_t across = 0;
+    std::vector<Block> blocks;
+    CompensatedSum cautious, hopeful;
+    bool is_complete = true;  // every pixel has samples in both halves
+};
+
+std::size_t blocks_along(int size, int side) {
+    return static_cast<std::size_t>((size + side - 1) / side);
+}
+
+Blocks make_blocks(int width, int height) {
+    int side = kLargestBlock;
+    while (side > 1 && blocks_along(width, side) * blocks_along(height, side) < kManyBlocks)
+        side /= 2;
+    Blocks result{.side = side, .across = blocks_along(width, side)};
+    result.blocks.resize(result.across * blocks_along(height, side));
+    return result;
+}
+
+Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b) {
+    Blocks result = make_blocks(width, height);
+    RowWindow window(width, height, a, b);
+    for (int y = 0; y < height; ++y) {
+        window.advance(y);
+        for (int x = 0; x < width; ++x) {
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+            const HalfMeans means = half_means(a, b, pixel);
+            result.is_complete = result.is_complete && means.weight > 0.0;
+            const RelativeError error = relative_error(means, window.neighbourhood(x, y));
+            Block& block = result.blocks[static_cast<std::size_t>(y / result.side) * result.across +
+                                         static_cast<std::size_t>(x / result.side)];
+            block.error.add(error.cautious);
+            block.pixels += 1.0;
+            result.cautious.add(error.cautious);
+            result.hopeful.add(error.hopeful);
+        }
+    }
+    return result;
+}
+
+// Student's t from the normal quantile (Abramowitz and Stegun 26.7.5, three terms): within 1 % from 4 degrees
+// on.
+double student_quantile(double degrees) {
+    const double z = kNormalQuantile;
+    const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+    return z + (z3 + z) / (4.0 * degrees) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees) +
+           (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * degrees * degrees * degrees);
+}
+
+// Half width of the interval of log(relMSE), or infinity with too few blocks. Blocks are walked to and fro,
+// so that successive ones are neighbours.
+double log_spread(const Blocks& all, double mean, double pixels) {
+    if (all.blocks.size() < kFewestBlocks) return std::numeric_limits<double>::infinity();
+    CompensatedSum squares;
+    double last = 0.0;
+    for (std::size_t k = 0; k < all.blocks.size(); ++k) {
+        const std::size_t row = k / all.across, column = k % all.across;
+        const Block& block = all.blocks[row * all.across + (row % 2 == 0 ? column : all.across - 1 - column)];
+        const double deviation = block.error.value() - mean * block.pixels;
+        if (k > 0) squares.add((deviation - last) * (deviation - last));
+        last = deviation;
+    }
+    const double count = static_cast<double>(all.blocks.size());
+    const double variance = 0.5 * squares.value() * count / (count - 1.0) / (pixels * pixels);
+    return student_quantile(kDegreesPerDifference * (count - 1.0)) * std::sqrt(2.0 * variance) / mean;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b) {
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    check_half(a, pixels);
+    check_half(b, pixels);
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Blocks blocks = gather(width, height, a, b);
+    if (!blocks.is_complete) return {.estimate = infinity, .high = infinity};
+    const double count = static_cast<double>(pixels);
+    const double cautious = blocks.cautious.value() / count, hopeful = blocks.hopeful.value() / count;
+    if (!(cautious > 0.0)) return {};
+    const double spread = std::exp(0.5 * log_spread(blocks, cautious, count));
+    return {.estimate = std::sqrt(cautious),
+            .low = std::sqrt(hopeful) / spread,
+            .high = std::sqrt(cautious) * spread};
+}
+
+}  // namespace voxilux

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "film/film.h"
+
+namespace voxilux {
+
+inline constexpr double kErrorConfidence = 0.95;
+
+// How far the beauty is from the converged one, without knowing that: estimate of sqrt(relMSE), a relative
+// error (0.01 is 1 %), and an interval that holds the true value with the given confidence.
+struct ErrorEstimate {
+    std::string metric = "relmse-root";
+    double estimate = 0.0;
+    double low = 0.0;
+    double high = 0.0;  // infinity when there are too few pixels or samples to tell
+    double confidence = kErrorConfidence;
+};
+
+// The error of film_image(width, height, a, b) by the two-halves argument (error_estimate.cpp). Needs
+// independent halves; low-discrepancy halves disagree more than their mean errs, which makes the estimate too
+// high. Events that no sample met (a caustic not yet found) are invisible to it.
+[[nodiscard]] ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b);
+
+}  // namespace voxilux
