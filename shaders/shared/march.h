@@ -189,7 +189,7 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
 // Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face.
 VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
     const MarchAxes axes = march_axes(ray);
-    const vec3 passed = hit.t * axes.speed - axes.offset - vec3(axes.flip) - vec3(hit.crossed);
+    VX_PRECISE vec3 passed = hit.t * axes.speed - axes.offset - vec3(axes.flip) - vec3(hit.crossed);
     const vec3 along = clamp(passed, vec3(0.0f), vec3(1.0f));
     const float on_face = float(hit.face & 1u);
     vec3 fraction;

@@ -1,0 +1,74 @@
+#include "support/march_probe.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <span>
+
+#include "base/checked_cast.h"
+#include "support/device_fixture.h"
+
+namespace voxilux::test {
+namespace {
+
+struct MarchPush {
+    std::uint32_t count;
+    glm::ivec3 chunks;
+};
+
+// A binding needs at least one word, also where a level of the structure has no cells.
+std::vector<std::uint32_t> words_or_zero(const std::vector<std::uint32_t>& words) {
+    return words.empty() ? std::vector<std::uint32_t>{0} : words;
+}
+
+template <class T>
+void upload(Recording& recording, const std::string& name, const std::vector<T>& values) {
+    recording.declare({.name = name, .size_bytes = values.size() * sizeof(T)});
+    recording.upload(name, std::as_bytes(std::span(values)));
+}
+
+}  // namespace
+
+std::vector<gpu::MarchProbe> march_on_device(const Naadf& naadf, const std::vector<gpu::Ray>& rays,
+                                             double* device_ms) {
+    if (rays.empty()) return {};
+    const auto count = checked_cast<std::uint32_t>(rays.size(), "rays");
+    Recording recording;
+    upload(recording, "probe.chunks", words_or_zero(naadf.chunks));
+    upload(recording, "probe.bricks", words_or_zero(naadf.bricks));
+    upload(recording, "probe.voxels", words_or_zero(naadf.voxels));
+    upload(recording, "probe.rays", rays);
+    recording.declare({.name = "probe.marched", .size_bytes = count * sizeof(gpu::MarchProbe)});
+    recording.dispatch({.label = "probe.march",
+                        .shader = "march",
+                        .extent = {count, 1, 1},
+                        .bindings = {{"Chunks", "probe.chunks"},
+                                     {"Bricks", "probe.bricks"},
+                                     {"Voxels", "probe.voxels"},
+                                     {"In", "probe.rays"},
+                                     {"Out", "probe.marched"}},
+                        .push = to_bytes(MarchPush{count, naadf.chunks_size})});
+    recording.readback("probe.marched");
+    const RunResult result = test_executor().run(recording);
+    const std::vector<std::byte>& bytes = result.readbacks.at("probe.marched");
+    std::vector<gpu::MarchProbe> outputs(count);
+    std::memcpy(outputs.data(), bytes.data(), bytes.size());
+    if (device_ms != nullptr) *device_ms = result.passes.front().ms;
+    return outputs;
+}
+
+std::vector<gpu::MarchProbe> march_in_cpp(const Naadf& naadf, const std::vector<gpu::Ray>& rays) {
+    std::vector<gpu::MarchProbe> outputs;
+    outputs.reserve(rays.size());
+    for (const gpu::Ray& ray : rays)
+        outputs.push_back(gpu::probe_march(naadf, ray, naadf.chunks_size));
+    return outputs;
+}
+
+std::string print(const gpu::Ray& ray) {
+    return fmt::format("{{{{{}, {}, {}}}, {{{}, {}, {}}}, {{{}, {}, {}}}, {}}}", ray.cell.x, ray.cell.y,
+                       ray.cell.z, ray.fraction.x, ray.fraction.y, ray.fraction.z, ray.direction.x,
+                       ray.direction.y, ray.direction.z, ray.t_max);
+}
+
+}  // namespace voxilux::test

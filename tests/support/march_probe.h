@@ -1,0 +1,30 @@
+#pragma once
+
+// The march with its entry into the world, on the device and in C++, ray by ray.
+
+#include <string>
+#include <vector>
+
+#include "world/naadf.h"
+#include "world/world_view.h"
+
+#define VX_WORLD_PARAM const ::voxilux::Naadf &naadf,
+#define VX_WORLD_ARG naadf,
+#include "probe/march_functions.h"
+#undef VX_WORLD_PARAM
+#undef VX_WORLD_ARG
+
+namespace voxilux::test {
+
+// Device time of the last call, ms, when asked for.
+[[nodiscard]] std::vector<gpu::MarchProbe> march_on_device(const Naadf& naadf,
+                                                           const std::vector<gpu::Ray>& rays,
+                                                           double* device_ms = nullptr);
+
+[[nodiscard]] std::vector<gpu::MarchProbe> march_in_cpp(const Naadf& naadf,
+                                                        const std::vector<gpu::Ray>& rays);
+
+// The ray as C++ initializers, so that a failure can become a fixed case.
+[[nodiscard]] std::string print(const gpu::Ray& ray);
+
+}  // namespace voxilux::test
