@@ -4,6 +4,7 @@
 #include <bit>
 #include <memory>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -46,6 +47,19 @@ class Hasher {
             add(v[i]);
     }
 
+    void add_voxels(std::span<const Voxel> voxels) {
+        // A voxel in memory is its serialisation where the machine is little-endian; scenes have up to 2^28
+        // of them.
+        static_assert(std::has_unique_object_representations_v<Voxel> && sizeof(Voxel) == 8);
+        if constexpr (std::endian::native == std::endian::little) {
+            flush();
+            XXH3_64bits_update(state_.get(), voxels.data(), voxels.size_bytes());
+        } else {
+            for (const Voxel& voxel : voxels)
+                add(glm::u16vec4(voxel.x, voxel.y, voxel.z, voxel.material));
+        }
+    }
+
     [[nodiscard]] std::uint64_t digest() {
         flush();
         return XXH3_64bits_digest(state_.get());
@@ -82,12 +96,7 @@ void add_models(Hasher& hasher, const std::vector<VoxelModel>& models) {
     for (const VoxelModel& model : models) {
         hasher.add(model.size);
         hasher.add(std::uint64_t{model.voxels.size()});
-        for (const Voxel& voxel : model.voxels) {
-            hasher.add(voxel.x);
-            hasher.add(voxel.y);
-            hasher.add(voxel.z);
-            hasher.add(voxel.material);
-        }
+        hasher.add_voxels(model.voxels);
     }
 }
 

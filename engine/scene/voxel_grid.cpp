@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/assert.h"
@@ -31,12 +32,15 @@ glm::ivec3 block_of_key(std::uint64_t key) {
 // A voxel's coordinates inside a model are 16 bits.
 constexpr int kModelSide = 1 << 16;
 
-// The cells of one model.
-struct Part {
-    Box box;
-    std::size_t voxel_count = 0;
-    std::size_t model = 0;
-};
+// Calls visit(position inside the block, material) for its voxels, x fastest.
+template <class Block, class Visit>
+void for_each_voxel(const Block& block, const Visit& visit) {
+    std::size_t i = 0;
+    for (const std::uint16_t material : block) {
+        if (material <= kMaxGridMaterial) visit(glm::ivec3(i & 7, (i >> 3) & 7, i >> 6), material);
+        ++i;
+    }
+}
 
 }  // namespace
 
@@ -99,45 +103,44 @@ void VoxelGrid::append_to(Scene& scene, const std::string& name) const {
     glm::ivec3 first_block(std::numeric_limits<int>::max());
     for (const std::uint64_t key : keys)
         first_block = glm::min(first_block, block_of_key(key));
-    std::map<std::tuple<int, int, int>, Part> parts;
-    const auto part_of = [&](std::uint64_t key) -> Part& {
+    std::map<std::tuple<int, int, int>, std::vector<std::uint64_t>> tiles;
+    for (const std::uint64_t key : keys) {
         const glm::ivec3 tile = (block_of_key(key) - first_block) / (kModelSide / kSide);
-        return parts[{tile.z, tile.y, tile.x}];
-    };
-    const auto for_each_cell = [&](std::uint64_t key, const auto& visit) {
+        tiles[{tile.z, tile.y, tile.x}].push_back(key);
+    }
+    for (const auto& [tile, tile_keys] : tiles)
+        append_model(scene, name, tile_keys);
+}
+
+void VoxelGrid::append_model(Scene& scene, const std::string& name,
+                             std::span<const std::uint64_t> keys) const {
+    Box box;
+    std::size_t voxel_count = 0;
+    for (const std::uint64_t key : keys) {
         const glm::ivec3 corner = block_of_key(key) * kSide;
-        std::size_t i = 0;
-        for (const std::uint16_t material : *blocks_.at(key)) {
-            if (material != kEmpty) visit(corner + glm::ivec3(i & 7, (i >> 3) & 7, i >> 6), material);
-            ++i;
-        }
-    };
+        glm::ivec3 lo(kSide), hi(0);
+        for_each_voxel(*blocks_.at(key), [&](glm::ivec3 v, std::uint16_t) {
+            lo = glm::min(lo, v);
+            hi = glm::max(hi, v + 1);
+            ++voxel_count;
+        });
+        box = united(box, {corner + lo, corner + hi});
+    }
+    if (voxel_count == 0) return;
+    VoxelModel model{.name = name, .size = box.hi - box.lo};
+    model.voxels.reserve(voxel_count);
     for (const std::uint64_t key : keys) {
-        Part& part = part_of(key);
-        for_each_cell(key, [&](glm::ivec3 cell, std::uint16_t) {
-            part.box = united(part.box, {cell, cell + 1});
-            ++part.voxel_count;
+        const glm::ivec3 corner = block_of_key(key) * kSide - box.lo;
+        for_each_voxel(*blocks_.at(key), [&](glm::ivec3 v, std::uint16_t material) {
+            v += corner;
+            model.voxels.push_back({static_cast<std::uint16_t>(v.x), static_cast<std::uint16_t>(v.y),
+                                    static_cast<std::uint16_t>(v.z), material});
         });
     }
-    for (auto& [tile, part] : parts) {
-        if (part.voxel_count == 0) continue;
-        part.model = scene.models.size();
-        VoxelModel& model =
-            scene.models.emplace_back(VoxelModel{.name = name, .size = part.box.hi - part.box.lo});
-        model.voxels.reserve(part.voxel_count);
-        // With the pivot at size / 2, voxel v lands on box.lo + v.
-        scene.instances.push_back({.model = checked_cast<std::uint32_t>(part.model, "model index"),
-                                   .translation = part.box.lo + model.size / 2});
-    }
-    for (const std::uint64_t key : keys) {
-        const Part& part = part_of(key);
-        for_each_cell(key, [&](glm::ivec3 cell, std::uint16_t material) {
-            const glm::ivec3 v = cell - part.box.lo;
-            scene.models[part.model].voxels.push_back({static_cast<std::uint16_t>(v.x),
-                                                       static_cast<std::uint16_t>(v.y),
-                                                       static_cast<std::uint16_t>(v.z), material});
-        });
-    }
+    // With the pivot at size / 2, voxel v lands on box.lo + v.
+    scene.instances.push_back({.model = checked_cast<std::uint32_t>(scene.models.size(), "model index"),
+                               .translation = box.lo + model.size / 2});
+    scene.models.push_back(std::move(model));
 }
 
 }  // namespace voxilux

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -16,6 +17,9 @@ namespace voxilux {
 
 // No cell of a grid lies further from the origin on any axis: 2^20 blocks of 8.
 inline constexpr int kMaxGridCoordinate = 1 << 23;
+
+// The largest material index that a grid can hold.
+inline constexpr std::uint16_t kMaxGridMaterial = 0xFFFE;
 
 // A sparse grid of cells that shapes are drawn into: each holds a material index or nothing. Memory: 1 KiB
 // for each block of 8^3 cells that has ever held a voxel.
@@ -43,12 +47,10 @@ class VoxelGrid {
 
     [[nodiscard]] const Block* find(glm::ivec3 block) const;
     [[nodiscard]] std::vector<std::uint64_t> sorted_keys() const;
+    void append_model(Scene& scene, const std::string& name, std::span<const std::uint64_t> keys) const;
 
     std::unordered_map<std::uint64_t, std::unique_ptr<Block>> blocks_;
     glm::ivec2 z_blocks_{0};  // half-open range of the blocks' z
 };
-
-// The largest material index that a grid can hold.
-inline constexpr std::uint16_t kMaxGridMaterial = 0xFFFE;
 
 }  // namespace voxilux
