@@ -3,12 +3,63 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "base/error.h"
 #include "support/device_fixture.h"
 
 namespace voxilux {
 namespace {
+
+// Sets a variable of the environment for as long as it lives.
+class ScopedVariable {
+  public:
+    ScopedVariable(const char* name, const char* value) : name_(name) {
+        const char* known = std::getenv(name);
+        if (known != nullptr) before_ = known;
+        had_value_ = known != nullptr;
+        ::setenv(name, value, 1);
+    }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+    ~ScopedVariable() {
+        if (had_value_) {
+            ::setenv(name_, before_.c_str(), 1);
+        } else {
+            ::unsetenv(name_);
+        }
+    }
+
+  private:
+    const char* name_;
+    std::string before_;
+    bool had_value_ = false;
+};
+
+// The line of the Error(no_device) that opening ends in.
+std::string no_device_line(const DeviceRequest& request) {
+    try {
+        (void)open_device(request);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::no_device);
+        return error.what();
+    }
+    ADD_FAILURE() << "a device was opened";
+    return "";
+}
+
+TEST(Device, machine_without_drivers_is_told_what_to_install) {
+    const ScopedVariable old_name("VK_ICD_FILENAMES", "/dev/null");
+    const ScopedVariable new_name("VK_DRIVER_FILES", "/dev/null");
+    EXPECT_NE(no_device_line({}).find("mesa-vulkan-drivers"), std::string::npos);
+    EXPECT_THROW((void)list_devices(), Error);
+}
+
+TEST(Device, missing_validation_layer_is_told) {
+    const ScopedVariable layers("VK_LAYER_PATH", "/dev/null");
+    EXPECT_NE(no_device_line({.validation = true}).find("vulkan-validationlayers"), std::string::npos);
+    EXPECT_NO_THROW((void)open_device({}));
+}
 
 TEST(Device, list_names_each_device_and_marks_the_one_to_use) {
     const std::vector<DeviceInfo> devices = list_devices();
