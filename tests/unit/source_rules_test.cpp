@@ -1,0 +1,166 @@
+// Rules of the source text that no compiler checks.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/source_tree.h"
+
+namespace voxilux {
+namespace {
+
+using test::SourceFile;
+
+// Blocks that shaders both read and write, and why.
+const std::map<std::string, std::string> kReadAndWritten = {
+    {"Tally", "atomic counters"},
+    {"Sums", "film_add adds to what is there; each sum belongs to one invocation"},
+    {"Counts", "a probe that counts its invocations with atomics"},
+    {"Unused", "a probe of reflection: a block that the shader never touches"},
+};
+
+std::vector<std::string> undeclared_access(const SourceFile& file) {
+    const std::regex block(R"((.*)\bbuffer\s+(\w+)\s*\{?.*)");
+    std::vector<std::string> faults;
+    for (const std::string& line : test::lines_of(file.text)) {
+        std::smatch match;
+        if (line.find("layout(") == std::string::npos || !std::regex_match(line, match, block)) continue;
+        const std::string before = match[1];
+        const bool declared =
+            before.find("readonly") != std::string::npos || before.find("writeonly") != std::string::npos;
+        if (!declared && !kReadAndWritten.contains(match[2])) faults.push_back(file.path + ": " + line);
+    }
+    return faults;
+}
+
+// Two places that somebody has to keep equal by hand.
+std::vector<std::string> hand_kept_copies(const SourceFile& file) {
+    const std::regex phrase("(must|should) match|in sync", std::regex::icase);
+    std::vector<std::string> faults;
+    for (const std::string& line : test::lines_of(file.text)) {
+        if (std::regex_search(line, phrase)) faults.push_back(file.path + ": " + line);
+    }
+    return faults;
+}
+
+// Lines that a file may have.
+std::size_t longest_file(const std::string& path) {
+    if (path.starts_with("shaders/shared/")) return 250;
+    return path.ends_with(".comp") ? 120 : 500;
+}
+
+std::vector<std::string> long_files(const std::vector<SourceFile>& files) {
+    std::vector<std::string> faults;
+    for (const SourceFile& file : files) {
+        const std::size_t lines = test::lines_of(file.text).size();
+        if (lines > longest_file(file.path))
+            faults.push_back(file.path + " has " + std::to_string(lines) + " lines");
+    }
+    return faults;
+}
+
+// What the build asks the system for: names in find_package, pkg_check_modules and find_program.
+std::set<std::string> wanted_by(const SourceFile& file) {
+    const std::regex package(R"(^\s*find_package\((\w+).*)");
+    const std::regex module(R"(^\s*pkg_check_modules\(.*\s([\w.+-]+)\).*)");
+    const std::regex program(R"(^\s*find_program\(\w+\s+([\w.+-]+).*)");
+    std::set<std::string> names;
+    for (const std::string& line : test::lines_of(file.text)) {
+        std::smatch match;
+        for (const std::regex& request : {package, module, program}) {
+            if (std::regex_match(line, match, request)) names.insert(match[1]);
+        }
+    }
+    return names;
+}
+
+// Third and later columns of setup/packages.txt: what each package is there for.
+std::set<std::string> provided_by(const std::string& packages) {
+    std::set<std::string> names;
+    for (const std::string& line : test::lines_of(packages)) {
+        if (line.starts_with("#")) continue;
+        std::istringstream words(line);
+        std::string word;
+        for (int column = 0; words >> word; ++column) {
+            if (column >= 2) names.insert(word);
+        }
+    }
+    return names;
+}
+
+std::vector<std::string> unprovided(const std::vector<SourceFile>& files, const std::string& packages) {
+    const std::set<std::string> provided = provided_by(packages);
+    std::vector<std::string> faults;
+    for (const SourceFile& file : files) {
+        for (const std::string& name : wanted_by(file)) {
+            if (name != "Threads" && !provided.contains(name))  // Threads is the C library
+                faults.push_back(file.path + " wants " + name);
+        }
+    }
+    return faults;
+}
+
+TEST(ShaderBlocks, each_is_readonly_or_writeonly_or_has_a_reason) {
+    const std::vector<SourceFile> files = test::source_files("shaders", {".comp", ".glsl", ".h"});
+    ASSERT_GT(files.size(), 20u);
+    for (const SourceFile& file : files)
+        EXPECT_EQ(test::joined(undeclared_access(file)), "");
+}
+
+TEST(ShaderBlocks, block_without_access_is_found) {
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) readonly buffer A {\n"}).size(), 0u);
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer Tally {\n"}).size(), 0u);
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer A {\n"}).size(), 1u);
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer A { uint readonly_words[]; };\n"}).size(),
+              1u);
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) coherent buffer A\n{\n"}).size(), 1u);
+}
+
+TEST(SourceText, nothing_is_kept_equal_by_hand) {
+    for (const SourceFile& file : test::all_code()) {
+        if (file.path.ends_with("source_rules_test.cpp")) continue;  // it names the phrases
+        EXPECT_EQ(test::joined(hand_kept_copies(file)), "");
+    }
+}
+
+TEST(SourceText, copy_kept_by_hand_is_found) {
+    EXPECT_EQ(hand_kept_copies({"a.h", "// Must match gpu_types.h\n"}).size(), 1u);
+    EXPECT_EQ(hand_kept_copies({"a.h", "// keep in sync with the shader\n"}).size(), 1u);
+    EXPECT_EQ(hand_kept_copies({"a.h", "// the matching state\n"}).size(), 0u);
+}
+
+TEST(SourceText, files_stay_short) {
+    EXPECT_EQ(test::joined(long_files(test::all_code())), "");
+}
+
+TEST(SourceText, long_file_is_found) {
+    const auto lines = [](std::size_t count) { return std::string(count, '\n'); };
+    EXPECT_EQ(long_files({{"engine/a.cpp", lines(500)}, {"shaders/shared/a.h", lines(250)}}).size(), 0u);
+    EXPECT_EQ(long_files({{"engine/a.cpp", lines(501)}, {"shaders/shared/a.h", lines(251)}}).size(), 2u);
+    EXPECT_EQ(long_files({{"shaders/passes/a.comp", lines(121)}}).size(), 1u);
+}
+
+TEST(Packages, everything_the_build_looks_for_is_installed) {
+    const std::string packages = test::read_text(VX_SOURCE_DIR "/setup/packages.txt");
+    EXPECT_EQ(test::joined(unprovided(test::all_code(), packages)), "");
+}
+
+TEST(Packages, request_without_a_package_is_found) {
+    const std::string packages =
+        "# libghost-dev picture ghost\nlibfmt-dev picture fmt\nlibstb-dev picture stb\n";
+    const auto missing = [&](const std::string& line) {
+        return unprovided({{"CMakeLists.txt", line}}, packages).size();
+    };
+    EXPECT_EQ(missing("find_package(fmt REQUIRED)\n"), 0u);
+    EXPECT_EQ(missing("find_package(ghost REQUIRED)\n"), 1u);
+    EXPECT_EQ(missing("  pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)\n"), 0u);
+    EXPECT_EQ(missing("pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)\n"), 1u);
+    EXPECT_EQ(missing("find_program(GLSLANG glslangValidator REQUIRED)\n"), 1u);
+}
+
+}  // namespace
+}  // namespace voxilux
