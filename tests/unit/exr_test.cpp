@@ -252,7 +252,7 @@ TEST(ExrRead, damaged_bytes_give_an_image_or_a_refusal) {
     const ScratchFolder folder;
     const std::vector<std::byte> good = bytes_of(folder, sample_image(6, 5), {});
     int refused = 0;
-    for (std::uint32_t trial = 0; trial < 1000; ++trial) {
+    for (std::uint32_t trial = 0; trial < 300; ++trial) {
         std::vector<std::byte> bytes = good;
         for (std::uint32_t k = 0; k <= trial % 4; ++k) {
             const std::uint32_t h = test::hash32(trial * 4 + k);
@@ -267,7 +267,7 @@ TEST(ExrRead, damaged_bytes_give_an_image_or_a_refusal) {
             ++refused;
         }
     }
-    EXPECT_GT(refused, 50);
+    EXPECT_GT(refused, 20);
 }
 
 TEST(ExrRead, window_that_the_file_cannot_fill_is_refused) {
