@@ -63,6 +63,8 @@ struct RenderPlan {
     std::vector<PlannedBuffer> buffers;
     std::vector<std::string> notes;  // what the picture will lack, one line each
 
+    bool operator==(const RenderPlan&) const = default;
+
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {

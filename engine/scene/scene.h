@@ -118,6 +118,8 @@ struct RenderSettings {
     float ao_radius = 32.0f;    // voxels
     std::uint32_t seed = 0;
     Sequence sequence = Sequence::sobol;
+
+    bool operator==(const RenderSettings&) const = default;
 };
 
 // All that a picture depends on, as plain data.

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "plan/effects.h"
+
+namespace voxilux {
+namespace {
+
+// A scene that calls for everything.
+SceneFacts rich() {
+    SceneFacts facts;
+    facts.voxel_count = 7;
+    facts.sphere_count = 2;
+    facts.has_voxels = facts.has_spheres = facts.sun_reaches = facts.has_sky = facts.has_emitters = true;
+    return facts;
+}
+
+SceneFacts without(bool SceneFacts::*need) {
+    SceneFacts facts = rich();
+    facts.*need = false;
+    return facts;
+}
+
+SceneFacts without_surfaces() {
+    SceneFacts facts = without(&SceneFacts::has_voxels);
+    facts.has_spheres = false;
+    return facts;
+}
+
+EffectState state(Effect effect, const SceneFacts& facts, Switch choice = Switch::automatic,
+                  bool wants_aov = true) {
+    EffectRequest request{.wants_aov = wants_aov};
+    if (choice != Switch::automatic) request.switches[effect] = choice;
+    return decide_effects(facts, request)[static_cast<std::size_t>(effect)];
+}
+
+struct Row {
+    std::string name;
+    EffectState got;
+    bool on;
+    std::string reason;
+};
+
+TEST(Effects, every_row_gives_its_reason) {
+    const std::vector<Row> rows = {
+        {"voxels needed", state(Effect::voxels, rich()), true, "7 voxels"},
+        {"voxels", state(Effect::voxels, without(&SceneFacts::has_voxels)), false, "the scene has no voxels"},
+        {"spheres needed", state(Effect::spheres, rich()), true, "2 analytic spheres"},
+        {"spheres", state(Effect::spheres, without(&SceneFacts::has_spheres)), false,
+         "the scene has no analytic spheres"},
+        {"ao needed", state(Effect::ao, rich()), true, "surfaces see the sky"},
+        {"ao black", state(Effect::ao, without(&SceneFacts::has_sky)), false,
+         "the sky is black: there is no light to occlude"},
+        {"ao nothing", state(Effect::ao, without_surfaces()), false, "nothing casts or receives occlusion"},
+        {"sun needed", state(Effect::sun, rich()), true, "the sun is above the horizon"},
+        {"sun out", state(Effect::sun, without(&SceneFacts::sun_reaches)), false,
+         "the sun is off, black or not above the horizon"},
+        {"sun nothing", state(Effect::sun, without_surfaces()), false, "there is nothing to light"},
+        {"sky needed", state(Effect::sky, rich()), true, "constant sky radiance"},
+        {"sky", state(Effect::sky, without(&SceneFacts::has_sky)), false, "the sky is black"},
+        {"emission needed", state(Effect::emission, rich()), true,
+         "emissive materials are seen directly; they do not light others yet"},
+        {"emission", state(Effect::emission, without(&SceneFacts::has_emitters)), false,
+         "no used material emits"},
+        {"aov needed", state(Effect::aov, rich()), true, "the output is an EXR"},
+        {"aov", state(Effect::aov, rich(), Switch::automatic, false), false, "the output holds colour only"},
+    };
+    for (const Row& row : rows) {
+        EXPECT_EQ(row.got.on, row.on) << row.name;
+        EXPECT_EQ(row.got.reason, row.reason) << row.name;
+    }
+}
+
+TEST(Effects, rows_are_in_the_order_of_the_enumerators) {
+    const EffectStates states = decide_effects(rich(), {});
+    for (std::size_t i = 0; i < kEffectCount; ++i) {
+        EXPECT_EQ(states[i].effect, static_cast<Effect>(i));
+        EXPECT_EQ(effect_named(name_of(static_cast<Effect>(i))), static_cast<Effect>(i));
+    }
+}
+
+TEST(Effects, needed_effect_switched_off_says_who_did_it_and_what_it_was_for) {
+    const EffectState ao = state(Effect::ao, rich(), Switch::off);
+    EXPECT_FALSE(ao.on);
+    EXPECT_EQ(ao.reason, "switched off by the user (surfaces see the sky)");
+}
+
+TEST(Effects, unneeded_effect_switched_on_runs_and_says_so) {
+    const EffectState ao = state(Effect::ao, without(&SceneFacts::has_sky), Switch::on);
+    EXPECT_TRUE(ao.on);
+    EXPECT_EQ(ao.reason, "switched on by the user, though the sky is black: there is no light to occlude");
+}
+
+TEST(Effects, impossible_effect_cannot_be_switched_on) {
+    const SceneFacts nothing;
+    for (std::size_t i = 0; i < kEffectCount; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        if (effect == Effect::aov) continue;  // always possible
+        EXPECT_EQ(state(effect, nothing, Switch::on), state(effect, nothing)) << name_of(effect);
+        EXPECT_FALSE(state(effect, nothing, Switch::on).on) << name_of(effect);
+    }
+}
+
+TEST(Effects, impossible_effect_switched_off_keeps_the_scene_as_its_reason) {
+    EXPECT_EQ(state(Effect::voxels, SceneFacts{}, Switch::off).reason, "the scene has no voxels");
+}
+
+TEST(Effects, unknown_effect_is_a_usage_error_that_names_the_known_ones) {
+    try {
+        (void)effect_named("shadows");
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::usage);
+        EXPECT_STREQ(
+            error.what(),
+            "--effect: there is no effect 'shadows'; known are voxels, spheres, ao, sun, sky, emission, aov");
+    }
+}
+
+}  // namespace
+}  // namespace voxilux
