@@ -163,8 +163,14 @@ void read_old_material(VoxReading& reading, VoxBytes& in) {
     VoxOldMaterial material{.id = in.i32("id"), .type = in.i32("type")};
     material.weight = read_finite(reading, in, "weight");
     material.present = in.u32("property bits");
-    for (std::uint32_t bits = material.present & kValueBits; bits != 0; bits &= bits - 1)
+    for (std::uint32_t bits = material.present & kValueBits; bits != 0; bits &= bits - 1) {
+        if (in.left() < 4) {
+            reading.warn(in.offset(),
+                         fmt::format("MATT {} has fewer values than property bits", material.id));
+            break;
+        }
         material.values.push_back(read_finite(reading, in, "property"));
+    }
     reading.file.old_materials.push_back(std::move(material));
 }
 

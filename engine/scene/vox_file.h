@@ -118,7 +118,7 @@ struct VoxOldMaterial {  // MATT, the materials of files before 0.99
     float weight = 1.0f;    // finite
     std::uint32_t present =
         0;  // bits 0-6: which of plastic, roughness, specular, ior, attenuation, power, glow follow
-    std::vector<float> values;  // one for each of these bits, finite
+    std::vector<float> values;  // one for each of these bits, or fewer; finite
 
     bool operator==(const VoxOldMaterial&) const = default;
 };

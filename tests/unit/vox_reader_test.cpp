@@ -212,6 +212,8 @@ const Repaired kRepaired[] = {
     {"lone SIZE", kModel + size_chunk(2, 2, 2), "the last SIZE has no XYZI"},
     {"PACK lies", chunk("PACK", i32(3)) + kModel, "PACK says 3 models, the file has 1"},
     {"nothing", "", "no models"},
+    {"short MATT", kModel + chunk("MATT", i32(9) + i32(1) + f32(1) + u32(0x7f) + f32(1)),
+     "MATT 9 has fewer values than property bits"},
     {"long RGBA", kModel + chunk("RGBA", std::string(1028, 'x')), "'RGBA' has 4 spare bytes"},
     {"children of SIZE", chunk("SIZE", i32(1) + i32(1) + i32(1), "abc") + voxels_chunk({}),
      "'SIZE' has 3 bytes of children"},
