@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "film/error_estimate.h"
 #include "film/film.h"
 #include "film/image.h"
 #include "plan/render_plan.h"

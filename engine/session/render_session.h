@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "film/error_estimate.h"
 #include "film/film.h"
 #include "film/image.h"
 #include "plan/render_plan.h"
