@@ -4,7 +4,6 @@ set -eu
 cd "$(dirname "$0")"
 . setup/steps.sh
 
-fuzz_seconds=60
 case "$*" in
     '') chosen=--label-exclude ;;
     --nightly) chosen=--label-regex ;;
@@ -31,7 +30,7 @@ check() {
 }
 
 check_format() {
-    find engine shaders tools tests -name '*.h' -o -name '*.cpp' | xargs clang-format-14 --dry-run --Werror
+    find engine shaders tools tests fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format-14 --dry-run --Werror
 }
 
 run_tests() {
@@ -41,6 +40,8 @@ run_tests() {
 check "format (clang-format-14 -i mends it)" check_format
 build asan unit_tests
 check "unit tests under sanitizers" run_tests build/asan unit
+build fuzz vox_fuzz
+check "fuzzing" run_tests build/fuzz fuzz
 build release
 check "all tests" run_tests build/release .
 [ -z "$failed" ] || lack "failed: $failed"
