@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -18,15 +19,11 @@ namespace {
 
 constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;  // a person's file is a thousandth of it
 
-// One line, as every message of ours.
 toml::table parse_toml(std::string_view text, const std::string& path) {
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
-        std::string what(error.description());
-        std::ranges::replace_if(
-            what, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
-        refuse_at(error.source(), what);
+        refuse_at(error.source(), std::string(error.description()));
     }
 }
 
@@ -36,8 +33,8 @@ toml::table parse_override(const std::string& option) {
     const std::string path = "-D " + option;
     const std::size_t equals = option.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{}: must be key=value, for example sun.elevation=10", path));
+        refuse_at({{}, {}, std::make_shared<const std::string>(path)},
+                  "must be key=value, for example sun.elevation=10");
     const std::string key = option.substr(0, equals), value = option.substr(equals + 1);
     try {
         return toml::parse(key + " = " + value, path);

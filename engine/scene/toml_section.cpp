@@ -1,6 +1,7 @@
 #include "scene/toml_section.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -44,7 +45,11 @@ std::string place_of(const toml::source_region& source) {
 }
 
 void refuse_at(const toml::source_region& source, const std::string& what) {
-    throw Error(ExitCode::input_refused, fmt::format("{}: {}", place_of(source), what));
+    std::string message = fmt::format("{}: {}", place_of(source), what);
+    // One line, whatever the file or the option holds.
+    std::ranges::replace_if(
+        message, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
+    throw Error(ExitCode::input_refused, message);
 }
 
 TomlSection::TomlSection(const toml::table& table, std::string name, std::span<const std::string_view> keys)
