@@ -54,15 +54,16 @@ VX_FN PlaneCount count_planes(TwoFloat time, float speed, int flip, float offset
     const TwoFloat start = two_sum(float(-flip), -offset);
     const TwoFloat passed = tf_add(moved, start);
     PlaneCount count;
-    const float whole = floor(passed.hi);
+    const float whole = floor(min(passed.hi, kFarthestPlanes));
     VX_PRECISE float rest = (passed.hi - whole) + passed.lo;
     count.whole = int(whole) + (rest < 0.0f ? -1 : 0) + (rest >= 1.0f ? 1 : 0);
     count.rest = clamp(rest < 0.0f ? rest + 1.0f : (rest >= 1.0f ? rest - 1.0f : rest), 0.0f, 1.0f);
     return count;
 }
 
+// Time at which an axis has crossed `planes` planes: below 0, and so never the latest, when it has none to cross.
 VX_FN TwoFloat entry_time(int planes, int flip, float offset, float speed) {
-    if (planes <= 0) return two_float(0.0f, 0.0f);
+    if (planes <= 0) return two_float(-1.0f, 0.0f);
     return tf_div(two_sum(float(planes + flip), offset), two_float(speed, 0.0f));
 }
 
@@ -98,7 +99,7 @@ VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
         t = tz;
         axis = 2;
     }
-    entry.enters = !stuck && t.hi < kFarthestEntry && t.hi < ray.t_max;
+    entry.enters = !stuck && t.hi >= 0.0f && t.hi < kFarthestEntry && t.hi < ray.t_max;
     if (!entry.enters) return entry;
     PlaneCount nx = count_planes(t, axes.speed.x, axes.flip.x, axes.offset.x);
     PlaneCount ny = count_planes(t, axes.speed.y, axes.flip.y, axes.offset.y);

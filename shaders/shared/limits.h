@@ -37,6 +37,9 @@ VX_CONST(float, kUnbounded, 3.0e38f);
 
 // Rays that reach the world later than this many voxels count as misses: beyond it two_float.h leaves its domain.
 VX_CONST(float, kFarthestEntry, 1.099511627776e12f);  // 2^40
+// Planes that a ray has crossed when it reaches the world are counted up to here: more do not fit an int, and a ray
+// that has crossed as many is beside every world.
+VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 
 // Depth of a pixel where the camera sees no surface, in voxels: finite, and beyond every scene.
 VX_CONST(float, kMissDepth, 1.0e10f);

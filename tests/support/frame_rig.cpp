@@ -1,0 +1,97 @@
+#include "support/frame_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "frame/frame.h"
+#include "passes/upload.h"
+#include "plan/film_planes.h"
+
+namespace voxilux::test {
+namespace {
+
+template <class T>
+std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
+    const auto found = result.readbacks.find(buffer);
+    if (found == result.readbacks.end()) return {};
+    std::vector<T> values(found->second.size() / sizeof(T));
+    std::memcpy(values.data(), found->second.data(), values.size() * sizeof(T));
+    return values;
+}
+
+Slice slice_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t rows) {
+    const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
+    return {.first_row = first_row, .row_count = std::min(rows, height - first_row)};
+}
+
+}  // namespace
+
+FrameRig::FrameRig(const Scene& scene, Executor& executor)
+    : executor_(executor),
+      prepared_(prepare_scene(scene, {.effects = {.wants_aov = true}}, test_device().limits())),
+      params_(frame_params(prepared_.plan, scene, prepared_.naadf)) {
+    EXPECT_EQ(prepared_.plan.band_count, 1u) << "a rig renders pictures of one band";
+    Recording recording;
+    record_scene_upload(prepared_.plan, scene, prepared_.naadf, recording);
+    record_film_clear(prepared_.plan, recording);
+    executor_.run(recording);
+}
+
+FramePlanes FrameRig::render(std::uint32_t sample) {
+    Recording recording;
+    record_frame(prepared_.plan, slice_of(prepared_.plan, 0, prepared_.plan.band_rows), params_, sample,
+                 recording);
+    const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
+    for (const std::string& buffer : {hits, std::string("ao.open"), std::string("sun.lit"),
+                                      std::string("shade.color"), std::string("tally")}) {
+        if (recording.find(buffer) != nullptr) recording.readback(buffer);
+    }
+    const RunResult result = executor_.run(recording);
+    FramePlanes planes{.hits = values_of<gpu::Hit>(result, hits),
+                       .ao = values_of<float>(result, "ao.open"),
+                       .sun = values_of<float>(result, "sun.lit"),
+                       .color = values_of<glm::vec3>(result, "shade.color")};
+    const std::vector<gpu::uint> tally = values_of<gpu::uint>(result, "tally");
+    std::copy_n(tally.begin(), planes.tally.size(), planes.tally.begin());
+    return planes;
+}
+
+void FrameRig::render_slices(std::uint32_t sample, std::uint32_t rows) {
+    const auto height = static_cast<std::uint32_t>(prepared_.plan.settings.size.y);
+    for (std::uint32_t row = 0; row < height; row += rows) {
+        Recording recording;
+        record_frame(prepared_.plan, slice_of(prepared_.plan, row, rows), params_, sample, recording);
+        executor_.run(recording);
+    }
+}
+
+std::vector<std::int64_t> FrameRig::film_sums(const std::string& plane) {
+    Recording recording;
+    const std::string buffer = use_buffer(prepared_.plan, film_buffer(plane, 0), recording);
+    recording.readback(buffer);
+    return values_of<std::int64_t>(executor_.run(recording), buffer);
+}
+
+FramePlanes render_first_sample(const Scene& scene) {
+    FramePlanes planes = FrameRig(scene).render(0);
+    for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
+        EXPECT_EQ(planes.tally[i], 0u) << "fault " << gpu::kTallyNames[i];
+    return planes;
+}
+
+RenderOutcome render_validated(const Scene& scene, RenderOptions options) {
+    std::vector<std::string> messages;
+    options.device.validation = true;
+    options.device.on_message = [&](std::string_view text) { messages.emplace_back(text); };
+    options.executor.poison_transients = true;
+    RenderOutcome outcome = render_scene(scene, options);
+    for (const std::string& text : messages)
+        ADD_FAILURE() << "validation message: " << text;
+    for (const auto& [name, count] : outcome.statistics.faults)
+        EXPECT_EQ(count, 0u) << "fault " << name;
+    return outcome;
+}
+
+}  // namespace voxilux::test

@@ -1,0 +1,58 @@
+#pragma once
+
+// Runs record_frame() on the test device and keeps what every pass wrote.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "plan/render_plan.h"
+#include "session/render_session.h"
+#include "shared/gpu_types.h"
+#include "shared/tally.h"
+#include "support/device_fixture.h"
+
+namespace voxilux::test {
+
+// What the passes of one sample wrote, [height][width]; empty where the plan has no such pass.
+struct FramePlanes {
+    std::vector<gpu::Hit> hits;
+    std::vector<float> ao;
+    std::vector<float> sun;
+    std::vector<glm::vec3> color;
+    std::array<gpu::uint, gpu::kTallyCount> tally{};
+};
+
+// A scene on a device, sample by sample. Persistent buffers go by name, so one rig at a time uses an
+// executor. The plan has one film band and every AOV.
+class FrameRig {
+  public:
+    explicit FrameRig(const Scene& scene, Executor& executor = test_executor());
+
+    // Renders the sample in one piece into the film.
+    FramePlanes render(std::uint32_t sample);
+
+    // Renders the sample in slices of `rows` rows into the film.
+    void render_slices(std::uint32_t sample, std::uint32_t rows);
+
+    // The exact sums of a film plane, interleaved components.
+    [[nodiscard]] std::vector<std::int64_t> film_sums(const std::string& plane);
+
+    [[nodiscard]] const RenderPlan& plan() const { return prepared_.plan; }
+    [[nodiscard]] const Naadf& naadf() const { return prepared_.naadf; }
+    [[nodiscard]] const gpu::FrameParams& params() const { return params_; }
+
+  private:
+    Executor& executor_;
+    PreparedScene prepared_;
+    gpu::FrameParams params_;
+};
+
+// The first sample of a scene on test_executor(). Fails the test when a fault was counted.
+[[nodiscard]] FramePlanes render_first_sample(const Scene& scene);
+
+// render_scene() under validation. Fails the test on any validation message, also those at the device's end,
+// and on any fault.
+[[nodiscard]] RenderOutcome render_validated(const Scene& scene, RenderOptions options = {});
+
+}  // namespace voxilux::test

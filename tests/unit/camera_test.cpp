@@ -1,0 +1,264 @@
+// camera.h against long double: where rays start, where they point, and where they enter the world.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+
+#include "support/march_oracle.h"
+#include "support/ray_families.h"
+#include "support/statistics.h"
+#include "world/naadf.h"
+// After the world's, which says how C++ reads it.
+#include "shared/camera.h"
+
+namespace voxilux {
+namespace {
+
+// Voxels. The header promises 2^-24 a million voxels away and 2^-21 at the farthest camera, 2^23 voxels away;
+// on top comes the rounding of the fraction, 2^-25.
+constexpr long double kEntryError = 0x1p-20L;
+// The length of a float direction after one division by a rounded root.
+constexpr double kLengthError = 2e-7;
+// Components of a direction, in units of its length: three products, two sums and the division.
+constexpr double kDirectionError = 4e-7;
+
+constexpr glm::ivec3 kSize(48, 32, 16);
+
+std::string print(const gpu::Ray& ray) {
+    return fmt::format("cell ({}, {}, {}) fraction ({}, {}, {}) direction ({}, {}, {})", ray.cell.x,
+                       ray.cell.y, ray.cell.z, ray.fraction.x, ray.fraction.y, ray.fraction.z,
+                       ray.direction.x, ray.direction.y, ray.direction.z);
+}
+
+using Long3 = std::array<long double, 3>;
+
+struct TrueEntry {
+    long double t = 0.0L;
+    long double slack = 0.0L;  // how long the ray stays in the world, negative for a miss
+    Long3 position{};
+};
+
+TrueEntry true_entry(const gpu::Ray& ray, glm::ivec3 size) {
+    TrueEntry entry;
+    long double leave = INFINITY;
+    Long3 origin{};
+    for (int a = 0; a < 3; ++a) {
+        const auto axis = static_cast<std::size_t>(a);
+        origin[axis] = static_cast<long double>(ray.cell[a]) + static_cast<long double>(ray.fraction[a]);
+        const auto d = static_cast<long double>(ray.direction[a]);
+        const auto top = static_cast<long double>(size[a]);
+        if (std::abs(ray.direction[a]) < gpu::kMinDirection) {
+            if (ray.cell[a] < 0 || ray.cell[a] >= size[a]) leave = -INFINITY;
+            continue;
+        }
+        entry.t = std::max(entry.t, ((d > 0 ? 0.0L : top) - origin[axis]) / d);
+        leave = std::min(leave, ((d > 0 ? top : 0.0L) - origin[axis]) / d);
+    }
+    entry.slack = leave - entry.t;
+    for (std::size_t a = 0; a < 3; ++a)
+        entry.position[a] =
+            origin[a] + entry.t * static_cast<long double>(ray.direction[static_cast<int>(a)]);
+    return entry;
+}
+
+long double position_error(const gpu::Ray& ray, const Long3& truth) {
+    long double worst = 0.0L;
+    for (int a = 0; a < 3; ++a) {
+        const long double p =
+            static_cast<long double>(ray.cell[a]) + static_cast<long double>(ray.fraction[a]);
+        worst = std::max(worst, std::abs(p - truth[static_cast<std::size_t>(a)]));
+    }
+    return worst;
+}
+
+void expect_true_entry(const gpu::Ray& ray) {
+    const gpu::WorldEntry entry = gpu::enter_world(ray, kSize);
+    const TrueEntry truth = true_entry(ray, kSize);
+    // A ray that only touches the border may count as a hit or a miss.
+    if (std::abs(truth.slack) > 4.0L * kEntryError) {
+        ASSERT_EQ(entry.enters, truth.slack > 0.0L) << print(ray);
+    }
+    if (!entry.enters) return;
+    ASSERT_FALSE(gpu::is_outside(entry.ray.cell, kSize)) << print(ray);
+    ASSERT_LT(position_error(entry.ray, truth.position), kEntryError) << print(ray);
+    ASSERT_NEAR(static_cast<double>(entry.t), static_cast<double>(truth.t),
+                1e-7 * static_cast<double>(truth.t) + 1e-6);
+    ASSERT_EQ(entry.ray.direction, ray.direction);
+}
+
+glm::dvec3 random_unit(test::TestRandom& random) {
+    for (;;) {
+        const glm::dvec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        if (glm::length(v) > 0.1 && glm::length(v) < 1.0) return glm::normalize(v);
+    }
+}
+
+// A ray from `distance` away towards a point of the world or just beside it.
+gpu::Ray ray_from_afar(test::TestRandom& random, double distance) {
+    const glm::dvec3 target =
+        glm::dvec3(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)) +
+        glm::dvec3(kSize) * glm::dvec3(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    const glm::dvec3 origin = target - random_unit(random) * distance;
+    const glm::dvec3 cell = glm::floor(origin);
+    return {glm::ivec3(cell), glm::vec3(origin - cell), glm::vec3(glm::normalize(target - origin)),
+            gpu::kUnbounded};
+}
+
+TEST(EnterWorld, cameras_one_to_eight_million_voxels_away_enter_where_long_double_does) {
+    test::TestRandom random(31);
+    for (double distance = 1.0; distance <= 8388000.0; distance *= 1.5) {
+        for (int i = 0; i < 1500; ++i) {
+            expect_true_entry(ray_from_afar(random, distance));
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+// Starts on lattice planes, also of the border itself, with directions of small integers: ties of every kind.
+TEST(EnterWorld, starts_on_lattice_planes_around_the_border_enter_where_long_double_does) {
+    test::TestRandom random(32);
+    const auto integer = [&](int low, int high) {
+        return low + static_cast<int>(random.bits32() % static_cast<std::uint32_t>(high - low + 1));
+    };
+    for (int i = 0; i < 100000; ++i) {
+        gpu::Ray ray{.t_max = gpu::kUnbounded};
+        for (int a = 0; a < 3; ++a) {
+            const std::array<int, 6> cells = {
+                -1, 0, kSize[a] - 1, kSize[a], integer(-3, -1), integer(0, kSize[a])};
+            ray.cell[a] = cells[random.bits32() % cells.size()];
+            ray.fraction[a] = static_cast<float>(integer(0, 2)) * 0.5f;
+            ray.direction[a] = static_cast<float>(integer(-2, 2));
+        }
+        if (ray.direction == glm::vec3(0.0f)) continue;
+        expect_true_entry(ray);
+        if (HasFatalFailure()) return;
+    }
+}
+
+TEST(EnterWorld, ray_that_starts_inside_is_unchanged) {
+    const gpu::Ray ray{{47, 0, 15}, {1.0f, 0.0f, 0.5f}, {0.6f, -0.8f, 0.0f}, 5.0f};
+    const gpu::WorldEntry entry = gpu::enter_world(ray, kSize);
+    EXPECT_TRUE(entry.enters);
+    EXPECT_EQ(entry.t, 0.0f);
+    EXPECT_EQ(entry.ray.cell, ray.cell);
+    EXPECT_EQ(entry.ray.fraction, ray.fraction);
+    EXPECT_EQ(entry.ray.t_max, 5.0f);
+}
+
+TEST(EnterWorld, interval_that_ends_before_the_border_misses_and_a_longer_one_keeps_its_rest) {
+    gpu::Ray ray{{-8, 4, 4}, glm::vec3(0.5f), {1, 0, 0}, 7.5f};
+    EXPECT_FALSE(gpu::enter_world(ray, kSize).enters);
+    ray.t_max = 9.0f;
+    const gpu::WorldEntry entry = gpu::enter_world(ray, kSize);
+    EXPECT_TRUE(entry.enters);
+    EXPECT_EQ(entry.t, 7.5f);
+    EXPECT_EQ(entry.ray.t_max, 1.5f);
+    EXPECT_EQ(entry.ray.cell, glm::ivec3(0, 4, 4));
+    EXPECT_EQ(entry.ray.fraction, glm::vec3(0.0f, 0.5f, 0.5f));
+}
+
+// Far cells with directions that would reach the world only beyond every float integer, and bad ones.
+TEST(EnterWorld, hopeless_rays_miss_without_overflow) {
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const int far : {-8388607, 8388607}) {
+        for (const glm::vec3 direction :
+             {glm::vec3(1e-9f, 1, 0), glm::vec3(-1e-9f, 0.7f, 0.7f), glm::vec3(1e-18f, 1, 0),
+              glm::vec3(1e-5f, 1, 0), glm::vec3(1e-4f, 0.7f, -0.7f), glm::vec3(1, 1e-9f, 1e-30f),
+              glm::vec3(-0.0f, 0.0f, 1), glm::vec3(1, 1, 1)}) {
+            for (const float sign : {1.0f, -1.0f}) {
+                const gpu::Ray ray{{far, 7, 9}, glm::vec3(0.5f), sign * direction, gpu::kUnbounded};
+                const TrueEntry truth = true_entry(ray, kSize);
+                EXPECT_EQ(gpu::enter_world(ray, kSize).enters, truth.slack > 0.0L) << print(ray);
+            }
+        }
+        const gpu::Ray bad{{far, 7, 9}, glm::vec3(0.5f), glm::vec3(inf, 1, 0), gpu::kUnbounded};
+        EXPECT_EQ(gpu::enter_world(bad, kSize).t, 0.0f) << "left to the march, which counts it";
+    }
+}
+
+TEST(EnterWorld, oracle_rejects_an_entry_moved_by_a_millionth_of_a_voxel) {
+    test::TestRandom random(33);
+    int caught = 0;
+    int entered = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const gpu::Ray ray = ray_from_afar(random, 1e6);
+        gpu::WorldEntry entry = gpu::enter_world(ray, kSize);
+        if (!entry.enters) continue;
+        ++entered;
+        entry.ray.fraction += glm::vec3(2e-6f);
+        caught += position_error(entry.ray, true_entry(ray, kSize).position) >= kEntryError ? 1 : 0;
+    }
+    EXPECT_GT(entered, 500);
+    EXPECT_EQ(caught, entered);
+}
+
+gpu::FrameParams random_frame(test::TestRandom& random) {
+    gpu::FrameParams frame{};
+    frame.camera_cell = {3, -4, 5};
+    frame.camera_fraction = {0.25f, 0.5f, 0.75f};
+    const glm::dvec3 forward = random_unit(random);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, random_unit(random)));
+    const double half_height = std::exp(random.uniform(-8.0, 2.0));
+    frame.camera_forward = glm::vec3(forward);
+    frame.camera_right = glm::vec3(right * half_height * 1.5);
+    frame.camera_up = glm::vec3(glm::cross(right, forward) * half_height);
+    frame.width = 96;
+    frame.height = 64;
+    frame.sample_index = random.bits32();
+    frame.seed = random.bits32();
+    frame.sequence = random.bits32() % 3;
+    return frame;
+}
+
+// Coordinates on the image plane of a direction, in pixels, by the frame's own axes in double.
+glm::dvec2 pixel_of(const gpu::FrameParams& frame, glm::dvec3 direction) {
+    const glm::dvec3 forward(frame.camera_forward);
+    const glm::dvec3 right(frame.camera_right);
+    const glm::dvec3 up(frame.camera_up);
+    const glm::dvec3 on_plane = direction / glm::dot(direction, forward);
+    return {(glm::dot(on_plane, right) / glm::dot(right, right) + 1.0) * 0.5 * frame.width,
+            (1.0 - glm::dot(on_plane, up) / glm::dot(up, up)) * 0.5 * frame.height};
+}
+
+TEST(CameraRay, is_unit_starts_at_the_camera_and_passes_through_its_pixel) {
+    test::TestRandom random(34);
+    for (int i = 0; i < 20000; ++i) {
+        const gpu::FrameParams frame = random_frame(random);
+        const gpu::uint x = random.bits32() % frame.width;
+        const gpu::uint y = random.bits32() % frame.height;
+        const gpu::Ray ray = gpu::camera_ray(frame, x, y);
+        ASSERT_EQ(ray.cell, frame.camera_cell);
+        ASSERT_EQ(ray.fraction, frame.camera_fraction);
+        ASSERT_NEAR(glm::length(glm::dvec3(ray.direction)), 1.0, kLengthError);
+        const double half_height = glm::length(glm::dvec3(frame.camera_up));
+        // Pixels. A direction error of kDirectionError moves the point by that over the size of half a
+        // picture.
+        const double blur =
+            kDirectionError * (1.0 + half_height * half_height * 4.0) / half_height * frame.width;
+        const glm::dvec2 at = pixel_of(frame, glm::dvec3(ray.direction)) - glm::dvec2(x, y);
+        ASSERT_GT(std::min(at.x, at.y), -blur) << i;
+        ASSERT_LT(std::max(at.x, at.y), 1.0 + blur) << i;
+    }
+}
+
+TEST(CameraRay, samples_fill_the_pixel_evenly_in_every_sequence) {
+    test::TestRandom random(35);
+    for (const gpu::uint sequence : {gpu::kSequenceSobol, gpu::kSequenceHalton, gpu::kSequenceWhite}) {
+        gpu::FrameParams frame = random_frame(random);
+        frame.sequence = sequence;
+        constexpr int kSamples = 4096;
+        glm::dvec2 mean(0.0);
+        for (frame.sample_index = 0; frame.sample_index < kSamples; ++frame.sample_index)
+            mean += pixel_of(frame, glm::dvec3(gpu::camera_ray(frame, 17, 5).direction)) - glm::dvec2(17, 5);
+        mean /= kSamples;
+        // Five standard deviations of the mean of uniform numbers, white noise being the worst.
+        const double bound = 5.0 * std::sqrt(1.0 / 12.0 / kSamples);
+        EXPECT_NEAR(mean.x, 0.5, bound) << sequence;
+        EXPECT_NEAR(mean.y, 0.5, bound) << sequence;
+    }
+}
+
+}  // namespace
+}  // namespace voxilux
