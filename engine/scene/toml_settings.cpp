@@ -19,28 +19,20 @@ constexpr std::int64_t kMaxAoRays = 65535;
 constexpr double kMaxAoRadius = 65536.0;  // voxels
 constexpr double kMaxTurn = 3600.0;       // degrees; ten turns, for the sake of animations
 
-// The three ways to say where a camera is: nothing but a field of view, a preset, or a position.
 bool names_direction(const TomlSection& section) {
     return section.has("look_at") || section.has("yaw") || section.has("pitch");
 }
 
-void turn_camera(const TomlSection& section, const std::optional<glm::dvec3>& position, Camera& camera) {
-    constexpr Range kAnywhere{-kMaxCoordinate, kMaxCoordinate};
-    const auto look_at = section.numbers3("look_at", kAnywhere);
+Camera placed_camera(const TomlSection& section, glm::dvec3 position, double fov_y_deg) {
+    const auto look_at = section.numbers3("look_at", {-kMaxCoordinate, kMaxCoordinate});
     const auto yaw = section.number("yaw", {-kMaxTurn, kMaxTurn});
     const auto pitch = section.number("pitch", {-90.0, 90.0});
     if (look_at && (yaw || pitch))
         section.refuse("look_at", "excludes 'yaw' and 'pitch': give one or the other");
-    if (position && !look_at && !(yaw && pitch))
-        section.refuse("with 'position' needs 'look_at', or 'yaw' and 'pitch'");
-    if (look_at) {
-        if (*look_at == camera.position) section.refuse("look_at", "must differ from 'position'");
-        const YawPitch direction = yaw_pitch_of(*look_at - camera.position);
-        camera.yaw_deg = direction.yaw_deg;
-        camera.pitch_deg = direction.pitch_deg;
-    }
-    camera.yaw_deg = yaw.value_or(camera.yaw_deg);
-    camera.pitch_deg = pitch.value_or(camera.pitch_deg);
+    if (!look_at && !(yaw && pitch)) section.refuse("with 'position' needs 'look_at', or 'yaw' and 'pitch'");
+    if (look_at && *look_at == position) section.refuse("look_at", "must differ from 'position'");
+    const YawPitch direction = look_at ? yaw_pitch_of(*look_at - position) : YawPitch{*yaw, *pitch};
+    return {position, direction.yaw_deg, direction.pitch_deg, fov_y_deg};
 }
 
 Camera framing(const TomlScene& in, const TomlSection& section, View view, double fov_y_deg) {
@@ -109,22 +101,14 @@ void read_camera(TomlScene& in) {
     const auto fov = section.number("fov", {0.0, 180.0, true, true});
     const auto view = section.choice("preset", kViews);
     const auto position = section.numbers3("position", {-kMaxCoordinate, kMaxCoordinate});
-    std::optional<Camera>& camera = in.scene.camera;  // a .vox file may have brought one
-    if (view) {
-        if (position || names_direction(section))
-            section.refuse("preset", "excludes 'position', 'look_at', 'yaw' and 'pitch'");
-        camera = framing(in, section, static_cast<View>(*view), fov.value_or(kDefaultFovYDeg));
-    } else if (position || (camera && names_direction(section))) {
-        if (!camera) camera.emplace();
-        camera->position = position.value_or(camera->position);
-        turn_camera(section, position, *camera);
-        camera->fov_y_deg = fov.value_or(camera->fov_y_deg);
-    } else if (names_direction(section)) {
-        section.refuse("needs 'position' or 'preset'");
-    } else if (fov && camera) {
-        camera->fov_y_deg = *fov;
-    } else if (fov) {
-        camera = framing(in, section, View::three_quarter, *fov);
+    if (view && (position || names_direction(section)))
+        section.refuse("preset", "excludes 'position', 'look_at', 'yaw' and 'pitch'");
+    if (!position && names_direction(section)) section.refuse("needs 'position' or 'preset'");
+    if (position) {
+        in.scene.camera = placed_camera(section, *position, fov.value_or(kDefaultFovYDeg));
+    } else if (view || fov) {
+        const auto framed = static_cast<View>(view.value_or(static_cast<std::size_t>(View::three_quarter)));
+        in.scene.camera = framing(in, section, framed, fov.value_or(kDefaultFovYDeg));
     }
 }
 
