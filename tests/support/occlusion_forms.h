@@ -10,14 +10,13 @@
 
 namespace voxilux::test {
 
-// Midpoint rule with enough intervals for 1e-7, square-root ends included.
+// Midpoint rule; square-root ends included, 20,000 intervals are right to 1e-7 and 500 to 1e-4.
 template <class Function>
-double integrate(double from, double to, const Function& f) {
-    constexpr int kIntervals = 20000;
+double integrate(double from, double to, const Function& f, int intervals = 20000) {
     if (!(to > from)) return 0.0;
-    const double step = (to - from) / kIntervals;
+    const double step = (to - from) / intervals;
     double sum = 0.0;
-    for (int i = 0; i < kIntervals; ++i)
+    for (int i = 0; i < intervals; ++i)
         sum += f(from + (i + 0.5) * step);
     return sum * step;
 }
