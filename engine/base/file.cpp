@@ -34,12 +34,31 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
     return bytes;
 }
 
+namespace {
+
+// The file that a name stands for: what a link points to, so that the link stays a link.
+fs::path resolved(const fs::path& path) {
+    std::error_code failed;
+    const fs::path target = fs::canonical(path, failed);
+    return failed ? path : target;
+}
+
+// A device or a pipe cannot be replaced by a renamed file, only written to.
+bool is_written_in_place(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    fs::path temporary = path;
+    const fs::path target = resolved(path);
+    fs::path temporary = target;
     temporary += fmt::format(".{}.tmp", ::getpid());
     try {
+        if (is_written_in_place(target)) return write(target);
         write(temporary);
-        fs::rename(temporary, path);
+        fs::rename(temporary, target);
     } catch (const std::exception& cause) {
         std::error_code ignored;
         fs::remove(temporary, ignored);

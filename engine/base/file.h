@@ -14,7 +14,8 @@ namespace voxilux {
                                                std::size_t limit_bytes = std::size_t{8} << 30);
 
 // Calls `write` with a temporary name in the folder of `path`, then renames onto `path`: a reader sees the old
-// file or the whole new one, and a failure leaves nothing behind. Throws Error(cannot_write).
+// file or the whole new one, and a failure leaves nothing behind. A link stays a link; a device or a pipe is
+// written to directly. Throws Error(cannot_write).
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path& temporary)>& write);
 

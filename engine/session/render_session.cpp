@@ -131,16 +131,27 @@ class RenderRun {
 
     void report_progress(const Slice& slice, const std::function<void(const Progress&)>& on_progress) const {
         if (!on_progress) return;
-        const double rows = static_cast<double>(slice.first_row + slice.row_count);
-        const double samples = static_cast<double>(sample_) + rows / static_cast<double>(row_samples_.size());
-        Progress progress{.done = samples / static_cast<double>(plan_.settings.spp),
+        Progress progress{.done = share_done(slice),
                           .elapsed_s = seconds_since(start_),
                           .sample = sample_ + 1,
                           .error = last_error_};
         progress.remaining_s = progress.elapsed_s * (1.0 - progress.done) / progress.done;
-        if (options_.time_limit_s)
-            progress.remaining_s = std::min(progress.remaining_s, std::max(0.0, *options_.time_limit_s - progress.elapsed_s));
         on_progress(progress);
+    }
+
+    // The largest of three shares: of the samples; of the time limit; of the samples that the error target needs when
+    // the error falls with their square root.
+    double share_done(const Slice& slice) const {
+        const double rows = static_cast<double>(slice.first_row + slice.row_count);
+        const double samples = static_cast<double>(sample_) + rows / static_cast<double>(row_samples_.size());
+        double share = samples / static_cast<double>(plan_.settings.spp);
+        if (options_.time_limit_s) share = std::max(share, seconds_since(start_) / *options_.time_limit_s);
+        if (options_.error_target && last_error_) {
+            const std::uint32_t checked = statistics_.samples / kErrorCheckEvery * kErrorCheckEvery;
+            const double ratio = *options_.error_target / *last_error_;
+            share = std::max(share, samples / checked * ratio * ratio);
+        }
+        return std::min(share, 1.0);
     }
 
     const RenderOptions& options_;
@@ -162,10 +173,12 @@ void measure_process(RenderStatistics& statistics) {
     statistics.peak_rss_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Local coordinates of a scene without voxels are counted from its centre, so that spheres keep their precision.
-glm::ivec3 centre_of(const Scene& scene) {
+// Local coordinates of a scene without voxels are counted from its point nearest to the camera, so that even the top of
+// a sphere of radius 10^6 keeps its precision where it is seen.
+glm::ivec3 nearest_to_camera(const Scene& scene) {
     const Box box = scene_bounds(scene);
-    return box.empty() ? glm::ivec3(0) : glm::ivec3((glm::i64vec3(box.lo) + glm::i64vec3(box.hi)) / std::int64_t{2});
+    if (box.empty()) return glm::ivec3(0);
+    return glm::ivec3(glm::clamp(glm::floor(camera_of(scene).position), glm::dvec3(box.lo), glm::dvec3(box.hi)));
 }
 
 void warn_about_camera(const Scene& scene, const PreparedScene& prepared, std::vector<std::string>& warnings) {
@@ -183,7 +196,7 @@ PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, cons
     if (prepared.facts.has_voxels) {
         prepared.naadf = build_naadf(build_world(scene));
     } else {
-        prepared.naadf.origin = centre_of(scene);
+        prepared.naadf.origin = nearest_to_camera(scene);
         prepared.naadf.chunks = {0};
     }
     prepared.plan = plan_render(scene, prepared.facts, measure_world(prepared.naadf), request, limits);
@@ -192,7 +205,7 @@ PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, cons
 
 RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
                            const std::function<void(const Progress&)>& on_progress) {
-    const Clock::time_point start = Clock::now();
+    const Clock::time_point start = options.started;
     Device device = open_device(options.device);
     const PreparedScene prepared = prepare_scene(scene, options.plan, device.limits());
     const double load_s = seconds_since(start);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
@@ -24,10 +25,12 @@ struct RenderOptions {
     std::optional<double> time_limit_s;  // a whole first sample is finished all the same
     std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
     const std::atomic<bool>* interrupted = nullptr;
+    // From when times count, those of the report and the time limit: the loading of the scene may be part of it.
+    std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
 struct Progress {
-    double done = 0.0;         // [0,1], of the samples asked for
+    double done = 0.0;         // [0,1], by whatever is expected to end the render first
     double elapsed_s = 0.0;
     double remaining_s = 0.0;  // at the pace so far
     std::uint32_t sample = 0;
@@ -42,8 +45,8 @@ struct RenderStatistics {
     double wall_s = 0.0;
     double cpu_s = 0.0;
     double peak_rss_mib = 0.0;
-    double load_s = 0.0;         // world and structure on the CPU
-    double first_pixel_s = 0.0;  // from the start of the session to the end of the first slice
+    double load_s = 0.0;         // scene, world and structure, on the CPU
+    double first_pixel_s = 0.0;  // from RenderOptions::started to the end of the first slice; 0 when there is none
     double gpu_ms = 0.0;
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> work;

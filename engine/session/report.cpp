@@ -93,7 +93,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
         json["memory"].push_back({{"buffer", row.buffer}, {"bytes", row.bytes}});
     json["effects"] = effects_json(outcome.plan, &statistics);
     json["error"] = error_json(statistics.error);
-    json["forecast"] = nullptr;  // there is no pilot yet
+    json["forecast"] = {{"low_s", nullptr}, {"high_s", nullptr}};  // unknown: there is no pilot
     json["faults"] = statistics.faults;
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
@@ -116,7 +116,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["passes"] = planned_passes_json(plan);
     json["memory"] = planned_memory_json(plan);
     json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
-    json["forecast"] = nullptr;  // there is no pilot yet
+    json["forecast"] = {{"low_s", nullptr}, {"high_s", nullptr}};  // unknown: there is no pilot
     json["notes"] = plan.notes;
     return json;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -30,7 +31,7 @@ struct Comparison {
 Selection selection_of(const CompareOptions& options, const std::optional<Image>& mask) {
     Selection selection{.mask = mask ? &*mask : nullptr};
     if (options.box.empty()) return selection;
-    if (options.box.size() != 4) throw Error(ExitCode::usage, "--box needs four numbers: x0,y0,x1,y1");
+    VX_ASSERT_EQ(options.box.size(), 4u);
     selection.box = PixelBox{options.box[0], options.box[1], options.box[2], options.box[3]};
     return selection;
 }
@@ -128,28 +129,56 @@ int check_limits(const Comparison& comparison, const std::map<std::string, doubl
     return code;
 }
 
+double checked_limit(const std::string& key, double limit) {
+    if (!(limit >= 0.0))
+        throw CLI::ValidationError("--max-" + key, fmt::format("{} is not 0 or above", limit));
+    return limit;
+}
+
+std::vector<int> parse_box(std::string_view text) {
+    std::vector<int> box;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (box.size() < 4) {
+        int value = 0;
+        const auto [rest, error] = std::from_chars(at, end, value);
+        const bool is_separated = box.size() == 3 ? rest == end : rest != end && *rest == ',';
+        if (error != std::errc() || !is_separated)
+            throw CLI::ValidationError("--box", fmt::format("'{}' is not X0,Y0,X1,Y1 in pixels", text));
+        box.push_back(value);
+        at = rest + 1;
+    }
+    return box;
+}
+
 }  // namespace
 
 CLI::App* add_compare(CLI::App& app, CompareOptions& options) {
     CLI::App* command =
         app.add_subcommand("compare", "metrics between two images (EXR or PNG) in linear light");
-    command->add_option("REF", options.ref, "reference image")->required();
-    command->add_option("TEST", options.test, "image to judge")->required();
-    command->add_option("--json", options.json, "write the metrics as JSON, - for standard output");
-    command->add_option("--mask", options.mask,
-                        "image of the same size; pixels that are black in it are left out");
+    command->add_option("REF", options.ref, "reference image")->required()->type_name("");
+    command->add_option("TEST", options.test, "image to judge")->required()->type_name("");
+    command->add_option("--json", options.json, "write the metrics as JSON; - is standard output")
+        ->type_name("FILE");
     command
-        ->add_option("--box", options.box, "x0,y0,x1,y1: compare columns x0 to x1-1 and rows y0 to y1-1 only")
-        ->delimiter(',')
-        ->expected(4);
-    command->add_option("--diff", options.diff, "write a picture of the difference, .exr or .png");
+        ->add_option("--mask", options.mask,
+                     "image of the same size; pixels that are black in it are left out")
+        ->type_name("FILE");
+    command
+        ->add_option_function<std::string>(
+            "--box", [&options](const std::string& text) { options.box = parse_box(text); },
+            "compare columns X0 to X1-1 and rows Y0 to Y1-1 only")
+        ->type_name("X0,Y0,X1,Y1");
+    command->add_option("--diff", options.diff, "write a picture of the difference, .exr or .png")
+        ->type_name("FILE");
     for (const char* name : {"rmse", "relmse", "flip", "mae", "abs"}) {
         const std::string key = name;
         command
             ->add_option_function<double>(
-                "--max-" + key, [&options, key](const double& limit) { options.max[key] = limit; },
+                "--max-" + key,
+                [&options, key](double limit) { options.max[key] = checked_limit(key, limit); },
                 "exit with code 5 when " + (key == "abs" ? "the largest difference" : key) + " is over this")
-            ->check(CLI::NonNegativeNumber);
+            ->type_name("E");
     }
     return command;
 }

@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "output_files.h"
 #include "vk/device.h"
 
 namespace voxilux {
 
 CLI::App* add_devices(CLI::App& app, DevicesCommand& command) {
     CLI::App* devices = app.add_subcommand("devices", "Vulkan devices, which would be used, what each lacks");
-    devices->add_option("--json", command.json, "write the list as JSON to a file, - for standard output");
+    devices->add_option("--json", command.json, "write the list as JSON; - is standard output")
+        ->type_name("FILE");
     return devices;
 }
 
@@ -30,16 +32,17 @@ int run_devices(const DevicesCommand& command) {
     write_json(command.json, rows);
     if (command.json != "-") {
         for (const DeviceInfo& device : devices) {
-            fmt::print("{} {}  {}  ({}, {}){}\n", device.would_use ? "*" : " ", device.index, device.name, device.type,
-                       device.driver, device.usable ? "" : "  not usable");
+            fmt::print("{} {}  {}  ({}, {}){}\n", device.would_use ? "*" : " ", device.index, device.name,
+                       device.type, device.driver, device.usable ? "" : "  not usable");
             for (const std::string& lack : device.lacks)
                 fmt::print("       {}\n", lack);
         }
     }
     const bool any = std::ranges::any_of(devices, &DeviceInfo::usable);
     if (!any)
-        throw Error(ExitCode::no_device,
-                    "no usable Vulkan device; install a driver: the package mesa-vulkan-drivers works without a GPU");
+        throw Error(
+            ExitCode::no_device,
+            "no usable Vulkan device; install a driver: the package mesa-vulkan-drivers works without a GPU");
     return 0;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "support.h"
+#include <CLI/CLI.hpp>
+#include <string>
 
 namespace voxilux {
 

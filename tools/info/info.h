@@ -17,8 +17,8 @@ struct InfoOptions {
 // Declares the subcommand and its flags; parsing fills `options`, which must outlive the app.
 CLI::App* add_info(CLI::App& app, InfoOptions& options);
 
-// Prints what is in a file on standard output. Returns the exit code; throws Error(input_refused) when the
-// file is refused or of a kind that we do not know.
+// Prints what is in a .vox file, a scene file, an EXR or a PNG on standard output. Returns the exit code;
+// throws Error(input_refused) when the file is refused or of a kind that we do not know.
 int run_info(const InfoOptions& options);
 
 }  // namespace voxilux

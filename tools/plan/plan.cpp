@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "frame/frame.h"
+#include "output_files.h"
 #include "session/report.h"
 
 namespace voxilux {
@@ -14,30 +15,31 @@ DeviceLimits limits_for(const std::string& selector) {
     return devices[pick_device(devices, selector)].limits;
 }
 
+std::string describe_first_frame(const PreparedScene& prepared, const Scene& scene) {
+    Recording recording;
+    const Slice slice{.row_count = prepared.plan.slice_rows};
+    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.naadf), 0, recording);
+    return describe(recording);
+}
+
 }  // namespace
 
-CLI::App* add_plan(CLI::App& app, PlanCommand& command) {
-    CLI::App* plan = app.add_subcommand("plan", "what a render would run, what not and why, and its memory");
-    add_scene_flags(*plan, command.scene);
-    plan->add_flag("--colour-only", command.colour_only, "plan for a PNG, not for an EXR with all channels");
-    plan->add_flag("-v,--verbose", command.verbose, "print the commands of the first frame too");
+CLI::App* add_plan(CLI::App& app, RenderCommand& command) {
+    CLI::App* plan =
+        app.add_subcommand("plan", "what render would do with the same flags, and what not and why");
+    add_render_flags(*plan, command);
     return plan;
 }
 
-int run_plan(const PlanCommand& command) {
-    PlanRequest request = plan_request(command.scene);
-    request.effects.wants_aov = !command.colour_only;
-    const Scene scene = load_scene_with(command.scene);
-    const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.scene.device));
-    write_json(command.scene.json, plan_json(scene, prepared.plan));
-    if (command.scene.json == "-") return 0;
+int run_plan(const RenderCommand& command) {
+    const PlanRequest request = request_of(command, output_files(command));
+    check_writable(command.json);
+    const Scene scene = scene_to_render(command);
+    const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device));
+    write_json(command.json, plan_json(scene, prepared.plan));
+    if (command.quiet || command.json == "-") return 0;
     fmt::print("{}", describe(prepared.plan));
-    if (command.verbose) {
-        Recording recording;
-        const Slice slice{.row_count = prepared.plan.slice_rows};
-        record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.naadf), 0, recording);
-        fmt::print("{}", describe(recording));
-    }
+    if (command.verbose) fmt::print("{}", describe_first_frame(prepared, scene));
     return 0;
 }
 

@@ -7,17 +7,35 @@
 
 namespace voxilux {
 
-// How progress reaches standard error: one line that is overwritten ("auto" on a terminal), one JSON object per line
-// ("json"), or nothing ("never", and "auto" when standard error is piped). Throws Error(usage) for another word.
-[[nodiscard]] std::function<void(const Progress&)> progress_printer(const std::string& mode, bool quiet);
+// Progress on standard error: one line that is overwritten ("auto" on a terminal), one JSON object per line
+// ("json"), or nothing ("never", and "auto" when standard error is piped). The line is gone when this ends,
+// so that whatever follows starts on a clean one.
+class ProgressLine {
+  public:
+    // Throws Error(usage) for another word.
+    ProgressLine(const std::string& mode, bool quiet);
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+    ~ProgressLine() { finish(); }
 
-// Ends the overwritten line, if there is one.
-void finish_progress(const std::string& mode, bool quiet);
+    // What render_scene calls; empty when nothing is shown. Must not outlive this.
+    [[nodiscard]] std::function<void(const Progress&)> callback();
 
-// "90s", "2m", "1h30m", "1.5h" or plain seconds. Throws Error(usage).
-[[nodiscard]] double parse_duration(const std::string& text);
+    void finish();
 
-// "1%" or "0.01". Throws Error(usage).
-[[nodiscard]] double parse_error_target(const std::string& text);
+  private:
+    void show(const Progress& progress);
+
+    enum class Mode { nothing, line, json };
+    Mode mode_ = Mode::nothing;
+    bool is_shown_ = false;
+    double last_s_ = -1.0;
+};
+
+// The line for people, without control characters: " 42.0 %  sample 7  12 s, about 17 s left  error 2.1 %".
+[[nodiscard]] std::string progress_text(const Progress& progress);
+
+// The object for programs, on one line: done, sample, elapsed_s, remaining_s, and error once it is known.
+[[nodiscard]] std::string progress_json(const Progress& progress);
 
 }  // namespace voxilux

@@ -1,12 +1,15 @@
 #pragma once
 
-#include "support.h"
+#include "scene_options.h"
 
 namespace voxilux {
 
+// The flags of render, which plan takes too: it shows what the same command line would do.
 struct RenderCommand {
     SceneOptions scene;
     std::vector<std::string> outputs;
+    std::string json;
+    std::string device;
     std::optional<std::string> time_limit;
     std::optional<std::string> error;
     std::string progress = "auto";
@@ -14,13 +17,29 @@ struct RenderCommand {
     float exposure_ev = 0.0f;
     std::string group_size = "8x8";
     bool reproducible = false;
-    bool validation = false;
+    bool validation = VX_VALIDATION_DEFAULT;
+    bool no_validation = false;
     bool no_cache = false;
     bool quiet = false;
     bool verbose = false;
 };
 
+// Samples per pixel at which a render with --error and without --spp gives up.
+inline constexpr std::uint32_t kMostSamplesForError = 65536;
+
+void add_render_flags(CLI::App& command, RenderCommand& options);
+
 CLI::App* add_render(CLI::App& app, RenderCommand& command);
+
+// The pictures that a render writes: those asked for, else one PNG in the current folder with the name of the
+// input. Throws Error(usage) for an ending that is neither .exr nor .png.
+[[nodiscard]] std::vector<std::string> output_files(const RenderCommand& command);
+
+// The scene as a render takes it. --error without --spp takes samples until the error is reached.
+[[nodiscard]] Scene scene_to_render(const RenderCommand& command);
+
+// The request that a render makes of the plan.
+[[nodiscard]] PlanRequest request_of(const RenderCommand& command, const std::vector<std::string>& outputs);
 
 // Renders and writes the pictures. Returns done, time_limit (before the error target) or interrupted.
 [[nodiscard]] int run_render(const RenderCommand& command);

@@ -1,0 +1,131 @@
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "base/error.h"
+#include "compare/compare.h"
+#include "devices/devices.h"
+#include "info/info.h"
+#include "plan/plan.h"
+#include "render/render.h"
+#include "scene/nearest_name.h"
+
+namespace voxilux {
+namespace {
+
+constexpr const char* kFooter =
+    "voxilux SUBCOMMAND --help lists its flags.\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  done\n"
+    "    2  usage: a flag or its value\n"
+    "    3  an input was refused\n"
+    "    4  stopped by --time-limit before --error was reached; the picture is written\n"
+    "    5  compare: over a --max- threshold\n"
+    "   69  no usable Vulkan device\n"
+    "   70  internal error\n"
+    "   71  the device was lost\n"
+    "   73  an output cannot be written\n"
+    "   74  out of memory, or over --memory-budget\n"
+    "   75  a temporary failure: try again\n"
+    "  130  interrupted; what was rendered is written\n";
+
+constexpr int kHelpColumn = 30;
+
+int usage_error(const std::string& message, const std::string& command) {
+    fmt::print(stderr, "voxilux: {}\nsee {} --help\n", message, command);
+    return static_cast<int>(ExitCode::usage);
+}
+
+std::vector<std::string> flags_of(const CLI::App& app) {
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames())
+            flags.push_back("--" + name);
+        for (const std::string& name : option->get_snames())
+            flags.push_back("-" + name);
+    }
+    return flags;
+}
+
+std::string hint(std::string_view typed, const std::vector<std::string>& names) {
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::optional<std::string_view> nearest = nearest_name(typed, views);
+    return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
+}
+
+// The words that nobody asked for, and the flag that was probably meant.
+std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
+    const std::vector<std::string> words = app.remaining(true);
+    const auto flag =
+        std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("-"); });
+    if (flag == words.end())
+        return fmt::format("'{}' is one argument too many", words.empty() ? "" : words.front());
+    const std::string name = flag->substr(0, flag->find('='));
+    return fmt::format("there is no flag {}{}", name, hint(name, flags_of(command)));
+}
+
+int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+        app.exit(error);
+        return 0;
+    }
+    const std::vector<CLI::App*> given = app.get_subcommands();
+    const CLI::App& command = given.empty() ? app : *given.front();
+    const std::string name = given.empty() ? app.get_name() : app.get_name() + " " + command.get_name();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+        return usage_error(unexpected_words(app, command), name);
+    return usage_error(error.what(), name);
+}
+
+// A first word that is no subcommand, or no word at all; nothing when the rest can be parsed.
+std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* const* argv) {
+    if (argc < 2) {
+        fmt::print(stderr, "{}", app.help());
+        return static_cast<int>(ExitCode::usage);
+    }
+    const std::string word = argv[1];
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    if (word.starts_with("-") || std::ranges::find(names, word) != names.end()) return {};
+    return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+    CLI::App app{"voxilux renders voxel scenes with Vulkan compute, with or without a GPU.", "voxilux"};
+    app.set_version_flag("--version", "voxilux " VX_VERSION, "print the version and exit");
+    app.set_help_flag("-h,--help", "print this help and exit");
+    app.get_formatter()->column_width(kHelpColumn);
+    app.require_subcommand(1);
+
+    RenderCommand render;
+    RenderCommand plan;
+    InfoOptions info;
+    DevicesCommand devices;
+    CompareOptions compare;
+    const CLI::App* const render_app = add_render(app, render);
+    const CLI::App* const plan_app = add_plan(app, plan);
+    const CLI::App* const info_app = add_info(app, info);
+    const CLI::App* const devices_app = add_devices(app, devices);
+    const CLI::App* const compare_app = add_compare(app, compare);
+    app.footer(kFooter);
+
+    if (const auto code = check_subcommand(app, argc, argv)) return *code;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return end_of_parse(app, error);
+    }
+    if (render_app->parsed()) return run_render(render);
+    if (plan_app->parsed()) return run_plan(plan);
+    if (info_app->parsed()) return run_info(info);
+    if (devices_app->parsed()) return run_devices(devices);
+    VX_ASSERT(compare_app->parsed());
+    return run_compare(compare);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,112 @@
+#include "parse_values.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "base/error.h"
+#include "scene/nearest_name.h"
+
+namespace voxilux {
+namespace {
+
+[[noreturn]] void refuse(const std::string& complaint) {
+    throw Error(ExitCode::usage, complaint);
+}
+
+// A finite number from 0 up and what follows it; nothing when the text does not start with one.
+std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || !(value >= 0.0) || !std::isfinite(value)) return {};
+    return std::pair(value, std::string_view(rest, static_cast<std::size_t>(end - rest)));
+}
+
+double seconds_in(char unit) {
+    return unit == 'h' ? 3600.0 : unit == 'm' ? 60.0 : unit == 's' ? 1.0 : 0.0;
+}
+
+template <class T, std::size_t N>
+T parse_name(std::string_view flag, std::string_view typed,
+             const std::array<std::pair<std::string_view, T>, N>& table) {
+    std::array<std::string_view, N> names;
+    for (std::size_t i = 0; i < N; ++i) {
+        if (table[i].first == typed) return table[i].second;
+        names[i] = table[i].first;
+    }
+    refuse(fmt::format("{}: there is no '{}'{}", flag, typed, name_hint(typed, names)));
+}
+
+}  // namespace
+
+glm::ivec2 parse_size(std::string_view flag, std::string_view text) {
+    glm::ivec2 size(0);
+    const char* const end = text.data() + text.size();
+    const auto [cross, width_error] = std::from_chars(text.data(), end, size.x);
+    if (width_error == std::errc() && cross != end && *cross == 'x') {
+        const auto [rest, height_error] = std::from_chars(cross + 1, end, size.y);
+        if (height_error == std::errc() && rest == end && size.x > 0 && size.y > 0) return size;
+    }
+    refuse(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 1280x720", flag, text));
+}
+
+double parse_duration(std::string_view text) {
+    const std::string complaint =
+        fmt::format("--time-limit: '{}' is not a time such as 90s, 2m or 1h30m", text);
+    double seconds = 0.0;
+    std::string_view rest = text;
+    do {
+        const auto number = leading_number(rest);
+        if (!number) refuse(complaint);
+        rest = number->second;
+        const bool is_plain = rest.empty() && number->first >= 0.0 && seconds == 0.0;
+        const double unit = is_plain ? 1.0 : rest.empty() ? 0.0 : seconds_in(rest.front());
+        if (unit == 0.0) refuse(complaint);
+        seconds += number->first * unit;
+        rest.remove_prefix(rest.empty() ? 0 : 1);
+    } while (!rest.empty());
+    return seconds;
+}
+
+double parse_error_target(std::string_view text) {
+    const auto number = leading_number(text);
+    const bool is_percent = number && number->second == "%";
+    if (!number || number->first <= 0.0 || !(is_percent || number->second.empty()))
+        refuse(fmt::format("--error: '{}' is not a share above 0, such as 1% or 0.01", text));
+    return is_percent ? number->first / 100.0 : number->first;
+}
+
+Sequence parse_sequence(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, Sequence>, 3> kNames = {
+        {{"sobol", Sequence::sobol}, {"halton", Sequence::halton}, {"white", Sequence::white}}};
+    return parse_name("--sequence", name, kNames);
+}
+
+View parse_view(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, View>, 7> kNames = {
+        {{"three-quarter", View::three_quarter},
+         {"front", View::front},
+         {"back", View::back},
+         {"left", View::left},
+         {"right", View::right},
+         {"top", View::top},
+         {"iso", View::iso}}};
+    return parse_name("--camera", name, kNames);
+}
+
+EffectSwitch parse_effect_switch(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    const Effect effect = effect_named(text.substr(0, equals));
+    const std::string_view choice = equals == std::string_view::npos ? "" : text.substr(equals + 1);
+    if (choice == "on") return {effect, Switch::on};
+    if (choice == "off") return {effect, Switch::off};
+    if (choice == "auto") return {effect, Switch::automatic};
+    refuse(fmt::format("--effect: '{}' must be NAME=on, NAME=off or NAME=auto", text));
+}
+
+}  // namespace voxilux

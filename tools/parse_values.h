@@ -1,0 +1,39 @@
+#pragma once
+
+// Values of flags as people write them. Each throws Error(usage) that names the flag, the text and an
+// example.
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "plan/effects.h"
+#include "scene/scene.h"
+#include "scene/scene_camera.h"
+
+namespace voxilux {
+
+// "640x360": two whole numbers from 1 up. `flag` is for the message.
+[[nodiscard]] glm::ivec2 parse_size(std::string_view flag, std::string_view text);
+
+// "90s", "2m", "1h30m", "1.5h" or plain seconds, in seconds.
+[[nodiscard]] double parse_duration(std::string_view text);
+
+// "1%" or "0.01", as a share above 0.
+[[nodiscard]] double parse_error_target(std::string_view text);
+
+// sobol, halton or white.
+[[nodiscard]] Sequence parse_sequence(std::string_view name);
+
+// three-quarter, front, back, left, right, top or iso.
+[[nodiscard]] View parse_view(std::string_view name);
+
+// "NAME=on|off|auto".
+struct EffectSwitch {
+    Effect effect = Effect::voxels;
+    Switch choice = Switch::automatic;
+};
+[[nodiscard]] EffectSwitch parse_effect_switch(std::string_view text);
+
+}  // namespace voxilux

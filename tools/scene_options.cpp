@@ -1,0 +1,93 @@
+#include "scene_options.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "parse_values.h"
+#include "scene/scene_bounds.h"
+#include "scene/scene_camera.h"
+#include "scene/scene_toml.h"
+
+namespace voxilux {
+namespace {
+
+constexpr const char* kScene = "Scene";
+constexpr const char* kSampling = "Sampling";
+constexpr std::uint64_t kMostMib = std::numeric_limits<std::uint64_t>::max() >> 20;
+
+}  // namespace
+
+void add_scene_flags(CLI::App& command, SceneOptions& options) {
+    command.add_option("INPUT", options.input, "a .vox file, or a scene file .toml")
+        ->required()
+        ->type_name("");
+    command.add_option("--size", options.size, "picture size in pixels")->type_name("WxH")->group(kScene);
+    command
+        .add_option("--camera", options.camera,
+                    "frame it from three-quarter, front, back, left, right, top or iso")
+        ->type_name("SIDE")
+        ->group(kScene);
+    command.add_option("--frame", options.frame, "frame of an animated .vox file")
+        ->type_name("N")
+        ->group(kScene);
+    command.add_option("--effect", options.effects, "override the plan: on, off or auto; may repeat")
+        ->type_name("NAME=STATE")
+        ->allow_extra_args(false)
+        ->group(kScene);
+    command
+        .add_option("-D", options.overrides,
+                    "set a key of the scene file, such as sun.elevation=10; may repeat")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false)
+        ->group(kScene);
+    command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
+    command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
+        ->type_name("N")
+        ->group(kSampling);
+    command.add_option("--ao-radius", options.ao_radius, "reach of occlusion rays, in voxels")
+        ->type_name("R")
+        ->group(kSampling);
+    command.add_option("--seed", options.seed, "seed of every random stream")
+        ->type_name("N")
+        ->group(kSampling);
+    command.add_option("--sequence", options.sequence, "sample sequence: sobol, halton or white")
+        ->type_name("NAME")
+        ->group(kSampling);
+}
+
+Scene load_scene_with(const SceneOptions& options) {
+    // Flags are read before the file: a slip in a flag should not cost the loading of a large scene.
+    std::optional<glm::ivec2> size;
+    std::optional<View> view;
+    std::optional<Sequence> sequence;
+    if (options.size) size = parse_size("--size", *options.size);
+    if (options.camera) view = parse_view(*options.camera);
+    if (options.sequence) sequence = parse_sequence(*options.sequence);
+
+    Scene scene = load_scene(options.input, {.overrides = options.overrides, .frame = options.frame});
+    RenderSettings& settings = scene.settings;
+    settings.size = size.value_or(settings.size);
+    settings.spp = options.spp.value_or(settings.spp);
+    settings.ao_rays = options.ao_rays.value_or(settings.ao_rays);
+    settings.ao_radius = options.ao_radius.value_or(settings.ao_radius);
+    settings.seed = options.seed.value_or(settings.seed);
+    settings.sequence = sequence.value_or(settings.sequence);
+    if (view) {
+        const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
+        const double aspect = static_cast<double>(settings.size.x) / static_cast<double>(settings.size.y);
+        scene.camera = framing_camera(scene_bounds(scene), *view, aspect, fov_y_deg);
+    }
+    return scene;
+}
+
+PlanRequest plan_request(const SceneOptions& options) {
+    PlanRequest request;
+    for (const std::string& text : options.effects) {
+        const EffectSwitch one = parse_effect_switch(text);
+        request.effects.switches[one.effect] = one.choice;
+    }
+    request.memory_budget_bytes = std::min(options.memory_budget_mib, kMostMib) << 20;
+    return request;
+}
+
+}  // namespace voxilux
