@@ -148,8 +148,9 @@ VX_FN bool is_outside(ivec3 local, ivec3 size) {
     return uint(local.x) >= uint(size.x) || uint(local.y) >= uint(size.y) || uint(local.z) >= uint(size.z);
 }
 
-// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0. The world has
-// `chunks` chunks per axis. Each step crosses at least one plane, so a sound world never meets the step limit.
+// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and an empty
+// interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at least one plane, so
+// a sound world never meets the step limit.
 VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
@@ -162,7 +163,7 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     hit.crossed = ivec3(0);
     hit.steps = 0u;
     hit.fault = is_sound(ray) ? kMarchFine : kMarchUnsound;
-    if (hit.fault != kMarchFine) return hit;
+    if (hit.fault != kMarchFine || !(ray.t_max > 0.0f)) return hit;
     int axis = -1;
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
         if (is_outside(hit.cell, size)) return hit;

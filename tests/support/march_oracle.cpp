@@ -12,6 +12,7 @@ gpu::MarchHit walk_cells(const VoxelWorld& world, const gpu::Ray& ray) {
     gpu::MarchHit hit{};
     hit.cell = ray.cell;
     hit.face = gpu::kFaceMiss;
+    if (!(ray.t_max > 0.0f)) return hit;
     int axis = -1;
     while (world.contains(hit.cell)) {
         const std::uint16_t voxel = world.get(hit.cell);

@@ -1,0 +1,20 @@
+#pragma once
+
+// The march's contract in exact integers, for rays whose numbers are halves: crossings are sorted by their
+// exact time, then by axis. Knows nothing of the march's floats.
+
+#include "world/voxel_world.h"
+#include "world/world_view.h"
+
+namespace voxilux::test {
+
+struct ExactHit {
+    glm::ivec3 cell{0};
+    gpu::uint face = gpu::kFaceMiss;
+};
+
+// Direction components must be integers below 2^10 (either zero is zero), fractions of axes that move
+// multiples of 1/2, and t_max must not matter.
+[[nodiscard]] ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray);
+
+}  // namespace voxilux::test
