@@ -16,6 +16,7 @@ namespace {
 // up to 1024 x 1024 are one band.
 constexpr std::uint64_t kBandPixels = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMaxImagePixels = (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
+constexpr int kMaxImageSide = 1 << 17;  // pixels; what the files of pictures take, and groups of a row stay countable
 constexpr std::uint32_t kGroupEdge = 8;
 
 void check_settings(const RenderSettings& settings) {
@@ -24,18 +25,21 @@ void check_settings(const RenderSettings& settings) {
         refuse(fmt::format("picture size {}x{}: both sides must be at least 1", settings.size.x, settings.size.y));
     if (static_cast<std::uint64_t>(settings.size.x) * static_cast<std::uint64_t>(settings.size.y) > kMaxImagePixels)
         refuse(fmt::format("picture size {}x{}: over 2^32 pixels", settings.size.x, settings.size.y));
+    if (settings.size.x > kMaxImageSide || settings.size.y > kMaxImageSide)
+        refuse(fmt::format("picture size {}x{}: no side may be over {} pixels", settings.size.x, settings.size.y,
+                           kMaxImageSide));
     if (settings.spp < 1) refuse("spp must be at least 1");
     if (settings.ao_rays < 1) refuse("ao_rays must be at least 1");
     if (!(settings.ao_radius > 0.0f)) refuse(fmt::format("ao_radius {} must be above 0", settings.ao_radius));
 }
 
-void split_image(RenderPlan& plan) {
+void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint64_t rows = std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
     plan.band_rows = static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
     plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
-    plan.slice_rows = plan.band_rows;
+    plan.slice_rows = std::min(plan.band_rows, limits.max_groups[1]);  // groups may be one row high
 }
 
 void count_rays(RenderPlan& plan) {
@@ -157,7 +161,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.world = world;
     plan.material_count = checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
-    split_image(plan);
+    split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);
     list_buffers(plan);

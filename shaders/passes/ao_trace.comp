@@ -18,12 +18,13 @@ layout(scalar) writeonly buffer Ao {
 
 float trace_openness(Pixel pixel, Hit hit) {
     uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
-    SampleKey key;
-    key.stream = pixel.y * frame.width + pixel.x;
-    key.seed = frame.seed;
+    uint stream = pixel.y * frame.width + pixel.x;
+    uvec2 first;  // number of the sample's first ray, 64 bits
+    umulExtended(frame.sample_index, frame.ao_rays, first.y, first.x);
     uint open = 0u;
     for (uint i = 0u; i < frame.ao_rays; ++i) {
-        key.index = frame.sample_index * frame.ao_rays + i;
+        uint low = first.x + i;
+        SampleKey key = sample_key(stream, uvec2(low, first.y + (low < i ? 1u : 0u)), frame.seed);
         vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
         vec3 direction = hit.face == kFaceSphere ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
         open += is_occluded(ray_from(hit, direction, frame.ao_radius), own) ? 0u : 1u;
