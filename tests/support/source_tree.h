@@ -2,13 +2,15 @@
 
 // The project's own source text, for tests of rules that a compiler cannot check.
 
+#include <regex.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace voxilux::test {
@@ -24,6 +26,35 @@ inline std::string read_text(const std::filesystem::path& path) {
     text << file.rdbuf();
     return text.str();
 }
+
+// A POSIX extended regular expression. std::regex would cost a minute of compiling under sanitizers.
+class Pattern {
+  public:
+    explicit Pattern(const std::string& expression, int flags = 0) {
+        if (::regcomp(&compiled_, expression.c_str(), REG_EXTENDED | flags) != 0)
+            throw std::invalid_argument("bad pattern " + expression);
+    }
+    ~Pattern() { ::regfree(&compiled_); }
+    Pattern(const Pattern&) = delete;
+    Pattern& operator=(const Pattern&) = delete;
+
+    // The first match in `line` and its groups; nothing when there is none.
+    [[nodiscard]] std::vector<std::string> find(const std::string& line) const {
+        constexpr std::size_t kMostGroups = 4;
+        ::regmatch_t found[kMostGroups];
+        std::vector<std::string> groups;
+        if (::regexec(&compiled_, line.c_str(), kMostGroups, found, 0) != 0) return groups;
+        for (const ::regmatch_t& group : found) {
+            const auto start = static_cast<std::size_t>(group.rm_so);
+            const auto length = static_cast<std::size_t>(group.rm_eo - group.rm_so);
+            groups.push_back(group.rm_so < 0 ? "" : line.substr(start, length));
+        }
+        return groups;
+    }
+
+  private:
+    ::regex_t compiled_{};
+};
 
 // Files below a folder of the tree whose names end in one of `endings`, sorted by path.
 inline std::vector<SourceFile> source_files(const std::string& folder,

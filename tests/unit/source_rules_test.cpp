@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +13,7 @@
 namespace voxilux {
 namespace {
 
+using test::Pattern;
 using test::SourceFile;
 
 // Blocks that shaders both read and write, and why.
@@ -24,25 +25,23 @@ const std::map<std::string, std::string> kReadAndWritten = {
 };
 
 std::vector<std::string> undeclared_access(const SourceFile& file) {
-    const std::regex block(R"((.*)\bbuffer\s+(\w+)\s*\{?.*)");
+    const Pattern block(R"(layout\(.*\)(.*)\bbuffer[ \t]+([A-Za-z_0-9]+))");
+    const Pattern access(R"(\b(readonly|writeonly)\b)");
     std::vector<std::string> faults;
     for (const std::string& line : test::lines_of(file.text)) {
-        std::smatch match;
-        if (line.find("layout(") == std::string::npos || !std::regex_match(line, match, block)) continue;
-        const std::string before = match[1];
-        const bool declared =
-            before.find("readonly") != std::string::npos || before.find("writeonly") != std::string::npos;
-        if (!declared && !kReadAndWritten.contains(match[2])) faults.push_back(file.path + ": " + line);
+        const std::vector<std::string> found = block.find(line);
+        if (!found.empty() && access.find(found[1]).empty() && !kReadAndWritten.contains(found[2]))
+            faults.push_back(file.path + ": " + line);
     }
     return faults;
 }
 
 // Two places that somebody has to keep equal by hand.
 std::vector<std::string> hand_kept_copies(const SourceFile& file) {
-    const std::regex phrase("(must|should) match|in sync", std::regex::icase);
+    const Pattern phrase("(must|should) match|in sync", REG_ICASE);
     std::vector<std::string> faults;
     for (const std::string& line : test::lines_of(file.text)) {
-        if (std::regex_search(line, phrase)) faults.push_back(file.path + ": " + line);
+        if (!phrase.find(line).empty()) faults.push_back(file.path + ": " + line);
     }
     return faults;
 }
@@ -65,14 +64,14 @@ std::vector<std::string> long_files(const std::vector<SourceFile>& files) {
 
 // What the build asks the system for: names in find_package, pkg_check_modules and find_program.
 std::set<std::string> wanted_by(const SourceFile& file) {
-    const std::regex package(R"(^\s*find_package\((\w+).*)");
-    const std::regex module(R"(^\s*pkg_check_modules\(.*\s([\w.+-]+)\).*)");
-    const std::regex program(R"(^\s*find_program\(\w+\s+([\w.+-]+).*)");
+    const Pattern requests[] = {Pattern(R"(^ *find_package\(([A-Za-z_0-9]+))"),
+                                Pattern(R"(^ *pkg_check_modules\(.*[ ]([A-Za-z_0-9.+-]+)\))"),
+                                Pattern(R"(^ *find_program\([A-Za-z_0-9]+ +([A-Za-z_0-9.+-]+))")};
     std::set<std::string> names;
     for (const std::string& line : test::lines_of(file.text)) {
-        std::smatch match;
-        for (const std::regex& request : {package, module, program}) {
-            if (std::regex_match(line, match, request)) names.insert(match[1]);
+        for (const Pattern& request : requests) {
+            const std::vector<std::string> found = request.find(line);
+            if (!found.empty()) names.insert(found[1]);
         }
     }
     return names;
