@@ -101,6 +101,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.set_help_flag("-h,--help", "print this help and exit");
     app.get_formatter()->column_width(kHelpColumn);
     app.require_subcommand(1);
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
     RenderCommand render;
     RenderCommand plan;

@@ -32,12 +32,14 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->group(kScene);
     command.add_option("--effect", options.effects, "override the plan: on, off or auto; may repeat")
         ->type_name("NAME=STATE")
+        ->take_all()
         ->allow_extra_args(false)
         ->group(kScene);
     command
         .add_option("-D", options.overrides,
                     "set a key of the scene file, such as sun.elevation=10; may repeat")
         ->type_name("KEY=VALUE")
+        ->take_all()
         ->allow_extra_args(false)
         ->group(kScene);
     command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);

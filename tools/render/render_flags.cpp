@@ -16,6 +16,7 @@ void add_output_flags(CLI::App& command, RenderCommand& options) {
         .add_option("-o,--output", options.outputs,
                     "picture to write, .exr or .png; may repeat (default: INPUT's name .png, here)")
         ->type_name("FILE")
+        ->take_all()
         ->allow_extra_args(false)
         ->group(kOutput);
     command.add_option("--json", options.json, "write the report as JSON; - is standard output")

@@ -1,0 +1,120 @@
+#include "parse_values.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "render/progress_line.h"
+
+namespace voxilux {
+namespace {
+
+// The usage error of `parse`, or "accepted".
+template <class Parse>
+std::string refusal(const Parse& parse) {
+    try {
+        parse();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::usage);
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(ParseSize, two_numbers_give_a_size) {
+    EXPECT_EQ(parse_size("--size", "640x360"), glm::ivec2(640, 360));
+    EXPECT_EQ(parse_size("--size", "1x1"), glm::ivec2(1, 1));
+    EXPECT_EQ(parse_size("--size", "2147483647x2"), glm::ivec2(2147483647, 2));
+}
+
+TEST(ParseSize, anything_else_is_refused_with_its_flag) {
+    for (const char* text :
+         {"", "x", "640", "640x", "x360", "640 x 360", "640X360", "640x360x1", "640x360 ", " 640x360",
+          "0x360", "640x0", "-1x3", "1x-3", "+1x3", "1.5x3", "2147483648x1", "99999999999999999999x1"})
+        EXPECT_EQ(refusal([&] { (void)parse_size("--size", text); }),
+                  fmt::format("--size: '{}' is not WIDTHxHEIGHT in pixels, such as 1280x720", text));
+    EXPECT_EQ(refusal([] { (void)parse_size("--group-size", "8"); }).find("--group-size: '8'"), 0u);
+}
+
+TEST(ParseDuration, units_add_up) {
+    EXPECT_EQ(parse_duration("90s"), 90.0);
+    EXPECT_EQ(parse_duration("90"), 90.0);
+    EXPECT_EQ(parse_duration("0"), 0.0);
+    EXPECT_EQ(parse_duration("2m"), 120.0);
+    EXPECT_EQ(parse_duration("1.5h"), 5400.0);
+    EXPECT_EQ(parse_duration("1h30m"), 5400.0);
+    EXPECT_EQ(parse_duration("1h2m3s"), 3723.0);
+    EXPECT_EQ(parse_duration("0.25s"), 0.25);
+}
+
+TEST(ParseDuration, anything_else_is_refused) {
+    for (const char* text :
+         {"", "s", "h", "-5", "-5s", "5x", "5 s", "1h30", "5ms", "nan", "inf", "1e400", "5s ", "soon"})
+        EXPECT_EQ(refusal([&] { (void)parse_duration(text); }),
+                  fmt::format("--time-limit: '{}' is not a time such as 90s, 2m or 1h30m", text));
+}
+
+TEST(ParseErrorTarget, percent_and_share_mean_the_same) {
+    EXPECT_DOUBLE_EQ(parse_error_target("1%"), 0.01);
+    EXPECT_DOUBLE_EQ(parse_error_target("0.01"), 0.01);
+    EXPECT_DOUBLE_EQ(parse_error_target("0.5%"), 0.005);
+    EXPECT_DOUBLE_EQ(parse_error_target("1e-3"), 0.001);
+    EXPECT_DOUBLE_EQ(parse_error_target("250%"), 2.5);
+}
+
+TEST(ParseErrorTarget, anything_else_is_refused) {
+    for (const char* text : {"", "%", "0", "0%", "-1%", "1 %", "1%%", "1p", "nan", "inf", "one"})
+        EXPECT_EQ(refusal([&] { (void)parse_error_target(text); }),
+                  fmt::format("--error: '{}' is not a share above 0, such as 1% or 0.01", text));
+}
+
+TEST(ParseNames, every_name_is_taken_and_a_slip_gets_the_nearest) {
+    EXPECT_EQ(parse_sequence("sobol"), Sequence::sobol);
+    EXPECT_EQ(parse_sequence("halton"), Sequence::halton);
+    EXPECT_EQ(parse_sequence("white"), Sequence::white);
+    EXPECT_EQ(parse_view("three-quarter"), View::three_quarter);
+    EXPECT_EQ(parse_view("front"), View::front);
+    EXPECT_EQ(parse_view("back"), View::back);
+    EXPECT_EQ(parse_view("left"), View::left);
+    EXPECT_EQ(parse_view("right"), View::right);
+    EXPECT_EQ(parse_view("top"), View::top);
+    EXPECT_EQ(parse_view("iso"), View::iso);
+    EXPECT_EQ(refusal([] { (void)parse_sequence("hamilton"); }),
+              "--sequence: there is no 'hamilton'; did you mean 'halton'?");
+    EXPECT_EQ(
+        refusal([] { (void)parse_view("3"); }),
+        "--camera: there is no '3'; known: 'three-quarter', 'front', 'back', 'left', 'right', 'top', 'iso'");
+}
+
+TEST(ParseEffectSwitch, name_and_state_are_both_needed) {
+    EXPECT_EQ(parse_effect_switch("ao=off").effect, Effect::ao);
+    EXPECT_EQ(parse_effect_switch("ao=off").choice, Switch::off);
+    EXPECT_EQ(parse_effect_switch("sun=on").choice, Switch::on);
+    EXPECT_EQ(parse_effect_switch("sky=auto").choice, Switch::automatic);
+    for (const char* text : {"ao", "ao=", "ao=yes", "ao=on ", "ao=ON"})
+        EXPECT_EQ(refusal([&] { (void)parse_effect_switch(text); }),
+                  fmt::format("--effect: '{}' must be NAME=on, NAME=off or NAME=auto", text));
+    EXPECT_EQ(refusal([] { (void)parse_effect_switch("=on"); }).find("--effect: there is no effect ''"), 0u);
+}
+
+TEST(ProgressText, numbers_read_as_people_write_them) {
+    EXPECT_EQ(
+        progress_text({.done = 0.42, .elapsed_s = 12.3, .remaining_s = 17.0, .sample = 7, .error = 0.021}),
+        " 42.0 %  sample 7  12 s, about 17 s left  error 2.1 %");
+    EXPECT_EQ(progress_text({.done = 0.001, .elapsed_s = 100.0, .remaining_s = 99900.0, .sample = 1}),
+              "  0.1 %  sample 1  1 min 40 s, about 27 h 45 min left");
+    EXPECT_EQ(
+        progress_text({.done = 0.0, .remaining_s = std::numeric_limits<double>::infinity(), .sample = 1}),
+        "  0.0 %  sample 1  0 s, about ? left");
+}
+
+TEST(ProgressText, json_is_one_line_with_its_keys) {
+    EXPECT_EQ(progress_json({.done = 0.5, .elapsed_s = 1.5, .remaining_s = 1.5, .sample = 2}),
+              R"({"done":0.5,"sample":2,"elapsed_s":1.5,"remaining_s":1.5})");
+    EXPECT_EQ(progress_json({.done = 0.5, .sample = 2, .error = 0.25}),
+              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"error":0.25})");
+}
+
+}  // namespace
+}  // namespace voxilux
