@@ -16,6 +16,7 @@
 #define VX_FN inline
 #define VX_PRECISE
 #define VX_CONST(type, name, value) inline constexpr type name = value
+#define VX_CONST_LIST(type, name, count) inline constexpr type name[count]
 #define VX_BEGIN namespace voxilux::gpu {
 #define VX_END }
 
@@ -69,6 +70,7 @@ inline uint bitfieldReverse(uint v) {
 #define VX_FN
 #define VX_PRECISE precise
 #define VX_CONST(type, name, value) const type name = value
+#define VX_CONST_LIST(type, name, count) const type name[count]
 #define VX_BEGIN
 #define VX_END
 
