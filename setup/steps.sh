@@ -36,14 +36,14 @@ missing_packages() {
     done < setup/packages.txt
 }
 
-# What the log of a failed apt-get means.
+# What the log of a failed apt-get means. Packages are unknown, too, when their lists could not be fetched: the network first.
 explain_apt() {
-    if grep -q 'Unable to locate package' "$1"; then
-        lack "some packages are unknown here: they are those of Debian 12, this is $(system_name); apt-get's log is $1"
-    elif grep -qiE "no space left|don't have enough free space" "$1"; then
+    if grep -qiE "no space left|don't have enough free space" "$1"; then
         lack "the disk is full: the packages take up to $packages_mib MiB; apt-get's log is $1"
-    elif grep -qE 'resolv|onnection|onnect to|Network is unreachable|Failed to fetch' "$1"; then
+    elif grep -qE 'failure resolving|Could not resolve|Could not connect|Unable to connect|Network is unreachable' "$1"; then
         lack "the package servers cannot be reached: is there a network? apt-get's log is $1"
+    elif grep -q 'Unable to locate package' "$1"; then
+        lack "some packages are unknown here: they are those of Debian 12, this is $(system_name); apt-get's log is $1"
     fi
     tail -n 5 "$1" >&2
     lack "apt-get failed; its log is $1"
