@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "parse_box.h"
 #include "scene/nearest_name.h"
 
 namespace voxilux {
@@ -53,6 +54,13 @@ glm::ivec2 parse_size(std::string_view flag, std::string_view text) {
         if (height_error == std::errc() && rest == end && size.x > 0 && size.y > 0) return size;
     }
     refuse(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 1280x720", flag, text));
+}
+
+PixelWindow parse_window(std::string_view flag, std::string_view text) {
+    const auto box = parse_box(text);
+    if (!box) refuse(fmt::format("{}: '{}' is not X0,Y0,X1,Y1 in pixels", flag, text));
+    const auto [x0, y0, x1, y1] = *box;
+    return {{x0, y0}, {x1, y1}};
 }
 
 double parse_duration(std::string_view text) {

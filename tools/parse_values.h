@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "plan/effects.h"
+#include "plan/render_plan.h"
 #include "scene/scene.h"
 #include "scene/scene_camera.h"
 
@@ -16,6 +17,9 @@ namespace voxilux {
 
 // "640x360": two whole numbers from 1 up. `flag` is for the message.
 [[nodiscard]] glm::ivec2 parse_size(std::string_view flag, std::string_view text);
+
+// "x0,y0,x1,y1": columns x0 to x1-1 and rows y0 to y1-1.
+[[nodiscard]] PixelWindow parse_window(std::string_view flag, std::string_view text);
 
 // "90s", "2m", "1h30m", "1.5h" or plain seconds, in seconds.
 [[nodiscard]] double parse_duration(std::string_view text);

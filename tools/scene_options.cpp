@@ -27,6 +27,9 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
                     "frame it from three-quarter, front, back, left, right, top or iso")
         ->type_name("SIDE")
         ->group(kScene);
+    command.add_option("--crop", options.crop, "render columns X0 to X1-1 and rows Y0 to Y1-1 only")
+        ->type_name("X0,Y0,X1,Y1")
+        ->group(kScene);
     command.add_option("--frame", options.frame, "frame of an animated .vox file")
         ->type_name("N")
         ->group(kScene);
@@ -88,6 +91,7 @@ PlanRequest plan_request(const SceneOptions& options) {
         const EffectSwitch one = parse_effect_switch(text);
         request.effects.switches[one.effect] = one.choice;
     }
+    if (options.crop) request.crop = parse_window("--crop", *options.crop);
     request.memory_budget_bytes = std::min(options.memory_budget_mib, kMostMib) << 20;
     return request;
 }

@@ -25,6 +25,7 @@ struct SceneOptions {
     std::vector<std::string> effects;    // NAME=on|off|auto
     std::vector<std::string> overrides;  // -D key=value
     int frame = 0;
+    std::optional<std::string> crop;
     std::uint64_t memory_budget_mib = 0;
 };
 

@@ -62,9 +62,11 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.chunks = naadf.chunks_size;
     params.world_origin = naadf.origin;
     place_camera(params, camera_of(scene), naadf.origin,
-                 static_cast<double>(settings.size.x) / static_cast<double>(settings.size.y));
-    params.width = static_cast<gpu::uint>(settings.size.x);
-    params.height = static_cast<gpu::uint>(settings.size.y);
+                 static_cast<double>(plan.image_size.x) / static_cast<double>(plan.image_size.y));
+    params.width = static_cast<gpu::uint>(plan.image_size.x);
+    params.height = static_cast<gpu::uint>(plan.image_size.y);
+    params.first_column = static_cast<gpu::uint>(plan.first_pixel.x);
+    params.column_count = static_cast<gpu::uint>(settings.size.x);
     params.seed = settings.seed;
     params.sequence = sequence_id(settings.sequence);
     params.ao_rays = settings.ao_rays;
@@ -79,9 +81,10 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
 
 void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params, std::uint32_t sample,
                   Recording& rec) {
-    params.first_row = slice.first_row;
+    const auto picture_row = static_cast<gpu::uint>(plan.first_pixel.y);
+    params.first_row = picture_row + slice.first_row;
     params.row_count = slice.row_count;
-    params.band_first_row = slice.band_first_row;
+    params.band_first_row = picture_row + slice.band_first_row;
     params.sample_index = sample;
     record_frame_upload(plan, params, rec);
 

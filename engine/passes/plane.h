@@ -26,10 +26,10 @@ std::string use_buffer(const RenderPlan& plan, const std::string& name, Recordin
 // One float.
 [[nodiscard]] Plane constant_value(float value, Recording& recording);
 
-// The run of rows that a recording renders.
+// The run of rows of the picture that a recording renders.
 struct Slice {
     std::uint32_t band = 0;
-    std::uint32_t band_first_row = 0;  // image rows
+    std::uint32_t band_first_row = 0;  // rows of the picture
     std::uint32_t first_row = 0;
     std::uint32_t row_count = 0;
 };

@@ -33,6 +33,22 @@ void check_settings(const RenderSettings& settings) {
     if (!(settings.ao_radius > 0.0f)) refuse(fmt::format("ao_radius {} must be above 0", settings.ao_radius));
 }
 
+void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
+    const glm::ivec2 size = plan.settings.size;
+    plan.image_size = size;
+    if (!crop) return;
+    const auto [first, end] = *crop;
+    const bool is_inside =
+        glm::all(glm::greaterThanEqual(first, glm::ivec2(0))) && glm::all(glm::lessThanEqual(end, size));
+    if (!is_inside || !glm::all(glm::lessThan(first, end))) {
+        throw Error(ExitCode::input_refused,
+                    fmt::format("the crop {},{},{},{} is empty or leaves the picture of {}x{}", first.x, first.y, end.x,
+                                end.y, size.x, size.y));
+    }
+    plan.first_pixel = first;
+    plan.settings.size = end - first;
+}
+
 void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
@@ -50,8 +66,16 @@ void count_rays(RenderPlan& plan) {
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
+// Slices that one sample of the whole picture is cut into when none is made smaller.
+std::uint64_t slices_of_a_sample(const RenderPlan& plan) {
+    const auto cut = [&](std::uint32_t rows) { return (rows + plan.slice_rows - 1) / plan.slice_rows; };
+    const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
+    const std::uint32_t last_rows = height - (plan.band_count - 1) * plan.band_rows;
+    return std::uint64_t{plan.band_count - 1} * cut(plan.band_rows) + cut(last_rows);
+}
+
 void list_passes(RenderPlan& plan) {
-    const std::uint64_t slices = std::uint64_t{plan.band_count} * plan.settings.spp;
+    const std::uint64_t slices = slices_of_a_sample(plan) * plan.settings.spp;
     const auto add = [&](bool on, const char* label, std::uint64_t count) {
         if (on) plan.passes.push_back({label, count});
     };
@@ -61,7 +85,7 @@ void list_passes(RenderPlan& plan) {
     add(plan.has(Effect::sun), "sun.trace", slices);
     add(true, "shade.resolve", slices);
     add(plan.has(Effect::aov), "aov.surface", slices);
-    add(plan.has(Effect::aov), "aov.position", plan.band_count);
+    add(plan.has(Effect::aov), "aov.position", slices_of_a_sample(plan));
     add(true, "film.add", slices * (film_planes(plan).size() - 1));
 }
 
@@ -157,6 +181,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_settings(scene.settings);
     RenderPlan plan;
     plan.settings = scene.settings;
+    place_window(plan, request.crop);
     plan.effects = decide_effects(facts, request.effects);
     plan.world = world;
     plan.material_count = checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
@@ -174,6 +199,10 @@ std::string describe(const RenderPlan& plan) {
     const RenderSettings& s = plan.settings;
     std::string text = fmt::format("picture   {}x{}, {} samples per pixel, {} occlusion rays of {} voxels each\n", s.size.x,
                                    s.size.y, s.spp, s.ao_rays, s.ao_radius);
+    if (plan.image_size != s.size) {
+        text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
+                            plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
+    }
     text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
     for (const EffectState& state : plan.effects)
         text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off", state.reason);

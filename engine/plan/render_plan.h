@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,19 @@ struct PlannedRays {
     bool operator==(const PlannedRays&) const = default;
 };
 
+// The columns first.x <= x < end.x and the rows first.y <= y < end.y of an image, row 0 on top.
+struct PixelWindow {
+    glm::ivec2 first{0};
+    glm::ivec2 end{0};
+
+    bool operator==(const PixelWindow&) const = default;
+};
+
 // Everything that is decided before the first command: pure data, printable, comparable, made with no device.
 struct RenderPlan {
-    RenderSettings settings;
+    RenderSettings settings;  // `size` is that of the picture: of the window, when there is one
+    glm::ivec2 image_size{0};    // what the camera sees
+    glm::ivec2 first_pixel{0};   // of the picture in that image
     EffectStates effects;
     WorldFacts world;
     std::uint32_t material_count = 0;
@@ -78,10 +89,11 @@ struct RenderPlan {
 struct PlanRequest {
     EffectRequest effects;
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
+    std::optional<PixelWindow> crop;        // render these pixels of the image only
 };
 
 // Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming the
-// largest, and Error(input_refused) for settings out of range.
+// largest, and Error(input_refused) for settings out of range, a crop outside the image included.
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
 

@@ -112,7 +112,7 @@ class RenderRun {
             auto& table = i < gpu::kFaultCount ? statistics_.faults : statistics_.work;
             table[gpu::kTallyNames[i]] += tally[i];
         }
-        if (plan_.rays.primary != 0) statistics_.work["primary_rays"] += std::uint64_t{params_.width} * slice.row_count;
+        if (plan_.rays.primary != 0) statistics_.work["primary_rays"] += std::uint64_t{params_.column_count} * slice.row_count;
     }
 
     double add_times(const RunResult& result) {

@@ -37,11 +37,15 @@ Json error_json(const ErrorEstimate& error) {
 }
 
 Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) {
-    return {{"version", VX_VERSION},
-            {"command", command},
-            {"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
-            {"seed", plan.settings.seed},
-            {"size", {plan.settings.size.x, plan.settings.size.y}}};
+    const glm::ivec2 first = plan.first_pixel;
+    const glm::ivec2 size = plan.settings.size;
+    Json json = {{"version", VX_VERSION},
+                 {"command", command},
+                 {"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+                 {"seed", plan.settings.seed},
+                 {"size", {plan.image_size.x, plan.image_size.y}}};
+    if (plan.image_size != size) json["crop"] = {first.x, first.y, first.x + size.x, first.y + size.y};
+    return json;
 }
 
 std::string_view name_of(StopReason reason) {

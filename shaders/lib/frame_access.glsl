@@ -1,4 +1,4 @@
-// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as width x row_count.
+// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as column_count x row_count.
 #ifndef VX_FRAME_ACCESS_GLSL
 #define VX_FRAME_ACCESS_GLSL
 
@@ -9,7 +9,7 @@ layout(scalar) readonly buffer Frame {
 };
 
 struct Pixel {
-    uint x;
+    uint x;      // image column
     uint y;      // image row, 0 at the top
     uint index;  // in the buffers of this slice
     bool inside;
@@ -26,10 +26,11 @@ Pixel this_pixel() {
     uint group_row = interleaved_row(gl_WorkGroupID.y, gl_NumWorkGroups.y);
     uint row = group_row * gl_WorkGroupSize.y + gl_LocalInvocationID.y;
     Pixel pixel;
-    pixel.x = gl_GlobalInvocationID.x;
+    uint column = gl_GlobalInvocationID.x;
+    pixel.x = frame.first_column + column;
     pixel.y = frame.first_row + row;
-    pixel.index = row * frame.width + pixel.x;
-    pixel.inside = pixel.x < frame.width && row < frame.row_count;
+    pixel.index = row * frame.column_count + column;
+    pixel.inside = column < frame.column_count && row < frame.row_count;
     return pixel;
 }
 

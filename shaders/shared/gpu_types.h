@@ -42,7 +42,8 @@ struct SphereRecord {
     uint material;
 };
 
-// What all passes of one slice of one sample share. A slice is a run of whole image rows.
+// What all passes of one slice of one sample share. A slice is a run of rows of the picture, and the picture the whole
+// image or a window of it.
 struct FrameParams {
     ivec3 chunks;           // of the world, per axis
     ivec3 world_origin;     // scene cell of the world's cell 0
@@ -55,7 +56,9 @@ struct FrameParams {
     uint height;
     uint first_row;         // of the slice, image row
     uint row_count;
-    uint band_first_row;    // of the film band that the slice is in
+    uint first_column;      // of the picture, image column
+    uint column_count;
+    uint band_first_row;    // of the film band that the slice is in, image row
     uint sample_index;
     uint seed;
     uint sequence;          // of sequence.h

@@ -37,6 +37,16 @@ TEST(ParseSize, anything_else_is_refused_with_its_flag) {
     EXPECT_EQ(refusal([] { (void)parse_size("--group-size", "8"); }).find("--group-size: '8'"), 0u);
 }
 
+TEST(ParseWindow, four_numbers_give_a_window) {
+    EXPECT_EQ(parse_window("--crop", "1,2,30,40"), (PixelWindow{{1, 2}, {30, 40}}));
+    EXPECT_EQ(parse_window("--crop", "-1,0,-3,4"), (PixelWindow{{-1, 0}, {-3, 4}}))
+        << "the plan judges the values";
+    for (const char* text : {"", "1", "1,2,3", "1,2,3,", "1,2,3,4,", "1,2,3,4,5", "1, 2,3,4", "1.5,2,3,4",
+                             "a,b,c,d", "1;2;3;4", "99999999999,2,3,4"})
+        EXPECT_EQ(refusal([&] { (void)parse_window("--crop", text); }),
+                  fmt::format("--crop: '{}' is not X0,Y0,X1,Y1 in pixels", text));
+}
+
 TEST(ParseDuration, units_add_up) {
     EXPECT_EQ(parse_duration("90s"), 90.0);
     EXPECT_EQ(parse_duration("90"), 90.0);

@@ -139,6 +139,28 @@ TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
     EXPECT_GT(hits, 100);
 }
 
+// Every channel of a crop is bit for bit that part of the whole picture, and the file says where it lies.
+TEST(Picture, crop_is_that_part_of_the_whole_picture) {
+    const ScratchFolder scratch;
+    EXPECT_EQ(run(mixed({"-o", scratch / "whole.exr"})).code, 0);
+    EXPECT_EQ(
+        run(mixed({"-o", scratch / "part.exr", "-o", scratch / "part.png", "--crop", "11,7,40,22"})).code, 0);
+    const Imf::InputFile file((scratch / "part.exr").c_str());
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({11, 7}, {39, 21}));
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {47, 26}));
+    EXPECT_EQ(read_png(scratch / "part.png").width, 29);
+    const Image whole = read_exr(scratch / "whole.exr");
+    const Image part = read_exr(scratch / "part.exr");  // of the size of the whole, zero outside
+    for (const auto& [name, channel] : whole.channels) {
+        for (std::size_t i = 0; i < channel.pixels.size(); ++i) {
+            const std::size_t x = i % 48, y = i / 48;
+            const bool is_inside = x >= 11 && x < 40 && y >= 7 && y < 22;
+            ASSERT_EQ(part.channels.at(name).pixels[i], is_inside ? channel.pixels[i] : 0.0f)
+                << name << " of pixel " << x << ", " << y;
+        }
+    }
+}
+
 TEST(Picture, png_is_the_tone_mapped_exr) {
     const ScratchFolder scratch;
     EXPECT_EQ(run(mixed({"-o", scratch / "a.exr", "-o", scratch / "a.png", "--exposure", "-1"})).code, 0);
@@ -214,7 +236,8 @@ TEST(Picture, time_limit_ends_in_time_with_a_whole_picture) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_GE(seconds, 2.0);
     EXPECT_LE(seconds, 2.0 + 2.0) << "the limit, and 2 s for the last slice and the files";
-    for (const float samples : read_exr(scratch / "a.exr").channels.at("sampleCount.Y").pixels)
+    const Image image = read_exr(scratch / "a.exr");
+    for (const float samples : image.channels.at("sampleCount.Y").pixels)
         ASSERT_GE(samples, 1.0f);
 }
 

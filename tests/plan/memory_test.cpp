@@ -118,6 +118,23 @@ TEST(PlanMemory, buffers_of_large_pictures_stay_below_the_binding_limit) {
     }
 }
 
+TEST(PlanSettings, crop_outside_the_picture_or_of_nothing_is_refused) {
+    const Scene scene;  // 640 x 360
+    const auto crop = [&](glm::ivec2 first, glm::ivec2 end) {
+        PlanRequest request;
+        request.crop = PixelWindow{first, end};
+        return refusal(scene, request, {}, ExitCode::input_refused);
+    };
+    EXPECT_EQ(crop({0, 0}, {640, 360}), "accepted");
+    EXPECT_EQ(crop({639, 359}, {640, 360}), "accepted");
+    EXPECT_EQ(crop({0, 0}, {641, 360}), "the crop 0,0,641,360 is empty or leaves the picture of 640x360");
+    EXPECT_NE(crop({0, 0}, {640, 361}), "accepted");
+    EXPECT_NE(crop({-1, 0}, {640, 360}), "accepted");
+    EXPECT_NE(crop({0, -1}, {640, 360}), "accepted");
+    EXPECT_NE(crop({5, 5}, {5, 6}), "accepted");
+    EXPECT_NE(crop({5, 5}, {6, 4}), "accepted");
+}
+
 struct BadSetting {
     const char* message;
     void (*set)(RenderSettings&);

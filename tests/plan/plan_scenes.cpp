@@ -69,15 +69,17 @@ RecordedRender record_render(const Scene& scene, const PreparedScene& prepared) 
     const gpu::FrameParams params = frame_params(plan, scene, prepared.naadf);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     for (std::uint32_t sample = 0; sample < plan.settings.spp; ++sample) {
-        for (std::uint32_t band = 0; band < plan.band_count; ++band) {
-            const std::uint32_t first = band * plan.band_rows;
+        for (std::uint32_t row = 0; row < height;) {
+            const std::uint32_t band = row / plan.band_rows;
+            const std::uint32_t band_end = std::min(height, (band + 1) * plan.band_rows);
             const Slice slice{.band = band,
-                              .band_first_row = first,
-                              .first_row = first,
-                              .row_count = std::min(plan.band_rows, height - first)};
+                              .band_first_row = band * plan.band_rows,
+                              .first_row = row,
+                              .row_count = std::min(plan.slice_rows, band_end - row)};
             Recording recording;
             record_frame(plan, slice, params, sample, recording);
             add(render, std::move(recording));
+            row += slice.row_count;
         }
     }
     return render;

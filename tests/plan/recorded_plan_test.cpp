@@ -59,6 +59,26 @@ TEST_P(RecordedPlan, banded_render_declares_and_dispatches_exactly_the_plan) {
     expect_as_planned(scene, test::exr_request());
 }
 
+// A picture so high that a band takes several slices.
+TEST_P(RecordedPlan, high_render_declares_and_dispatches_exactly_the_plan) {
+    Scene scene = test::repository_scene(GetParam(), {"render.spp=2"});
+    scene.settings.size = {4, 131072};
+    const RenderPlan plan = test::plan_of(scene);
+    ASSERT_LT(plan.slice_rows, plan.band_rows);
+    expect_as_planned(scene, test::exr_request());
+}
+
+// A window of an image is planned as a picture of its own size.
+TEST_P(RecordedPlan, cropped_render_declares_and_dispatches_exactly_the_plan) {
+    const Scene scene = test::repository_scene(GetParam(), {"render.spp=2", "render.size=[640, 360]"});
+    PlanRequest request = test::exr_request();
+    request.crop = PixelWindow{{100, 200}, {140, 230}};
+    expect_as_planned(scene, request);
+    const Scene small = test::repository_scene(GetParam(), {"render.spp=2", "render.size=[40, 30]"});
+    EXPECT_EQ(test::plan_of(scene, request).buffers, test::plan_of(small).buffers);
+    EXPECT_EQ(test::plan_of(scene, request).rays, test::plan_of(small).rays);
+}
+
 TEST_P(RecordedPlan, every_switch_off_is_still_exactly_the_plan) {
     const Scene scene = test::repository_scene(GetParam(), {"render.spp=1"});
     for (std::size_t i = 0; i < kEffectCount; ++i) {

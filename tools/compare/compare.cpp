@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "film/flip.h"
 #include "film/image_file.h"
 #include "film/metrics.h"
+#include "parse_box.h"
 
 namespace voxilux {
 namespace {
@@ -135,20 +135,10 @@ double checked_limit(const std::string& key, double limit) {
     return limit;
 }
 
-std::vector<int> parse_box(std::string_view text) {
-    std::vector<int> box;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (box.size() < 4) {
-        int value = 0;
-        const auto [rest, error] = std::from_chars(at, end, value);
-        const bool is_separated = box.size() == 3 ? rest == end : rest != end && *rest == ',';
-        if (error != std::errc() || !is_separated)
-            throw CLI::ValidationError("--box", fmt::format("'{}' is not X0,Y0,X1,Y1 in pixels", text));
-        box.push_back(value);
-        at = rest + 1;
-    }
-    return box;
+std::vector<int> checked_box(const std::string& text) {
+    const auto box = parse_box(text);
+    if (!box) throw CLI::ValidationError("--box", fmt::format("'{}' is not X0,Y0,X1,Y1 in pixels", text));
+    return {box->begin(), box->end()};
 }
 
 }  // namespace
@@ -166,7 +156,7 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& options) {
         ->type_name("FILE");
     command
         ->add_option_function<std::string>(
-            "--box", [&options](const std::string& text) { options.box = parse_box(text); },
+            "--box", [&options](const std::string& text) { options.box = checked_box(text); },
             "compare columns X0 to X1-1 and rows Y0 to Y1-1 only")
         ->type_name("X0,Y0,X1,Y1");
     command->add_option("--diff", options.diff, "write a picture of the difference, .exr or .png")

@@ -87,14 +87,15 @@ glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
     return matrix;
 }
 
-ExrOptions exr_options(const RenderCommand& command, const Scene& scene) {
+ExrOptions exr_options(const RenderCommand& command, const Scene& scene, const RenderPlan& plan) {
     const Camera camera = camera_of(scene);
     const glm::dmat4 to_camera = world_to_camera(camera);
-    return {.reproducible = command.reproducible,
+    return {.window = {plan.first_pixel.x, plan.first_pixel.y, plan.image_size.x, plan.image_size.y},
+            .reproducible = command.reproducible,
             .software = "voxilux " VX_VERSION,
             .comments = fs::path(command.scene.input).filename().string(),
             .world_to_camera = glm::mat4(to_camera),
-            .world_to_ndc = glm::mat4(camera_to_ndc(camera, scene.settings.size) * to_camera)};
+            .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
 }
 
 void write_pictures(const RenderCommand& command, const std::vector<std::string>& outputs, const Scene& scene,
@@ -104,7 +105,8 @@ void write_pictures(const RenderCommand& command, const std::vector<std::string>
     outcome.image.attributes["voxilux.report"] = report.dump();
     for (const std::string& file : outputs) {
         if (has_ending(file, ".exr")) {
-            const WriteReport written = write_exr(file, outcome.image, exr_options(command, scene));
+            const WriteReport written =
+                write_exr(file, outcome.image, exr_options(command, scene, outcome.plan));
             outcome.statistics.faults["exr_clamped"] += written.clamped;
             outcome.statistics.faults["exr_non_finite"] += written.non_finite;
         } else {
