@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 
 #include "film/flip.h"
 #include "film/metrics.h"
@@ -30,6 +31,10 @@ struct GoldenCase {
     std::string name;
     glm::ivec2 size;
 };
+
+void PrintTo(const GoldenCase& golden, std::ostream* out) {
+    *out << golden.name;
+}
 
 const std::vector<GoldenCase>& cases() {
     static const std::vector<GoldenCase> all = {{"first_light", {80, 45}}, {"mixed", {64, 36}},

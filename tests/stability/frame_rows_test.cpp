@@ -206,5 +206,27 @@ TEST(HardCase, row24_film_is_the_same_for_any_slices_and_groups) {
     EXPECT_NE(film_of(scene, 33, test_executor()), whole) << "another seed must show";
 }
 
+TEST(HardCase, row45_camera_inside_a_solid_is_drawn_dark_and_said) {
+    Scene scene = walled_scene();
+    scene.camera = Camera{.position = glm::dvec3(3.0, 0.5, 4.5)};
+    const RenderOutcome outcome = test::render_validated(scene);
+    for (const float pixel : outcome.image.channels.at("R").pixels)
+        ASSERT_EQ(pixel, 0.0f);
+    ASSERT_EQ(outcome.statistics.warnings.size(), 1u);
+    EXPECT_NE(outcome.statistics.warnings[0].find("inside a solid"), std::string::npos);
+}
+
+TEST(HardCase, row45_fields_of_view_from_nothing_to_half_space_and_vertical_views_render_without_faults) {
+    for (const double fov : {1e-12, 1e-3, 179.0, 179.999999}) {
+        for (const double pitch : {-90.0, 0.0, 90.0}) {
+            Scene scene = walled_scene();
+            scene.camera =
+                Camera{.position = glm::dvec3(-4.5, 0.5, 4.5), .pitch_deg = pitch, .fov_y_deg = fov};
+            for (const glm::vec3& color : test::render_first_sample(scene).color)
+                ASSERT_TRUE(std::isfinite(color.x + color.y + color.z)) << fov << " " << pitch;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace voxilux
