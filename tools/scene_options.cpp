@@ -30,7 +30,8 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
     command.add_option("--crop", options.crop, "render columns X0 to X1-1 and rows Y0 to Y1-1 only")
         ->type_name("X0,Y0,X1,Y1")
         ->group(kScene);
-    command.add_option("--frame", options.frame, "frame of an animated .vox file")
+    command.add_option("--frame", options.frame, "frame of an animated .vox file, from 0")
+        ->check([](const std::string& text) { return text.starts_with("-") ? "is not 0 or above" : ""; })
         ->type_name("N")
         ->group(kScene);
     command.add_option("--effect", options.effects, "override the plan: on, off or auto; may repeat")

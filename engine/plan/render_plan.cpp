@@ -1,6 +1,7 @@
 #include "plan/render_plan.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/checked_cast.h"
 #include "base/error.h"
@@ -62,7 +63,8 @@ void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
                                   static_cast<std::uint64_t>(plan.settings.size.y) * plan.settings.spp;
     plan.rays.primary = plan.has(Effect::voxels) || plan.has(Effect::spheres) ? samples : 0;
-    plan.rays.ao = plan.has(Effect::ao) ? samples * plan.settings.ao_rays : 0;
+    const std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max() / plan.settings.ao_rays;
+    plan.rays.ao = plan.has(Effect::ao) ? std::min(samples, most_samples) * plan.settings.ao_rays : 0;
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 

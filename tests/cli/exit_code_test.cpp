@@ -90,6 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"time_limit", with({"--time-limit", "soon"}), "--time-limit: 'soon' is not a time"},
         Refused{"error", with({"--error", "0"}), "--error: '0' is not a share above 0"},
         Refused{"progress", with({"--progress", "loud"}), "--progress: 'loud' is not auto, never or json"},
+        Refused{"frame", with({"--frame", "-1"}), "--frame: is not 0 or above"},
+        Refused{"exposure", with({"--exposure", "nan"}), "--exposure: nan is not a number of stops"},
         Refused{"tone", with({"--tone", "warm"}), "--tone: 'warm' is not filmic or plain"},
         Refused{"group_size", with({"--group-size", "8"}), "--group-size: '8' is not"},
         Refused{"device", with({"--device", "no such"}), "--device no such: no such device; there are: 0: "},

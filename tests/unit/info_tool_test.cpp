@@ -67,7 +67,7 @@ TEST_F(InfoTool, refusals_name_the_file_and_the_reason) {
     EXPECT_EQ(reason_of(broken),
               broken + ": at byte 4: the file needs 4 bytes for its version but has 0 left");
     const std::string other = write("picture.bmp", "");
-    EXPECT_EQ(reason_of(other), other + ": info reads .vox files");
+    EXPECT_EQ(reason_of(other), other + ": info reads .vox, .toml, .exr and .png files");
     EXPECT_NE(reason_of((folder_ / "absent.vox").string()).find("absent.vox"), std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -43,6 +44,13 @@ ToneMap parse_tone(const std::string& name) {
     if (name == "filmic") return ToneMap::filmic;
     if (name == "plain") return ToneMap::plain;
     throw Error(ExitCode::usage, fmt::format("--tone: '{}' is not filmic or plain", name));
+}
+
+ToneMapOptions tone_options(const RenderCommand& command) {
+    if (!std::isfinite(command.exposure_ev))
+        throw Error(ExitCode::usage,
+                    fmt::format("--exposure: {} is not a number of stops", command.exposure_ev));
+    return {.curve = parse_tone(command.tone), .exposure_ev = command.exposure_ev};
 }
 
 fs::path cache_folder() {
@@ -110,8 +118,7 @@ void write_pictures(const RenderCommand& command, const std::vector<std::string>
             outcome.statistics.faults["exr_clamped"] += written.clamped;
             outcome.statistics.faults["exr_non_finite"] += written.non_finite;
         } else {
-            const DisplayImage display = to_display(
-                outcome.image, {.curve = parse_tone(command.tone), .exposure_ev = command.exposure_ev});
+            const DisplayImage display = to_display(outcome.image, tone_options(command));
             outcome.statistics.faults["png_nan"] += display.nan;
             write_png(file, display.image);
         }
@@ -174,7 +181,7 @@ int run_render(const RenderCommand& command) {
     const std::vector<std::string> outputs = output_files(command);
     RenderOptions options = render_options(command, outputs);
     ProgressLine progress(command.progress, command.quiet);
-    (void)parse_tone(command.tone);
+    (void)tone_options(command);
     check_outputs(command, outputs);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
