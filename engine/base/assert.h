@@ -16,22 +16,23 @@ class InternalError : public std::logic_error {
 
 [[noreturn]] inline void assertion_failed(std::string_view condition, std::string_view file, int line,
                                           std::string_view detail) {
-    throw InternalError(fmt::format("internal error: {} does not hold{} ({}:{})", condition, detail, file, line));
+    throw InternalError(
+        fmt::format("internal error: {} does not hold{} ({}:{})", condition, detail, file, line));
 }
 
 }  // namespace voxilux
 
 // Checked in every build: what they guard is never in an inner loop.
-#define VX_ASSERT(condition)                                                             \
-    do {                                                                                 \
+#define VX_ASSERT(condition)                                                               \
+    do {                                                                                   \
         if (!(condition)) ::voxilux::assertion_failed(#condition, __FILE__, __LINE__, ""); \
     } while (false)
 
-#define VX_ASSERT_EQ(a, b)                                                                          \
-    do {                                                                                            \
-        const auto& vx_a = (a);                                                                     \
-        const auto& vx_b = (b);                                                                     \
-        if (!(vx_a == vx_b))                                                                        \
-            ::voxilux::assertion_failed(#a " == " #b, __FILE__, __LINE__,                           \
-                                        fmt::format(": {} is not {}", vx_a, vx_b));                 \
+#define VX_ASSERT_EQ(a, b)                                                          \
+    do {                                                                            \
+        const auto& vx_a = (a);                                                     \
+        const auto& vx_b = (b);                                                     \
+        if (!(vx_a == vx_b))                                                        \
+            ::voxilux::assertion_failed(#a " == " #b, __FILE__, __LINE__,           \
+                                        fmt::format(": {} is not {}", vx_a, vx_b)); \
     } while (false)

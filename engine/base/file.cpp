@@ -24,8 +24,8 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
     const std::streamoff size = in.tellg();
     if (size < 0) throw Error(ExitCode::input_refused, fmt::format("{}: cannot be sought", path.string()));
     if (static_cast<std::size_t>(size) > limit_bytes) {
-        throw Error(ExitCode::input_refused, fmt::format("{}: {} bytes, over the limit of {}", path.string(),
-                                                         size, limit_bytes));
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: {} bytes, over the limit of {}", path.string(), size, limit_bytes));
     }
     std::vector<std::byte> bytes(static_cast<std::size_t>(size));
     in.seekg(0);

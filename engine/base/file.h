@@ -13,9 +13,9 @@ namespace voxilux {
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path,
                                                std::size_t limit_bytes = std::size_t{8} << 30);
 
-// Calls `write` with a temporary name in the folder of `path`, then renames onto `path`: a reader sees the old
-// file or the whole new one, and a failure leaves nothing behind. A link stays a link; a device or a pipe is
-// written to directly. Throws Error(cannot_write).
+// Calls `write` with a temporary name in the folder of `path`, then renames onto `path`: a reader sees the
+// old file or the whole new one, and a failure leaves nothing behind. A link stays a link; a device or a pipe
+// is written to directly. Throws Error(cannot_write).
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path& temporary)>& write);
 

@@ -28,9 +28,12 @@ double radians(double degrees) {
 
 gpu::uint sequence_id(Sequence sequence) {
     switch (sequence) {
-        case Sequence::sobol: return gpu::kSequenceSobol;
-        case Sequence::halton: return gpu::kSequenceHalton;
-        case Sequence::white: return gpu::kSequenceWhite;
+        case Sequence::sobol:
+            return gpu::kSequenceSobol;
+        case Sequence::halton:
+            return gpu::kSequenceHalton;
+        case Sequence::white:
+            return gpu::kSequenceWhite;
     }
     VX_ASSERT(false);
 }
@@ -40,9 +43,10 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
     const glm::dvec3 cell = glm::floor(local);
     for (int a = 0; a < 3; ++a) {
         if (!(std::abs(local[a]) < kFarthestCamera)) {
-            throw Error(ExitCode::input_refused,
-                        fmt::format("camera position ({}, {}, {}) is over {} voxels from the scene", camera.position.x,
-                                    camera.position.y, camera.position.z, kFarthestCamera));
+            throw Error(
+                ExitCode::input_refused,
+                fmt::format("camera position ({}, {}, {}) is over {} voxels from the scene",
+                            camera.position.x, camera.position.y, camera.position.z, kFarthestCamera));
         }
     }
     params.camera_cell = glm::ivec3(cell);
@@ -74,7 +78,8 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.sky_radiance = plan.has(Effect::sky) ? scene.sky.radiance : glm::vec3(0.0f);
     params.sun_direction = scene.sun.direction();
     params.sun_irradiance = plan.has(Effect::sun) ? scene.sun.irradiance : glm::vec3(0.0f);
-    params.sun_cone_height = gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
+    params.sun_cone_height =
+        gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
     params.sphere_count = plan.has(Effect::spheres) ? plan.sphere_count : 0;
     return params;
 }
@@ -88,10 +93,13 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     params.sample_index = sample;
     record_frame_upload(plan, params, rec);
 
-    const Plane voxels = plan.has(Effect::voxels) ? record_primary_march(plan, slice, rec) : constant_miss(rec);
+    const Plane voxels =
+        plan.has(Effect::voxels) ? record_primary_march(plan, slice, rec) : constant_miss(rec);
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, slice, voxels, rec) : voxels;
-    const Plane ao = plan.has(Effect::ao) ? record_ao_trace(plan, slice, hits, rec) : constant_value(1.0f, rec);
-    const Plane sun = plan.has(Effect::sun) ? record_sun_trace(plan, slice, hits, rec) : constant_value(0.0f, rec);
+    const Plane ao =
+        plan.has(Effect::ao) ? record_ao_trace(plan, slice, hits, rec) : constant_value(1.0f, rec);
+    const Plane sun =
+        plan.has(Effect::sun) ? record_sun_trace(plan, slice, hits, rec) : constant_value(0.0f, rec);
     const Plane color = record_shade_resolve(plan, slice, {hits, ao, sun}, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
 

@@ -4,8 +4,10 @@
 
 namespace voxilux {
 
-SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
-    const SurfacePlanes planes{{use_buffer(plan, "aov.albedo", recording)}, {use_buffer(plan, "aov.normal", recording)}};
+SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                                 Recording& recording) {
+    const SurfacePlanes planes{{use_buffer(plan, "aov.albedo", recording)},
+                               {use_buffer(plan, "aov.normal", recording)}};
     Dispatch dispatch{.label = "aov.surface",
                       .shader = "aov_surface",
                       .extent = pixel_extent(plan, slice),
@@ -21,7 +23,8 @@ SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, con
     return planes;
 }
 
-void record_aov_position(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
+void record_aov_position(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                         Recording& recording) {
     recording.dispatch(
         {.label = "aov.position",
          .shader = "aov_position",

@@ -12,13 +12,14 @@ void record_film_add(const RenderPlan& plan, const Slice& slice, const FilmPlane
     const gpu::FilmAddPush push{.count = row_values * slice.row_count,
                                 .values_stride = values.stride,
                                 .first_sum = row_values * (slice.first_row - slice.band_first_row)};
-    recording.dispatch({.label = "film.add",
-                        .shader = "film_add",
-                        .extent = {push.count, 1, 1},
-                        .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
-                                     {"Values", values.buffer},
-                                     {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
-                        .push = to_bytes(push)});
+    recording.dispatch(
+        {.label = "film.add",
+         .shader = "film_add",
+         .extent = {push.count, 1, 1},
+         .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
+                      {"Values", values.buffer},
+                      {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
+         .push = to_bytes(push)});
 }
 
 }  // namespace voxilux

@@ -18,7 +18,8 @@ std::string use_buffer(const RenderPlan& plan, const std::string& name, Recordin
 namespace {
 
 // Declares a buffer of constants and fills it the first time it is used in a recording.
-std::string use_constant(const std::string& name, std::uint64_t size_bytes, std::uint32_t word, Recording& recording) {
+std::string use_constant(const std::string& name, std::uint64_t size_bytes, std::uint32_t word,
+                         Recording& recording) {
     if (recording.find(name) == nullptr) {
         recording.declare({.name = name, .size_bytes = size_bytes});
         recording.clear(name, word);
@@ -26,7 +27,8 @@ std::string use_constant(const std::string& name, std::uint64_t size_bytes, std:
     return name;
 }
 
-std::string use_or_placeholder(const RenderPlan& plan, bool on, const std::string& name, Recording& recording) {
+std::string use_or_placeholder(const RenderPlan& plan, bool on, const std::string& name,
+                               Recording& recording) {
     if (on) return use_buffer(plan, name, recording);
     return use_constant("constant.placeholder", sizeof(std::uint32_t), 0, recording);
 }
@@ -65,11 +67,12 @@ std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recordi
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
-    return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u}, {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
+    return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u},
+            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
 }
 
-Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass, const Plane& hits,
-                          Recording& recording) {
+Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
+                          const Plane& hits, Recording& recording) {
     const Plane output{use_buffer(plan, pass.output_buffer, recording)};
     Dispatch dispatch{.label = pass.label,
                       .shader = pass.shader,

@@ -9,15 +9,15 @@
 
 namespace voxilux {
 
-// A per-pixel quantity of the current slice. An effect that is off yields a constant: one element, stride 0, so
-// that whoever reads it never changes.
+// A per-pixel quantity of the current slice. An effect that is off yields a constant: one element, stride 0,
+// so that whoever reads it never changes.
 struct Plane {
     std::string buffer;
     std::uint32_t stride = 1;
 };
 
-// Declares a buffer of the plan in the recording and returns its name. A buffer that the plan does not hold is our
-// mistake: absent effects have no buffers.
+// Declares a buffer of the plan in the recording and returns its name. A buffer that the plan does not hold
+// is our mistake: absent effects have no buffers.
 std::string use_buffer(const RenderPlan& plan, const std::string& name, Recording& recording);
 
 // One hit that is a miss, for a frame that marches nothing.

@@ -12,7 +12,7 @@ struct ShadeInputs {
 };
 
 // Linear RGB radiance of each camera ray.
-[[nodiscard]] Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const ShadeInputs& inputs,
-                                         Recording& recording);
+[[nodiscard]] Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice,
+                                         const ShadeInputs& inputs, Recording& recording);
 
 }  // namespace voxilux

@@ -2,7 +2,8 @@
 
 namespace voxilux {
 
-Plane record_sphere_trace(const RenderPlan& plan, const Slice& slice, const Plane& voxel_hits, Recording& recording) {
+Plane record_sphere_trace(const RenderPlan& plan, const Slice& slice, const Plane& voxel_hits,
+                          Recording& recording) {
     const Plane hits{use_buffer(plan, "sphere.hits", recording)};
     recording.dispatch({.label = "sphere.trace",
                         .shader = "sphere_trace",

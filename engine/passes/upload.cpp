@@ -9,7 +9,8 @@ namespace voxilux {
 namespace {
 
 template <class T>
-void upload_all(const RenderPlan& plan, const std::string& name, const std::vector<T>& values, Recording& recording) {
+void upload_all(const RenderPlan& plan, const std::string& name, const std::vector<T>& values,
+                Recording& recording) {
     recording.upload(use_buffer(plan, name, recording), std::as_bytes(std::span(values)));
 }
 
@@ -27,14 +28,15 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
     const glm::dvec3 centre = sphere.centre - glm::dvec3(origin);
     const double distance = glm::length(centre);
     const glm::dvec3 normal = distance > 0.0 ? -centre / distance : glm::dvec3(0.0, 0.0, 1.0);
-    const gpu::Sphere shape{glm::vec3(centre + sphere.radius * normal), static_cast<float>(1.0 / sphere.radius),
-                            glm::vec3(normal)};
+    const gpu::Sphere shape{glm::vec3(centre + sphere.radius * normal),
+                            static_cast<float>(1.0 / sphere.radius), glm::vec3(normal)};
     return {shape, sphere.material};
 }
 
 }  // namespace
 
-void record_scene_upload(const RenderPlan& plan, const Scene& scene, const Naadf& naadf, Recording& recording) {
+void record_scene_upload(const RenderPlan& plan, const Scene& scene, const Naadf& naadf,
+                         Recording& recording) {
     if (plan.has(Effect::voxels)) {
         upload_all(plan, "world.chunks", naadf.chunks, recording);
         upload_all(plan, "world.bricks", naadf.bricks, recording);

@@ -5,7 +5,8 @@
 namespace voxilux {
 namespace {
 
-// One row per effect: its need (without it the effect has no meaning), and whether the scene's picture would change.
+// One row per effect: its need (without it the effect has no meaning), and whether the scene's picture would
+// change.
 struct Verdict {
     bool possible = false;
     bool called_for = false;

@@ -38,8 +38,9 @@ struct EffectRequest {
     bool wants_aov = false;  // an output can hold more than colour
 };
 
-// Decides every effect. An effect runs when the scene calls for it: its need is met and something would change
-// without it. `on` by the user overrides the second but never the first: voxels cannot be drawn where there are none.
+// Decides every effect. An effect runs when the scene calls for it: its need is met and something would
+// change without it. `on` by the user overrides the second but never the first: voxels cannot be drawn where
+// there are none.
 [[nodiscard]] EffectStates decide_effects(const SceneFacts& facts, const EffectRequest& request);
 
 }  // namespace voxilux

@@ -10,11 +10,12 @@ namespace voxilux {
 
 // A quantity that the film sums exactly, one 64-bit sum per component and pixel.
 struct FilmPlane {
-    std::string name;      // of its buffers: film.<name>.<band>
+    std::string name;  // of its buffers: film.<name>.<band>
     std::uint32_t components = 1;
 };
 
-// The planes of a plan, the two halves of the beauty first. Samples alternate between the halves, even ones to a.
+// The planes of a plan, the two halves of the beauty first. Samples alternate between the halves, even ones
+// to a.
 [[nodiscard]] std::vector<FilmPlane> film_planes(const RenderPlan& plan);
 
 [[nodiscard]] std::string film_buffer(const std::string& plane, std::uint32_t band);

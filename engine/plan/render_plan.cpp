@@ -13,22 +13,26 @@
 namespace voxilux {
 namespace {
 
-// Pixels of one film band: small enough that every buffer of a band stays far below 128 MiB, large enough that pictures
-// up to 1024 x 1024 are one band.
+// Pixels of one film band: small enough that every buffer of a band stays far below 128 MiB, large enough
+// that pictures up to 1024 x 1024 are one band.
 constexpr std::uint64_t kBandPixels = std::uint64_t{1} << 20;
-constexpr std::uint64_t kMaxImagePixels = (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
-constexpr int kMaxImageSide = 1 << 17;  // pixels; what the files of pictures take, and groups of a row stay countable
+constexpr std::uint64_t kMaxImagePixels =
+    (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
+constexpr int kMaxImageSide =
+    1 << 17;  // pixels; what the files of pictures take, and groups of a row stay countable
 constexpr std::uint32_t kGroupEdge = 8;
 
 void check_settings(const RenderSettings& settings) {
     const auto refuse = [](const std::string& what) { throw Error(ExitCode::input_refused, what); };
     if (settings.size.x < 1 || settings.size.y < 1)
-        refuse(fmt::format("picture size {}x{}: both sides must be at least 1", settings.size.x, settings.size.y));
-    if (static_cast<std::uint64_t>(settings.size.x) * static_cast<std::uint64_t>(settings.size.y) > kMaxImagePixels)
+        refuse(fmt::format("picture size {}x{}: both sides must be at least 1", settings.size.x,
+                           settings.size.y));
+    if (static_cast<std::uint64_t>(settings.size.x) * static_cast<std::uint64_t>(settings.size.y) >
+        kMaxImagePixels)
         refuse(fmt::format("picture size {}x{}: over 2^32 pixels", settings.size.x, settings.size.y));
     if (settings.size.x > kMaxImageSide || settings.size.y > kMaxImageSide)
-        refuse(fmt::format("picture size {}x{}: no side may be over {} pixels", settings.size.x, settings.size.y,
-                           kMaxImageSide));
+        refuse(fmt::format("picture size {}x{}: no side may be over {} pixels", settings.size.x,
+                           settings.size.y, kMaxImageSide));
     if (settings.spp < 1) refuse("spp must be at least 1");
     if (settings.ao_rays < 1) refuse("ao_rays must be at least 1");
     if (!(settings.ao_radius > 0.0f)) refuse(fmt::format("ao_radius {} must be above 0", settings.ao_radius));
@@ -43,8 +47,8 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
         glm::all(glm::greaterThanEqual(first, glm::ivec2(0))) && glm::all(glm::lessThanEqual(end, size));
     if (!is_inside || !glm::all(glm::lessThan(first, end))) {
         throw Error(ExitCode::input_refused,
-                    fmt::format("the crop {},{},{},{} is empty or leaves the picture of {}x{}", first.x, first.y, end.x,
-                                end.y, size.x, size.y));
+                    fmt::format("the crop {},{},{},{} is empty or leaves the picture of {}x{}", first.x,
+                                first.y, end.x, end.y, size.x, size.y));
     }
     plan.first_pixel = first;
     plan.settings.size = end - first;
@@ -53,7 +57,8 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
 void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
-    const std::uint64_t rows = std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
+    const std::uint64_t rows =
+        std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
     plan.band_rows = static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
     plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
     plan.slice_rows = std::min(plan.band_rows, limits.max_groups[1]);  // groups may be one row high
@@ -117,7 +122,8 @@ void list_buffers(RenderPlan& plan) {
     for (std::uint32_t band = 0; band < plan.band_count; ++band) {
         for (const FilmPlane& plane : film_planes(plan))
             persistent(true, film_buffer(plane.name, band), plan.band_pixels() * plane.components * 8);
-        persistent(plan.has(Effect::aov), film_buffer("position", band), plan.band_pixels() * sizeof(gpu::vec3));
+        persistent(plan.has(Effect::aov), film_buffer("position", band),
+                   plan.band_pixels() * sizeof(gpu::vec3));
         persistent(plan.has(Effect::aov), film_buffer("depth", band), plan.band_pixels() * sizeof(float));
     }
 }
@@ -134,16 +140,20 @@ void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const Devi
     }
     if (budget_bytes != 0 && plan.total_bytes() > budget_bytes) {
         const auto largest = std::ranges::max_element(plan.buffers, {}, &PlannedBuffer::bytes);
-        throw Error(ExitCode::out_of_memory,
-                    fmt::format("the render needs {} MiB on the device, over the budget of {} MiB; the largest buffer "
-                                "is '{}' with {} MiB",
-                                plan.total_bytes() >> 20, budget_bytes >> 20, largest->buffer, largest->bytes >> 20));
+        throw Error(
+            ExitCode::out_of_memory,
+            fmt::format(
+                "the render needs {} MiB on the device, over the budget of {} MiB; the largest buffer "
+                "is '{}' with {} MiB",
+                plan.total_bytes() >> 20, budget_bytes >> 20, largest->buffer, largest->bytes >> 20));
     }
 }
 
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
-    if (facts.has_glass) plan.notes.push_back("glass is drawn as a diffuse surface: refraction is not simulated yet");
-    if (facts.has_metal) plan.notes.push_back("metal is drawn as a diffuse surface: reflection is not simulated yet");
+    if (facts.has_glass)
+        plan.notes.push_back("glass is drawn as a diffuse surface: refraction is not simulated yet");
+    if (facts.has_metal)
+        plan.notes.push_back("metal is drawn as a diffuse surface: reflection is not simulated yet");
     if (facts.has_emitters) plan.notes.push_back("emitters glow but do not light other surfaces yet");
 }
 
@@ -186,7 +196,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     place_window(plan, request.crop);
     plan.effects = decide_effects(facts, request.effects);
     plan.world = world;
-    plan.material_count = checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
+    plan.material_count =
+        checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
     split_image(plan, limits);
     count_rays(plan);
@@ -199,22 +210,25 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
 
 std::string describe(const RenderPlan& plan) {
     const RenderSettings& s = plan.settings;
-    std::string text = fmt::format("picture   {}x{}, {} samples per pixel, {} occlusion rays of {} voxels each\n", s.size.x,
-                                   s.size.y, s.spp, s.ao_rays, s.ao_radius);
+    std::string text =
+        fmt::format("picture   {}x{}, {} samples per pixel, {} occlusion rays of {} voxels each\n", s.size.x,
+                    s.size.y, s.spp, s.ao_rays, s.ao_radius);
     if (plan.image_size != s.size) {
         text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
                             plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
     }
     text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
     for (const EffectState& state : plan.effects)
-        text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off", state.reason);
+        text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off",
+                            state.reason);
     for (const PlannedPass& pass : plan.passes)
         text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
     for (const PlannedBuffer& planned : plan.buffers)
         text += fmt::format("buffer    {:<22} {} bytes\n", planned.buffer, planned.bytes);
-    text += fmt::format("memory    {:.1f} MiB on the device\n", static_cast<double>(plan.total_bytes()) / 1048576.0);
-    text += fmt::format("rays      primary {}, ao at most {}, sun at most {}\n", plan.rays.primary, plan.rays.ao,
-                        plan.rays.sun);
+    text += fmt::format("memory    {:.1f} MiB on the device\n",
+                        static_cast<double>(plan.total_bytes()) / 1048576.0);
+    text += fmt::format("rays      primary {}, ao at most {}, sun at most {}\n", plan.rays.primary,
+                        plan.rays.ao, plan.rays.sun);
     for (const std::string& note : plan.notes)
         text += fmt::format("note      {}\n", note);
     return text;

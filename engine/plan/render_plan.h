@@ -59,14 +59,14 @@ struct PixelWindow {
 
 // Everything that is decided before the first command: pure data, printable, comparable, made with no device.
 struct RenderPlan {
-    RenderSettings settings;  // `size` is that of the picture: of the window, when there is one
-    glm::ivec2 image_size{0};    // what the camera sees
-    glm::ivec2 first_pixel{0};   // of the picture in that image
+    RenderSettings settings;    // `size` is that of the picture: of the window, when there is one
+    glm::ivec2 image_size{0};   // what the camera sees
+    glm::ivec2 first_pixel{0};  // of the picture in that image
     EffectStates effects;
     WorldFacts world;
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
-    std::uint32_t band_rows = 0;   // rows of one film band: what one set of film buffers covers
+    std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
@@ -92,8 +92,8 @@ struct PlanRequest {
     std::optional<PixelWindow> crop;        // render these pixels of the image only
 };
 
-// Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming the
-// largest, and Error(input_refused) for settings out of range, a crop outside the image included.
+// Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming
+// the largest, and Error(input_refused) for settings out of range, a crop outside the image included.
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
 

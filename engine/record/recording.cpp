@@ -86,7 +86,8 @@ std::string describe_dispatch(const Dispatch& dispatch) {
 
 struct DescribeCommand {
     std::string operator()(const Upload& upload) const {
-        return fmt::format("upload   {} {} bytes at {}", upload.buffer, upload.data.size(), upload.offset_bytes);
+        return fmt::format("upload   {} {} bytes at {}", upload.buffer, upload.data.size(),
+                           upload.offset_bytes);
     }
     std::string operator()(const Clear& clear) const {
         return fmt::format("clear    {} to {}", clear.buffer, clear.value);

@@ -13,9 +13,9 @@
 
 namespace voxilux {
 
-// A named device buffer that does not exist yet. The name is its identity: two proxies of one name are one buffer,
-// and the executor gives it that debug name. Persistent buffers keep their contents from one recording to the
-// next; the contents of the others are undefined at the start of each recording.
+// A named device buffer that does not exist yet. The name is its identity: two proxies of one name are one
+// buffer, and the executor gives it that debug name. Persistent buffers keep their contents from one
+// recording to the next; the contents of the others are undefined at the start of each recording.
 struct BufferProxy {
     std::string name;
     std::uint64_t size_bytes = 0;
@@ -40,8 +40,9 @@ struct Constant {
     bool operator==(const Constant&) const = default;
 };
 
-// Number of shader invocations, not of workgroups: the executor divides by the reflected local size, rounding up.
-// A one-dimensional extent whose groups exceed the device's limit is folded into y; shaders use linear_id().
+// Number of shader invocations, not of workgroups: the executor divides by the reflected local size, rounding
+// up. A one-dimensional extent whose groups exceed the device's limit is folded into y; shaders use
+// linear_id().
 struct Extent {
     std::uint32_t x = 1;
     std::uint32_t y = 1;
@@ -62,7 +63,8 @@ struct Clear {
     std::uint32_t value = 0;
 };
 
-// One shader over an extent. `label` is "effect.step" and names the timer; push holds the bytes of the push struct.
+// One shader over an extent. `label` is "effect.step" and names the timer; push holds the bytes of the push
+// struct.
 struct Dispatch {
     std::string label;
     std::string shader;
@@ -91,7 +93,8 @@ using Command = std::variant<Upload, Clear, Dispatch, DispatchIndirect, Readback
 // A piece of work for the device as plain data: it can be built, printed and tested without one.
 class Recording {
   public:
-    // Declares a buffer. Declaring the same proxy again is fine; another size under the same name is our mistake.
+    // Declares a buffer. Declaring the same proxy again is fine; another size under the same name is our
+    // mistake.
     void declare(const BufferProxy& proxy);
 
     void upload(std::string buffer, std::span<const std::byte> data, std::uint64_t offset_bytes = 0);

@@ -13,7 +13,8 @@ namespace voxilux {
 // Scene space: right handed, z up, one unit is one voxel, and a cell c covers [c, c+1) on each axis. It is
 // MagicaVoxel's world space. Colours are linear Rec. 709.
 
-// How light leaves a surface. Effects that do not exist yet treat the others as diffuse, and the plan says so.
+// How light leaves a surface. Effects that do not exist yet treat the others as diffuse, and the plan says
+// so.
 enum class Surface : std::uint8_t { diffuse, metal, glass, emit, blend, media };
 
 struct Material {
@@ -68,8 +69,9 @@ struct Rotation {
     }
 };
 
-// A model in the scene. Voxel v of the model fills the scene cell floor(R (v + 1/2 - pivot)) + translation, with
-// pivot = floor(size / 2): MagicaVoxel's rule, exact for odd and even sizes and for mirrors (see world_cell).
+// A model in the scene. Voxel v of the model fills the scene cell floor(R (v + 1/2 - pivot)) + translation,
+// with pivot = floor(size / 2): MagicaVoxel's rule, exact for odd and even sizes and for mirrors (see
+// world_cell).
 struct Instance {
     std::uint32_t model = 0;
     Rotation rotation;
@@ -85,12 +87,12 @@ struct Sphere {
     std::uint32_t material = 0;
 };
 
-// Light from one direction. It is out when it is switched off, `irradiance` is zero, or the direction is not above
-// the horizon (z <= 0).
+// Light from one direction. It is out when it is switched off, `irradiance` is zero, or the direction is not
+// above the horizon (z <= 0).
 struct Sun {
-    float azimuth_deg = 215.0f;   // counter-clockwise from +x, seen from above
-    float elevation_deg = 45.0f;  // above the horizon
-    float angular_diameter_deg = 0.53f;  // 0 gives hard shadows
+    float azimuth_deg = 215.0f;              // counter-clockwise from +x, seen from above
+    float elevation_deg = 45.0f;             // above the horizon
+    float angular_diameter_deg = 0.53f;      // 0 gives hard shadows
     glm::vec3 irradiance{3.0f, 2.8f, 2.5f};  // on a surface that faces the sun
     bool on = true;
 

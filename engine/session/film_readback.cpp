@@ -29,7 +29,8 @@ std::vector<T> read_plane(const RenderPlan& plan, const std::string& name, std::
     values.reserve(row * static_cast<std::size_t>(plan.settings.size.y));
     for (std::uint32_t band = 0; band < plan.band_count; ++band) {
         const std::uint32_t first = band * plan.band_rows;
-        const std::uint32_t rows = std::min(plan.band_rows, static_cast<std::uint32_t>(plan.settings.size.y) - first);
+        const std::uint32_t rows =
+            std::min(plan.band_rows, static_cast<std::uint32_t>(plan.settings.size.y) - first);
         Recording recording;
         const std::string buffer = use_buffer(plan, film_buffer(name, band), recording);
         recording.readback(buffer, 0, row * rows * sizeof(T));
@@ -56,8 +57,8 @@ Halves read_halves(const RenderPlan& plan, const RowSamples& samples, Executor& 
             spread_rows(plan, samples, 1)};
 }
 
-std::vector<float> mean_of(const RenderPlan& plan, const RowSamples& samples, std::span<const std::int64_t> sums,
-                           std::size_t stride, std::size_t offset) {
+std::vector<float> mean_of(const RenderPlan& plan, const RowSamples& samples,
+                           std::span<const std::int64_t> sums, std::size_t stride, std::size_t offset) {
     const auto width = static_cast<std::size_t>(plan.settings.size.x);
     std::vector<float> means;
     means.reserve(width * samples.size());
@@ -79,7 +80,8 @@ void add_means(const RenderPlan& plan, const RowSamples& samples, const NamedPla
     const std::size_t stride = plane.channels.size();
     const std::vector<std::int64_t> sums = read_plane<std::int64_t>(plan, plane.film, stride, executor);
     for (std::size_t i = 0; i < stride; ++i)
-        image.channels[plane.channels[i]] = {Image::Precision::single, mean_of(plan, samples, sums, stride, i)};
+        image.channels[plane.channels[i]] = {Image::Precision::single,
+                                             mean_of(plan, samples, sums, stride, i)};
 }
 
 void add_first_sample(const RenderPlan& plan, const NamedPlane& plane, Image& image, Executor& executor) {

@@ -26,7 +26,8 @@ double seconds_of(const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// How often the error is estimated when it decides the end: reading the film costs about as much as one sample.
+// How often the error is estimated when it decides the end: reading the film costs about as much as one
+// sample.
 constexpr std::uint32_t kErrorCheckEvery = 8;
 
 // The state of one render: everything between the plan and the film.
@@ -112,14 +113,16 @@ class RenderRun {
             auto& table = i < gpu::kFaultCount ? statistics_.faults : statistics_.work;
             table[gpu::kTallyNames[i]] += tally[i];
         }
-        if (plan_.rays.primary != 0) statistics_.work["primary_rays"] += std::uint64_t{params_.column_count} * slice.row_count;
+        if (plan_.rays.primary != 0)
+            statistics_.work["primary_rays"] += std::uint64_t{params_.column_count} * slice.row_count;
     }
 
     double add_times(const RunResult& result) {
         double longest = 0.0;
         for (const PassTime& pass : result.passes) {
             auto known = std::ranges::find(statistics_.passes, pass.label, &PassTime::label);
-            if (known == statistics_.passes.end()) known = statistics_.passes.insert(known, PassTime{pass.label});
+            if (known == statistics_.passes.end())
+                known = statistics_.passes.insert(known, PassTime{pass.label});
             known->count += pass.count;
             known->ms += pass.ms;
             known->max_ms = std::max(known->max_ms, pass.max_ms);
@@ -139,8 +142,8 @@ class RenderRun {
         on_progress(progress);
     }
 
-    // The largest of three shares: of the samples; of the time limit; of the samples that the error target needs when
-    // the error falls with their square root.
+    // The largest of three shares: of the samples; of the time limit; of the samples that the error target
+    // needs when the error falls with their square root.
     double share_done(const Slice& slice) const {
         const double rows = static_cast<double>(slice.first_row + slice.row_count);
         const double samples = static_cast<double>(sample_) + rows / static_cast<double>(row_samples_.size());
@@ -173,15 +176,17 @@ void measure_process(RenderStatistics& statistics) {
     statistics.peak_rss_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Local coordinates of a scene without voxels are counted from its point nearest to the camera, so that even the top of
-// a sphere of radius 10^6 keeps its precision where it is seen.
+// Local coordinates of a scene without voxels are counted from its point nearest to the camera, so that even
+// the top of a sphere of radius 10^6 keeps its precision where it is seen.
 glm::ivec3 nearest_to_camera(const Scene& scene) {
     const Box box = scene_bounds(scene);
     if (box.empty()) return glm::ivec3(0);
-    return glm::ivec3(glm::clamp(glm::floor(camera_of(scene).position), glm::dvec3(box.lo), glm::dvec3(box.hi)));
+    return glm::ivec3(
+        glm::clamp(glm::floor(camera_of(scene).position), glm::dvec3(box.lo), glm::dvec3(box.hi)));
 }
 
-void warn_about_camera(const Scene& scene, const PreparedScene& prepared, std::vector<std::string>& warnings) {
+void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
+                       std::vector<std::string>& warnings) {
     const Naadf& naadf = prepared.naadf;
     const glm::ivec3 cell(glm::floor(camera_of(scene).position - glm::dvec3(naadf.origin)));
     if (!prepared.facts.has_voxels || gpu::is_outside(cell, naadf.size())) return;

@@ -25,12 +25,13 @@ struct RenderOptions {
     std::optional<double> time_limit_s;  // a whole first sample is finished all the same
     std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
     const std::atomic<bool>* interrupted = nullptr;
-    // From when times count, those of the report and the time limit: the loading of the scene may be part of it.
+    // From when times count, those of the report and the time limit: the loading of the scene may be part of
+    // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
 };
 
 struct Progress {
-    double done = 0.0;         // [0,1], by whatever is expected to end the render first
+    double done = 0.0;  // [0,1], by whatever is expected to end the render first
     double elapsed_s = 0.0;
     double remaining_s = 0.0;  // at the pace so far
     std::uint32_t sample = 0;
@@ -45,8 +46,9 @@ struct RenderStatistics {
     double wall_s = 0.0;
     double cpu_s = 0.0;
     double peak_rss_mib = 0.0;
-    double load_s = 0.0;         // scene, world and structure, on the CPU
-    double first_pixel_s = 0.0;  // from RenderOptions::started to the end of the first slice; 0 when there is none
+    double load_s = 0.0;  // scene, world and structure, on the CPU
+    double first_pixel_s =
+        0.0;  // from RenderOptions::started to the end of the first slice; 0 when there is none
     double gpu_ms = 0.0;
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> work;
@@ -66,8 +68,8 @@ struct RenderOutcome {
     RenderStatistics statistics;
 };
 
-// Renders a scene: world, plan, recordings, film. Always returns a whole picture; a pixel that no sample reached (only
-// after an interruption) is black with sampleCount 0.
+// Renders a scene: world, plan, recordings, film. Always returns a whole picture; a pixel that no sample
+// reached (only after an interruption) is black with sampleCount 0.
 [[nodiscard]] RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
                                          const std::function<void(const Progress&)>& on_progress = {});
 
@@ -78,6 +80,7 @@ struct PreparedScene {
     RenderPlan plan;
 };
 
-[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits);
+[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request,
+                                          const DeviceLimits& limits);
 
 }  // namespace voxilux

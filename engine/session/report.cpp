@@ -50,10 +50,14 @@ Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) 
 
 std::string_view name_of(StopReason reason) {
     switch (reason) {
-        case StopReason::finished: return "finished";
-        case StopReason::error_target: return "error target reached";
-        case StopReason::time_limit: return "time limit reached";
-        case StopReason::interrupted: return "interrupted";
+        case StopReason::finished:
+            return "finished";
+        case StopReason::error_target:
+            return "error target reached";
+        case StopReason::time_limit:
+            return "time limit reached";
+        case StopReason::interrupted:
+            return "interrupted";
     }
     VX_ASSERT(false);
 }
@@ -90,7 +94,8 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["gpu_ms"] = statistics.gpu_ms;
     json["passes"] = Json::array();
     for (const PassTime& pass : statistics.passes)
-        json["passes"].push_back({{"label", pass.label}, {"count", pass.count}, {"ms", pass.ms}, {"max_ms", pass.max_ms}});
+        json["passes"].push_back(
+            {{"label", pass.label}, {"count", pass.count}, {"ms", pass.ms}, {"max_ms", pass.max_ms}});
     json["work"] = statistics.work;
     json["memory"] = Json::array();
     for (const MemoryRow& row : statistics.memory)
@@ -128,13 +133,14 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
 std::string describe(const RenderOutcome& outcome) {
     const RenderStatistics& s = outcome.statistics;
     std::string text = fmt::format("device    {} ({})\n", s.device.name, s.device.driver);
-    text += fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.settings.spp, name_of(s.stop));
-    text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU; first pixels after {:.2f} s\n", s.wall_s, s.cpu_s,
-                        s.first_pixel_s);
+    text += fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.settings.spp,
+                        name_of(s.stop));
+    text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU; first pixels after {:.2f} s\n", s.wall_s,
+                        s.cpu_s, s.first_pixel_s);
     for (const PassTime& pass : s.passes)
         text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
-    text += fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate, s.error.metric,
-                        100.0 * s.error.confidence, s.error.low, s.error.high);
+    text += fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,
+                        s.error.metric, 100.0 * s.error.confidence, s.error.low, s.error.high);
     for (const auto& [name, count] : s.faults) {
         if (count != 0) text += fmt::format("fault     {} {}\n", name, count);
     }

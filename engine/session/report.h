@@ -11,7 +11,8 @@ namespace voxilux {
 [[nodiscard]] nlohmann::ordered_json report_json(const Scene& scene, const RenderOutcome& outcome);
 
 // The part of the report that does not depend on the clock or the machine's load: what --reproducible stores.
-[[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome);
+[[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene,
+                                                              const RenderOutcome& outcome);
 
 // The plan in the same terms, before anything ran.
 [[nodiscard]] nlohmann::ordered_json plan_json(const Scene& scene, const RenderPlan& plan);

@@ -8,14 +8,14 @@
 
 namespace voxilux {
 
-// Cuts the picture into slices so that no dispatch lasts long: a GPU's watchdog kills what runs for seconds, and the
-// user may want to stop. The cut never changes the picture, because pixels do not depend on it.
+// Cuts the picture into slices so that no dispatch lasts long: a GPU's watchdog kills what runs for seconds,
+// and the user may want to stop. The cut never changes the picture, because pixels do not depend on it.
 class SliceGovernor {
   public:
     SliceGovernor(const RenderPlan& plan, bool is_cpu);
 
-    // Calls `render` for each slice of the picture from top to bottom until it returns false; `render` gets the slice
-    // and returns the longest dispatch in milliseconds through `max_ms`. False when it was stopped.
+    // Calls `render` for each slice of the picture from top to bottom until it returns false; `render` gets
+    // the slice and returns the longest dispatch in milliseconds through `max_ms`. False when it was stopped.
     bool for_each_slice(const std::function<bool(const Slice&, double& max_ms)>& render);
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }

@@ -7,8 +7,8 @@
 namespace voxilux {
 namespace {
 
-constexpr std::array<glm::ivec3, 6> kDirections = {glm::ivec3{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
-                                                   {0, 1, 0},           {0, 0, -1}, {0, 0, 1}};
+constexpr std::array<glm::ivec3, 6> kDirections = {glm::ivec3{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0},
+                                                   {0, 0, -1},           {0, 0, 1}};
 
 struct GrowthGrid {
     glm::ivec3 size;
@@ -27,8 +27,8 @@ struct GrowthGrid {
     }
 };
 
-// Whether the box of the neighbour covers the slab that `own` would gain in `direction`: it must reach at least as
-// far ahead and to the four sides. What lies behind the neighbour does not matter.
+// Whether the box of the neighbour covers the slab that `own` would gain in `direction`: it must reach at
+// least as far ahead and to the four sides. What lies behind the neighbour does not matter.
 bool covers_slab(const Extents& neighbour, const Extents& own, std::size_t direction) {
     const std::size_t behind = direction ^ 1u;
     for (std::size_t side = 0; side < 6; ++side) {
@@ -37,7 +37,8 @@ bool covers_slab(const Extents& neighbour, const Extents& own, std::size_t direc
     return true;
 }
 
-bool can_grow(const GrowthGrid& grid, const std::vector<Extents>& extents, glm::ivec3 cell, std::size_t direction) {
+bool can_grow(const GrowthGrid& grid, const std::vector<Extents>& extents, glm::ivec3 cell,
+              std::size_t direction) {
     const Extents& own = extents[grid.index(cell)];
     if (own[direction] >= grid.max_extent) return false;
     const glm::ivec3 neighbour = cell + kDirections[direction];
@@ -59,9 +60,9 @@ void for_each_empty(const GrowthGrid& grid, const Visit& visit) {
 }
 
 // Cells of a 4^3 grid whose neighbour in a direction is inside the grid.
-constexpr std::array<std::uint64_t, 6> kHasNeighbour4 = {
-    0xEEEEEEEEEEEEEEEEull, 0x7777777777777777ull, 0xFFF0FFF0FFF0FFF0ull,
-    0x0FFF0FFF0FFF0FFFull, 0xFFFFFFFFFFFF0000ull, 0x0000FFFFFFFFFFFFull};
+constexpr std::array<std::uint64_t, 6> kHasNeighbour4 = {0xEEEEEEEEEEEEEEEEull, 0x7777777777777777ull,
+                                                         0xFFF0FFF0FFF0FFF0ull, 0x0FFF0FFF0FFF0FFFull,
+                                                         0xFFFFFFFFFFFF0000ull, 0x0000FFFFFFFFFFFFull};
 constexpr std::array<int, 6> kShift4 = {1, 1, 4, 4, 16, 16};
 
 // Bit of each cell's neighbour in `direction`, moved to the cell; 0 where there is none.
@@ -129,7 +130,8 @@ std::array<Extents, 64> grow_aadf_4(std::uint64_t filled) {
     for (std::size_t cell = 0; cell < 64; ++cell) {
         for (std::size_t direction = 0; direction < 6; ++direction) {
             for (const std::uint64_t reaching : reach[direction])
-                extents[cell][direction] = static_cast<std::uint8_t>(extents[cell][direction] + ((reaching >> cell) & 1u));
+                extents[cell][direction] =
+                    static_cast<std::uint8_t>(extents[cell][direction] + ((reaching >> cell) & 1u));
         }
     }
     return extents;

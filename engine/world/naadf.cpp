@@ -17,7 +17,8 @@ using Words = std::array<std::uint32_t, 32>;
 std::uint32_t pack_distances(const Extents& extents, std::uint32_t bits) {
     std::uint32_t packed = 0;
     for (std::size_t direction = 0; direction < 6; ++direction)
-        packed |= static_cast<std::uint32_t>(extents[direction]) << (static_cast<std::uint32_t>(direction) * bits);
+        packed |= static_cast<std::uint32_t>(extents[direction])
+                  << (static_cast<std::uint32_t>(direction) * bits);
     return packed;
 }
 
@@ -121,7 +122,8 @@ Naadf build_naadf(const VoxelWorld& world) {
     const std::vector<Extents> extents = grow_aadf(size, filled, gpu::kChunkDistanceMax, Beyond::empty);
     for (std::size_t i = 0; i < filled.size(); ++i) {
         if (filled[i] == 0)
-            naadf.chunks[i] = gpu::make_cell(gpu::kCellEmpty, pack_distances(extents[i], gpu::kChunkDistanceBits));
+            naadf.chunks[i] =
+                gpu::make_cell(gpu::kCellEmpty, pack_distances(extents[i], gpu::kChunkDistanceBits));
     }
     return naadf;
 }

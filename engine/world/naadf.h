@@ -9,13 +9,14 @@
 
 namespace voxilux {
 
-// Nested anisotropic distance fields of a world, laid out as the shaders read them (shaders/shared/naadf_cell.h).
+// Nested anisotropic distance fields of a world, laid out as the shaders read them
+// (shaders/shared/naadf_cell.h).
 struct Naadf {
-    glm::ivec3 origin{0};                // scene cell of local cell 0
-    glm::ivec3 chunks_size{1};           // chunks per axis
-    std::vector<std::uint32_t> chunks;   // dense, x fastest
-    std::vector<std::uint32_t> bricks;   // 64 per mixed chunk
-    std::vector<std::uint32_t> voxels;   // 32 words (64 voxels of 16 bits) per distinct mixed brick
+    glm::ivec3 origin{0};               // scene cell of local cell 0
+    glm::ivec3 chunks_size{1};          // chunks per axis
+    std::vector<std::uint32_t> chunks;  // dense, x fastest
+    std::vector<std::uint32_t> bricks;  // 64 per mixed chunk
+    std::vector<std::uint32_t> voxels;  // 32 words (64 voxels of 16 bits) per distinct mixed brick
 
     [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }
     [[nodiscard]] std::uint64_t size_bytes() const {

@@ -21,7 +21,8 @@ bool VoxelWorld::contains(glm::ivec3 local) const {
 std::size_t VoxelWorld::chunk_index(glm::ivec3 c) const {
     return static_cast<std::size_t>(c.x) +
            static_cast<std::size_t>(chunks_.x) *
-               (static_cast<std::size_t>(c.y) + static_cast<std::size_t>(chunks_.y) * static_cast<std::size_t>(c.z));
+               (static_cast<std::size_t>(c.y) +
+                static_cast<std::size_t>(chunks_.y) * static_cast<std::size_t>(c.z));
 }
 
 void VoxelWorld::set(glm::ivec3 local, std::uint16_t material) {
@@ -63,10 +64,11 @@ VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
     const std::uint64_t count = static_cast<std::uint64_t>(chunks.x) * static_cast<std::uint64_t>(chunks.y) *
                                 static_cast<std::uint64_t>(chunks.z);
     if (count > limit_chunks) {
-        throw Error(ExitCode::out_of_memory,
-                    fmt::format("the voxels span {} x {} x {} cells: {} chunks of 16^3, over the limit of {}; move "
-                                "the models closer together",
-                                chunks.x * 16, chunks.y * 16, chunks.z * 16, count, limit_chunks));
+        throw Error(
+            ExitCode::out_of_memory,
+            fmt::format("the voxels span {} x {} x {} cells: {} chunks of 16^3, over the limit of {}; move "
+                        "the models closer together",
+                        chunks.x * 16, chunks.y * 16, chunks.z * 16, count, limit_chunks));
     }
     VoxelWorld world(origin, chunks);
     for (const Instance& instance : scene.instances) {

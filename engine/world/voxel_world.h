@@ -10,9 +10,9 @@
 
 namespace voxilux {
 
-// The voxels of a scene with its instances flattened, stored sparsely by bricks of 4^3. Cells are counted from the
-// world's own corner: scene cell = origin + local cell. The grid is whole chunks of 16^3 and keeps at least one
-// empty cell around the voxels, so that the cell in front of every face belongs to the world.
+// The voxels of a scene with its instances flattened, stored sparsely by bricks of 4^3. Cells are counted
+// from the world's own corner: scene cell = origin + local cell. The grid is whole chunks of 16^3 and keeps
+// at least one empty cell around the voxels, so that the cell in front of every face belongs to the world.
 class VoxelWorld {
   public:
     static constexpr std::uint16_t kEmpty = 0;
@@ -23,7 +23,8 @@ class VoxelWorld {
     // Fills a cell; `material` < 32768. The last call for a cell wins.
     void set(glm::ivec3 local, std::uint16_t material);
 
-    // The 16 bits of a voxel as naadf_cell.h has them: 0x8000 | material, or kEmpty. Outside the world all is empty.
+    // The 16 bits of a voxel as naadf_cell.h has them: 0x8000 | material, or kEmpty. Outside the world all is
+    // empty.
     [[nodiscard]] std::uint16_t get(glm::ivec3 local) const;
 
     [[nodiscard]] glm::ivec3 origin() const { return origin_; }
@@ -32,8 +33,8 @@ class VoxelWorld {
     [[nodiscard]] std::uint64_t voxel_count() const { return voxel_count_; }
     [[nodiscard]] bool contains(glm::ivec3 local) const;
 
-    using Brick = std::array<std::uint16_t, 64>;          // voxels, x fastest
-    using ChunkBricks = std::array<std::uint32_t, 64>;    // brick numbers, kNoBrick where empty
+    using Brick = std::array<std::uint16_t, 64>;        // voxels, x fastest
+    using ChunkBricks = std::array<std::uint32_t, 64>;  // brick numbers, kNoBrick where empty
     static constexpr std::uint32_t kNoBrick = 0xFFFFFFFFu;
 
     // The bricks of a chunk, or null when the chunk is empty.
@@ -51,7 +52,8 @@ class VoxelWorld {
     std::vector<Brick> bricks_;
 };
 
-// The world of a scene's voxels. Throws Error(out_of_memory) when the dense grid of chunks would pass `limit_chunks`.
+// The world of a scene's voxels. Throws Error(out_of_memory) when the dense grid of chunks would pass
+// `limit_chunks`.
 [[nodiscard]] VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks = std::uint64_t{1} << 25);
 
 }  // namespace voxilux

@@ -1,5 +1,5 @@
-// What the march probe computes from one ray: the same function runs on the device and, compiled as C++, beside it.
-// The including side has defined how the world is read, see march.h.
+// What the march probe computes from one ray: the same function runs on the device and, compiled as C++,
+// beside it. The including side has defined how the world is read, see march.h.
 #ifndef VX_MARCH_FUNCTIONS_H
 #define VX_MARCH_FUNCTIONS_H
 
@@ -8,11 +8,11 @@
 VX_BEGIN
 
 struct MarchProbe {
-    Ray entry;       // the ray restarted at the world's border
+    Ray entry;  // the ray restarted at the world's border
     float entry_t;
     uint enters;
-    MarchHit hit;    // of the restarted ray
-    vec3 fraction;   // of the hit, 0 on a miss
+    MarchHit hit;   // of the restarted ray
+    vec3 fraction;  // of the hit, 0 on a miss
 };
 
 VX_FN MarchProbe probe_march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {

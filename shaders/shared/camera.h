@@ -11,14 +11,14 @@
 
 VX_BEGIN
 
-// Pairs of dimensions of the sample sequence (sequence.h) and who uses them. Occlusion comes first because its noise
-// is the largest and the first dimensions of every sequence are the best.
+// Pairs of dimensions of the sample sequence (sequence.h) and who uses them. Occlusion comes first because
+// its noise is the largest and the first dimensions of every sequence are the best.
 VX_CONST(uint, kPairOcclusion, 0u);
 VX_CONST(uint, kPairPixel, 1u);
 VX_CONST(uint, kPairSun, 2u);
 
-// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from the sample sequence. Pinhole,
-// box filter.
+// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from the sample sequence.
+// Pinhole, box filter.
 VX_FN Ray camera_ray(FrameParams frame, uint x, uint y) {
     SampleKey key;
     key.stream = y * frame.width + x;
@@ -38,8 +38,8 @@ VX_FN Ray camera_ray(FrameParams frame, uint x, uint y) {
 }
 
 struct WorldEntry {
-    Ray ray;      // restarted at the border of the world; its t_max is what is left
-    float t;      // from the start to the border
+    Ray ray;  // restarted at the border of the world; its t_max is what is left
+    float t;  // from the start to the border
     bool enters;
 };
 
@@ -61,7 +61,8 @@ VX_FN PlaneCount count_planes(TwoFloat time, float speed, int flip, float offset
     return count;
 }
 
-// Time at which an axis has crossed `planes` planes: below 0, and so never the latest, when it has none to cross.
+// Time at which an axis has crossed `planes` planes: below 0, and so never the latest, when it has none to
+// cross.
 VX_FN TwoFloat entry_time(int planes, int flip, float offset, float speed) {
     if (planes <= 0) return two_float(-1.0f, 0.0f);
     return tf_div(two_sum(float(planes + flip), offset), two_float(speed, 0.0f));
@@ -71,9 +72,9 @@ VX_FN bool is_later(TwoFloat a, TwoFloat b) {
     return a.hi > b.hi || (a.hi == b.hi && a.lo > b.lo);
 }
 
-// Restarts a ray at the border of the world's `size` cells, so that the march counts from there and keeps its full
-// precision wherever the ray comes from. Times and positions here have 48 bits: a camera a million voxels away is off
-// by less than 2^-24 voxel. A ray that starts inside is returned as it is.
+// Restarts a ray at the border of the world's `size` cells, so that the march counts from there and keeps its
+// full precision wherever the ray comes from. Times and positions here have 48 bits: a camera a million
+// voxels away is off by less than 2^-24 voxel. A ray that starts inside is returned as it is.
 VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
     WorldEntry entry;
     entry.ray = ray;
@@ -108,13 +109,14 @@ VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
     if (axis == 0 || nx.whole < ahead.x) nx.rest = 0.0f;
     if (axis == 1 || ny.whole < ahead.y) ny.rest = 0.0f;
     if (axis == 2 || nz.whole < ahead.z) nz.rest = 0.0f;
-    const ivec3 reached = ivec3(axis == 0 ? ahead.x : nx.whole, axis == 1 ? ahead.y : ny.whole,
-                                axis == 2 ? ahead.z : nz.whole);
+    const ivec3 reached =
+        ivec3(axis == 0 ? ahead.x : nx.whole, axis == 1 ? ahead.y : ny.whole, axis == 2 ? ahead.z : nz.whole);
     const ivec3 n = max(reached, ahead);
     entry.ray.cell = ray.cell + (n ^ axes.flip) - axes.flip;
-    entry.ray.fraction = vec3(axes.speed.x == 0.0f ? ray.fraction.x : (axes.flip.x < 0 ? 1.0f - nx.rest : nx.rest),
-                              axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - ny.rest : ny.rest),
-                              axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - nz.rest : nz.rest));
+    entry.ray.fraction =
+        vec3(axes.speed.x == 0.0f ? ray.fraction.x : (axes.flip.x < 0 ? 1.0f - nx.rest : nx.rest),
+             axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - ny.rest : ny.rest),
+             axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - nz.rest : nz.rest));
     entry.ray.t_max = ray.t_max - t.hi;
     entry.t = t.hi;
     entry.enters = !is_outside(entry.ray.cell, size);

@@ -1,5 +1,5 @@
-// Structs that live in device buffers, with the same layout in C++ and in GLSL (scalar block layout). A test compares
-// every offset with the compiled SPIR-V.
+// Structs that live in device buffers, with the same layout in C++ and in GLSL (scalar block layout). A test
+// compares every offset with the compiled SPIR-V.
 #ifndef VX_GPU_TYPES_H
 #define VX_GPU_TYPES_H
 
@@ -42,28 +42,28 @@ struct SphereRecord {
     uint material;
 };
 
-// What all passes of one slice of one sample share. A slice is a run of rows of the picture, and the picture the whole
-// image or a window of it.
+// What all passes of one slice of one sample share. A slice is a run of rows of the picture, and the picture
+// the whole image or a window of it.
 struct FrameParams {
-    ivec3 chunks;           // of the world, per axis
-    ivec3 world_origin;     // scene cell of the world's cell 0
-    ivec3 camera_cell;      // local to the world
+    ivec3 chunks;        // of the world, per axis
+    ivec3 world_origin;  // scene cell of the world's cell 0
+    ivec3 camera_cell;   // local to the world
     vec3 camera_fraction;
-    vec3 camera_right;      // half the image plane's width at distance 1
-    vec3 camera_up;         // half its height
-    vec3 camera_forward;    // unit
-    uint width;             // of the whole image, pixels
+    vec3 camera_right;    // half the image plane's width at distance 1
+    vec3 camera_up;       // half its height
+    vec3 camera_forward;  // unit
+    uint width;           // of the whole image, pixels
     uint height;
-    uint first_row;         // of the slice, image row
+    uint first_row;  // of the slice, image row
     uint row_count;
-    uint first_column;      // of the picture, image column
+    uint first_column;  // of the picture, image column
     uint column_count;
-    uint band_first_row;    // of the film band that the slice is in, image row
+    uint band_first_row;  // of the film band that the slice is in, image row
     uint sample_index;
     uint seed;
-    uint sequence;          // of sequence.h
-    uint ao_rays;           // per sample
-    float ao_radius;        // voxels
+    uint sequence;    // of sequence.h
+    uint ao_rays;     // per sample
+    float ao_radius;  // voxels
     vec3 sky_radiance;
     vec3 sun_direction;     // unit, towards the sun
     vec3 sun_irradiance;    // on a surface facing the sun

@@ -6,8 +6,8 @@
 
 VX_BEGIN
 
-// Sampling. Dimensions of the Halton sequence that have a prime base; the rest are white noise, because two large
-// bases stay correlated until about their product of points is drawn.
+// Sampling. Dimensions of the Halton sequence that have a prime base; the rest are white noise, because two
+// large bases stay correlated until about their product of points is drawn.
 VX_CONST(uint, kHaltonDimensions, 12u);
 // Frames after which the Halton sequence starts again; a power of two.
 VX_CONST(uint, kHaltonPeriod, 8192u);
@@ -18,27 +18,30 @@ VX_CONST(float, kUnitLengthError, 5.0e-7f);
 
 // Film. Fraction bits of a film sum: one unit is 2^-24, half an ulp of a float near 1.
 VX_CONST(int, kFilmFractionBits, 24);
-// Largest magnitude that one sample adds to a film sum: the float below 2^19, so 2^20 samples of it stay below the
-// 2^39 where a signed 64-bit sum with 24 fraction bits ends. Larger samples are clamped and counted.
+// Largest magnitude that one sample adds to a film sum: the float below 2^19, so 2^20 samples of it stay
+// below the 2^39 where a signed 64-bit sum with 24 fraction bits ends. Larger samples are clamped and
+// counted.
 VX_CONST(float, kFilmMaxValue, 524287.96875f);
 
-// March. A direction component below this counts as zero: over 2^24 cells it moves a ray by less than 2^-36 voxel.
+// March. A direction component below this counts as zero: over 2^24 cells it moves a ray by less than 2^-36
+// voxel.
 VX_CONST(float, kMinDirection, 8.673617e-19f);  // 2^-60
-// Pace of an axis that the ray does not advance on: j * kNeverCrossed is later than any real crossing, which is below
-// 2^24 / kMinDirection = 2e25, and finite for j < 2^24.
+// Pace of an axis that the ray does not advance on: j * kNeverCrossed is later than any real crossing, which
+// is below 2^24 / kMinDirection = 2e25, and finite for j < 2^24.
 VX_CONST(float, kNeverCrossed, 1.0e30f);
-// How far a plane count may be underestimated, in planes. Above the rounding error of a position (2^-23 of at most
-// 2^15 cells) and below 1, so that one comparison of crossing times corrects it.
+// How far a plane count may be underestimated, in planes. Above the rounding error of a position (2^-23 of at
+// most 2^15 cells) and below 1, so that one comparison of crossing times corrects it.
 VX_CONST(float, kPlaneMargin, 0.015625f);
 // Steps of a march beyond the number of planes of the world: entering, leaving, and the border box.
 VX_CONST(uint, kMarchSlack, 3u);
 // t_max of a ray without end; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
 
-// Rays that reach the world later than this many voxels count as misses: beyond it two_float.h leaves its domain.
+// Rays that reach the world later than this many voxels count as misses: beyond it two_float.h leaves its
+// domain.
 VX_CONST(float, kFarthestEntry, 1.099511627776e12f);  // 2^40
-// Planes that a ray has crossed when it reaches the world are counted up to here: more do not fit an int, and a ray
-// that has crossed as many is beside every world.
+// Planes that a ray has crossed when it reaches the world are counted up to here: more do not fit an int, and
+// a ray that has crossed as many is beside every world.
 VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 
 // Depth of a pixel where the camera sees no surface, in voxels: finite, and beyond every scene.

@@ -1,15 +1,17 @@
 // The march of a ray through nested distance fields (naadf_cell.h), exact by construction.
 //
-// A ray starts in an integer cell at a fraction in [0,1]^3 of it. Let T_a(j) be the float time at which it crosses its
-// j-th plane of axis a. One fixed `precise` expression computes T_a(j), and it never decreases with j, so sorting all
-// crossings by (T, axis) gives one walk through the cells, whatever structure is marched. A box of empty cells is
-// left at its earliest exit plane, and the cell on the other two axes is the number of planes whose (T, axis) comes
-// before: estimated from the position, then corrected by comparing one T. So every traversal visits the same cells
-// as the plain voxel-by-voxel walk, and no epsilon is needed. (Incremental walk: Amanatides & Woo 1987.)
+// A ray starts in an integer cell at a fraction in [0,1]^3 of it. Let T_a(j) be the float time at which it
+// crosses its j-th plane of axis a. One fixed `precise` expression computes T_a(j), and it never decreases
+// with j, so sorting all crossings by (T, axis) gives one walk through the cells, whatever structure is
+// marched. A box of empty cells is left at its earliest exit plane, and the cell on the other two axes is the
+// number of planes whose (T, axis) comes before: estimated from the position, then corrected by comparing one
+// T. So every traversal visits the same cells as the plain voxel-by-voxel walk, and no epsilon is needed.
+// (Incremental walk: Amanatides & Woo 1987.)
 //
-// Tie rule: a ray crosses one face at a time; where it meets an edge or a corner exactly it crosses x before y
-// before z. So each walk is 6-connected: no ray slips between two solids that touch along an edge, and a shell that
-// a 6-connected walk cannot leave is light-tight. A cell owns its low faces; a ray in a face plane is in the upper cell.
+// Tie rule: a ray crosses one face at a time; where it meets an edge or a corner exactly it crosses x before
+// y before z. So each walk is 6-connected: no ray slips between two solids that touch along an edge, and a
+// shell that a 6-connected walk cannot leave is light-tight. A cell owns its low faces; a ray in a face plane
+// is in the upper cell.
 //
 // The including side defines VX_WORLD_PARAM, VX_WORLD_ARG and load_chunk(), load_brick(), load_voxel_word().
 #ifndef VX_MARCH_H
@@ -25,7 +27,7 @@ VX_BEGIN
 // What does not change along a ray. Axis a advances by planes: after n crossings the ray is in cell[a] + n or
 // cell[a] - n. `flip` is 0 for directions >= 0 and -1 below, so (n ^ flip) - flip is the signed step.
 struct MarchAxes {
-    ivec3 cell;    // of the start
+    ivec3 cell;  // of the start
     ivec3 flip;
     vec3 speed;    // |direction|, 0 where it counts as zero
     vec3 pace;     // 1 / speed, or kNeverCrossed
@@ -38,16 +40,17 @@ VX_CONST(uint, kMarchUnsound, 1u);    // the ray is not finite or has no directi
 VX_CONST(uint, kMarchExhausted, 2u);  // the step limit ended the march
 
 struct MarchHit {
-    ivec3 cell;     // solid cell, local to the world
-    uint face;      // 0..5 = -x +x -y +y -z +z, kFaceInside, or kFaceMiss
-    float t;        // entry time in units of the direction's length
+    ivec3 cell;  // solid cell, local to the world
+    uint face;   // 0..5 = -x +x -y +y -z +z, kFaceInside, or kFaceMiss
+    float t;     // entry time in units of the direction's length
     uint material;
     ivec3 crossed;  // planes crossed per axis
     uint steps;
-    uint fault;     // kMarch*
+    uint fault;  // kMarch*
 };
 
-// Whether a ray can be marched: finite, with a direction. Reads the bits, because drivers fold tests such as x - x.
+// Whether a ray can be marched: finite, with a direction. Reads the bits, because drivers fold tests such as
+// x - x.
 VX_FN bool is_sound(Ray ray) {
     const vec3 d = ray.direction;
     const vec3 f = ray.fraction;
@@ -69,8 +72,9 @@ VX_FN MarchAxes march_axes(Ray ray) {
     axes.speed = speed * used;
     axes.flip = ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
                       axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
-    axes.pace = vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
-                     used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
+    axes.pace =
+        vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
+             used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
     axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.flip);
     axes.toward = ivec3(1, 3, 5) + axes.flip;
     return axes;
@@ -93,8 +97,8 @@ VX_FN int first_axis(vec3 t) {
     return min(t.y, t.z) < t.x ? yz : 0;
 }
 
-// Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and `high` are
-// not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
+// Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
+// `high` are not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
 VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
     const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.flip) - kPlaneMargin;
     ivec3 n = clamp(ivec3(floor(estimate)), low, high);
@@ -106,9 +110,9 @@ VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 hi
 }
 
 struct MarchCell {
-    uint cell;   // state and payload
-    int log2;    // edge of the cell in voxels
-    uint bits;   // of one distance
+    uint cell;  // state and payload
+    int log2;   // edge of the cell in voxels
+    uint bits;  // of one distance
 };
 
 // The coarsest cell of the structure that holds `local` (inside the world) and has no children.
@@ -148,9 +152,9 @@ VX_FN bool is_outside(ivec3 local, ivec3 size) {
     return uint(local.x) >= uint(size.x) || uint(local.y) >= uint(size.y) || uint(local.z) >= uint(size.z);
 }
 
-// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and an empty
-// interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at least one plane, so
-// a sound world never meets the step limit.
+// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and
+// an empty interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at
+// least one plane, so a sound world never meets the step limit.
 VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
@@ -198,7 +202,8 @@ VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
     fraction.y = axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - along.y : along.y);
     fraction.z = axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - along.z : along.z);
     const uint a = hit.face >> 1u;
-    return vec3(a == 0u ? on_face : fraction.x, a == 1u ? on_face : fraction.y, a == 2u ? on_face : fraction.z);
+    return vec3(a == 0u ? on_face : fraction.x, a == 1u ? on_face : fraction.y,
+                a == 2u ? on_face : fraction.z);
 }
 
 // Where a ray that leaves the surface starts: the cell in front of the face, with the position on the face.
@@ -208,7 +213,8 @@ VX_FN Ray leave_surface(ivec3 cell, uint face, vec3 fraction, vec3 direction, fl
     const float behind = 1.0f - float(face & 1u);
     Ray ray;
     ray.cell = cell + ivec3(a == 0u ? outward : 0, a == 1u ? outward : 0, a == 2u ? outward : 0);
-    ray.fraction = vec3(a == 0u ? behind : fraction.x, a == 1u ? behind : fraction.y, a == 2u ? behind : fraction.z);
+    ray.fraction =
+        vec3(a == 0u ? behind : fraction.x, a == 1u ? behind : fraction.y, a == 2u ? behind : fraction.z);
     ray.direction = direction;
     ray.t_max = t_max;
     return ray;

@@ -1,8 +1,9 @@
-// Bit layout of nested anisotropic distance fields (NAADF; Ulschmid et al., CGF 45(2), 2026, doi 10.1111/cgf.70413).
-// Three levels: chunks of 16^3 voxels in a dense grid, bricks of 4^3 voxels (64 to a chunk), voxels (64 to a brick).
-// Every cell is empty, filled with one material, or mixed (it has children). An empty cell stores how many further
-// cells of its own level are empty in each of the six directions -x +x -y +y -z +z: the box they span is free of
-// voxels. Chunk distances may reach 31 chunks; brick and voxel distances stay inside their parent (0 to 3).
+// Bit layout of nested anisotropic distance fields (NAADF; Ulschmid et al., CGF 45(2), 2026,
+// doi 10.1111/cgf.70413). Three levels: chunks of 16^3 voxels in a dense grid, bricks of 4^3 voxels (64 to a
+// chunk), voxels (64 to a brick). Every cell is empty, filled with one material, or mixed (it has children).
+// An empty cell stores how many further cells of its own level are empty in each of the six directions -x +x
+// -y +y -z +z: the box they span is free of voxels. Chunk distances may reach 31 chunks; brick and voxel
+// distances stay inside their parent (0 to 3).
 #ifndef VX_NAADF_CELL_H
 #define VX_NAADF_CELL_H
 
@@ -25,7 +26,7 @@ VX_CONST(uint, kInnerDistanceBits, 2u);  // bricks and voxels
 VX_CONST(int, kChunkDistanceMax, 31);
 VX_CONST(int, kInnerDistanceMax, 3);
 
-VX_CONST(uint, kVoxelSolidBit, 0x8000u);     // of the 16 bits of a voxel; the others hold material or distances
+VX_CONST(uint, kVoxelSolidBit, 0x8000u);  // of the 16 bits of a voxel; the others hold material or distances
 VX_CONST(uint, kVoxelPayloadMask, 0x7FFFu);  // 32,768 materials
 
 VX_FN uint cell_state(uint cell) {

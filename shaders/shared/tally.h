@@ -1,5 +1,5 @@
-// Numbers that shaders count and the host reads back after every recording: faults, which are all zero in a good run,
-// and work done.
+// Numbers that shaders count and the host reads back after every recording: faults, which are all zero in a
+// good run, and work done.
 #ifndef VX_TALLY_H
 #define VX_TALLY_H
 
@@ -22,8 +22,8 @@ VX_END
 
 #ifdef __cplusplus
 namespace voxilux::gpu {
-inline constexpr const char* kTallyNames[kTallyCount] = {"ray_unsound", "march_exhausted", "film_clamped",
-                                                         "film_non_finite", "hits", "ao_rays", "sun_rays"};
+inline constexpr const char* kTallyNames[kTallyCount] = {
+    "ray_unsound", "march_exhausted", "film_clamped", "film_non_finite", "hits", "ao_rays", "sun_rays"};
 }
 #endif
 

@@ -1,7 +1,7 @@
 #include "support/march_oracle.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <limits>
 
@@ -75,7 +75,8 @@ OracleBounds oracle_bounds(const std::vector<glm::ivec3>& solids, const gpu::Ray
     return bounds;
 }
 
-std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const gpu::MarchHit& hit, double margin) {
+std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const gpu::MarchHit& hit,
+                         double margin) {
     const double t_max = static_cast<double>(ray.t_max);
     const double t = static_cast<double>(hit.t);
     if (hit.face == gpu::kFaceMiss) {
@@ -83,14 +84,15 @@ std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const 
             return fmt::format("missed a solid that stops the ray at {}", *bounds.must_by);
         return "";
     }
-    // A box shrunk by `margin` on a grazing ray is entered late without bound, so only an earlier stop is a fault.
+    // A box shrunk by `margin` on a grazing ray is entered late without bound, so only an earlier stop is a
+    // fault.
     if (bounds.must_by && t > *bounds.must_by + 4.0 * margin)
         return fmt::format("hit at {} but a solid stops the ray at {}", t, *bounds.must_by);
     for (const auto& [cell, enter] : bounds.may) {
         if (cell == hit.cell && t + 4.0 * margin >= enter) return "";
     }
-    return fmt::format("hit cell ({}, {}, {}) at {}, which the ray does not touch", hit.cell.x, hit.cell.y, hit.cell.z,
-                       t);
+    return fmt::format("hit cell ({}, {}, {}) at {}, which the ray does not touch", hit.cell.x, hit.cell.y,
+                       hit.cell.z, t);
 }
 
 std::vector<glm::ivec3> solid_cells(const VoxelWorld& world) {

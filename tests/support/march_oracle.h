@@ -1,7 +1,8 @@
 #pragma once
 
-// Two independent truths for the march. `walk_cells` is the definition of the march itself: one voxel at a time, no
-// structure. `oracle_bounds` knows nothing of steps: it tests every solid cell as a box in double precision.
+// Two independent truths for the march. `walk_cells` is the definition of the march itself: one voxel at a
+// time, no structure. `oracle_bounds` knows nothing of steps: it tests every solid cell as a box in double
+// precision.
 
 #include <optional>
 #include <vector>
@@ -11,20 +12,24 @@
 
 namespace voxilux::test {
 
-// The march's contract executed plainly on the voxels: crossings in the order (time, axis), one cell at a time.
+// The march's contract executed plainly on the voxels: crossings in the order (time, axis), one cell at a
+// time.
 [[nodiscard]] gpu::MarchHit walk_cells(const VoxelWorld& world, const gpu::Ray& ray);
 
-// What a right answer must lie between. Boxes shrunk by `margin` voxels must stop a ray, boxes grown by it may.
+// What a right answer must lie between. Boxes shrunk by `margin` voxels must stop a ray, boxes grown by it
+// may.
 struct OracleBounds {
-    std::optional<double> must_by;            // entry of the first shrunk solid box; the ray is stopped by then
-    std::vector<std::pair<glm::ivec3, double>> may;  // grown solid boxes that the ray meets, with their entry time
+    std::optional<double> must_by;  // entry of the first shrunk solid box; the ray is stopped by then
+    std::vector<std::pair<glm::ivec3, double>>
+        may;  // grown solid boxes that the ray meets, with their entry time
 };
 
-[[nodiscard]] OracleBounds oracle_bounds(const std::vector<glm::ivec3>& solids, const gpu::Ray& ray, double margin);
+[[nodiscard]] OracleBounds oracle_bounds(const std::vector<glm::ivec3>& solids, const gpu::Ray& ray,
+                                         double margin);
 
 // Empty when the hit agrees with the bounds, else what is wrong. Times may differ by `margin` / |direction|.
-[[nodiscard]] std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const gpu::MarchHit& hit,
-                                       double margin);
+[[nodiscard]] std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray,
+                                       const gpu::MarchHit& hit, double margin);
 
 // Local cells of every filled voxel.
 [[nodiscard]] std::vector<glm::ivec3> solid_cells(const VoxelWorld& world);

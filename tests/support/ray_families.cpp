@@ -24,7 +24,9 @@ class Dice {
     }
     glm::ivec3 cell(glm::ivec3 size) { return {below(size.x), below(size.y), below(size.z)}; }
     glm::vec3 fraction() { return {unit(), unit(), unit()}; }
-    glm::vec3 corner() { return {static_cast<float>(below(2)), static_cast<float>(below(2)), static_cast<float>(below(2))}; }
+    glm::vec3 corner() {
+        return {static_cast<float>(below(2)), static_cast<float>(below(2)), static_cast<float>(below(2))};
+    }
 
   private:
     std::mt19937 engine_;
@@ -64,12 +66,15 @@ std::vector<RayFamily> ray_families(glm::ivec3 size, int count, std::uint32_t se
     return {
         draw_family("random", count, dice, [&](Dice& d) { return ray(d, d.fraction(), d.direction()); }),
         draw_family("axial", count, dice, [&](Dice& d) { return ray(d, d.fraction(), axial(d, 0.0f)); }),
-        draw_family("axial_on_lattice", count, dice, [&](Dice& d) { return ray(d, d.corner(), axial(d, 0.0f)); }),
+        draw_family("axial_on_lattice", count, dice,
+                    [&](Dice& d) { return ray(d, d.corner(), axial(d, 0.0f)); }),
         draw_family("corners", count, dice, [&](Dice& d) { return ray(d, d.corner(), small_integers(d)); }),
         draw_family("diagonal_from_centre", count, dice,
                     [&](Dice& d) { return ray(d, glm::vec3(0.5f), small_integers(d)); }),
-        draw_family("corner_to_random", count, dice, [&](Dice& d) { return ray(d, d.corner(), d.direction()); }),
-        draw_family("near_axial", count, dice, [&](Dice& d) { return ray(d, d.fraction(), axial(d, 1e-7f)); }),
+        draw_family("corner_to_random", count, dice,
+                    [&](Dice& d) { return ray(d, d.corner(), d.direction()); }),
+        draw_family("near_axial", count, dice,
+                    [&](Dice& d) { return ray(d, d.fraction(), axial(d, 1e-7f)); }),
         draw_family("denormal", count, dice, [&](Dice& d) { return ray(d, d.corner(), axial(d, denormal)); }),
         draw_family("short", count, dice,
                     [&](Dice& d) {
@@ -88,7 +93,8 @@ VoxelWorld fill(glm::ivec3 chunks, const std::function<bool(glm::ivec3)>& is_sol
     for (int z = 0; z < size.z; ++z) {
         for (int y = 0; y < size.y; ++y) {
             for (int x = 0; x < size.x; ++x) {
-                if (is_solid({x, y, z})) world.set({x, y, z}, static_cast<std::uint16_t>((x + 3 * y + 7 * z) % 255));
+                if (is_solid({x, y, z}))
+                    world.set({x, y, z}, static_cast<std::uint16_t>((x + 3 * y + 7 * z) % 255));
             }
         }
     }
@@ -111,11 +117,13 @@ std::vector<NamedWorld> small_worlds(std::uint32_t seed) {
     worlds.push_back({"shell", fill({2, 2, 2}, [](glm::ivec3 c) {
                           const auto edge = [](int v) { return v == 1 || v == 30; };
                           const auto inside = [](int v) { return v >= 1 && v <= 30; };
-                          return (edge(c.x) || edge(c.y) || edge(c.z)) && inside(c.x) && inside(c.y) && inside(c.z);
+                          return (edge(c.x) || edge(c.y) || edge(c.z)) && inside(c.x) && inside(c.y) &&
+                                 inside(c.z);
                       })});
     worlds.push_back({"rod", fill({1, 1, 4}, [](glm::ivec3 c) { return c.x == 8 && c.y == 8; })});
     for (const float density : {0.001f, 0.02f, 0.3f, 0.9f})
-        worlds.push_back({fmt::format("random_{}", density), fill(wide, [&](glm::ivec3) { return dice.unit() < density; })});
+        worlds.push_back({fmt::format("random_{}", density),
+                          fill(wide, [&](glm::ivec3) { return dice.unit() < density; })});
     return worlds;
 }
 

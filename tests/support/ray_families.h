@@ -17,8 +17,9 @@ struct RayFamily {
     std::vector<gpu::Ray> rays;
 };
 
-// Families of `count` rays each that start in cells of a world of `size` cells: random, axis-parallel with both signs
-// of zero, in face planes, along edges, through lattice corners, near-axial, with denormal components, not unit.
+// Families of `count` rays each that start in cells of a world of `size` cells: random, axis-parallel with
+// both signs of zero, in face planes, along edges, through lattice corners, near-axial, with denormal
+// components, not unit.
 [[nodiscard]] std::vector<RayFamily> ray_families(glm::ivec3 size, int count, std::uint32_t seed);
 
 struct NamedWorld {
@@ -26,7 +27,8 @@ struct NamedWorld {
     VoxelWorld world;
 };
 
-// Empty, full, one voxel, checkerboard, one-voxel diagonal wall, shell, 1 x 1 x N rod, random at four densities.
+// Empty, full, one voxel, checkerboard, one-voxel diagonal wall, shell, 1 x 1 x N rod, random at four
+// densities.
 [[nodiscard]] std::vector<NamedWorld> small_worlds(std::uint32_t seed);
 
 }  // namespace voxilux::test

@@ -13,9 +13,9 @@ constexpr std::uint32_t kSeed = 20261;
 constexpr double kMargin = 1e-3;
 
 std::string print(const gpu::Ray& ray) {
-    return fmt::format("cell ({}, {}, {}) fraction ({}, {}, {}) direction ({}, {}, {}) t_max {}", ray.cell.x, ray.cell.y,
-                       ray.cell.z, ray.fraction.x, ray.fraction.y, ray.fraction.z, ray.direction.x, ray.direction.y,
-                       ray.direction.z, ray.t_max);
+    return fmt::format("cell ({}, {}, {}) fraction ({}, {}, {}) direction ({}, {}, {}) t_max {}", ray.cell.x,
+                       ray.cell.y, ray.cell.z, ray.fraction.x, ray.fraction.y, ray.fraction.z,
+                       ray.direction.x, ray.direction.y, ray.direction.z, ray.t_max);
 }
 
 std::vector<gpu::Ray> random_rays(glm::ivec3 size, int count) {
@@ -84,8 +84,8 @@ TEST(March, start_in_a_solid_cell_is_a_hit_inside_at_zero) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({3, 3, 3}, 7);
     const Naadf naadf = build_naadf(world);
-    const gpu::MarchHit hit =
-        gpu::march(naadf, gpu::Ray{{3, 3, 3}, glm::vec3(0.25f), glm::vec3(1, 0, 0), gpu::kUnbounded}, naadf.chunks_size);
+    const gpu::MarchHit hit = gpu::march(
+        naadf, gpu::Ray{{3, 3, 3}, glm::vec3(0.25f), glm::vec3(1, 0, 0), gpu::kUnbounded}, naadf.chunks_size);
     EXPECT_EQ(hit.face, gpu::kFaceInside);
     EXPECT_EQ(hit.t, 0.0f);
     EXPECT_EQ(hit.material, 7u);
@@ -105,7 +105,8 @@ TEST(March, interval_is_closed_at_the_start_and_open_at_the_end) {
     EXPECT_EQ(gpu::march(naadf, ray, naadf.chunks_size).face, gpu::kFaceMiss);
 }
 
-// A voxel that the ray enters inside the radius but leaves outside it counts: 7.5 voxels to the wall, radius 8.
+// A voxel that the ray enters inside the radius but leaves outside it counts: 7.5 voxels to the wall,
+// radius 8.
 TEST(March, last_voxel_inside_the_radius_is_hit) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({9, 3, 3}, 0);
@@ -120,13 +121,15 @@ TEST(March, steps_never_exceed_the_planes_of_the_world) {
         const glm::ivec3 size = naadf.size();
         for (const test::RayFamily& family : test::ray_families(size, 200, kSeed)) {
             for (const gpu::Ray& ray : family.rays)
-                ASSERT_LE(gpu::march(naadf, ray, naadf.chunks_size).steps, gpu::uint(size.x + size.y + size.z + 3));
+                ASSERT_LE(gpu::march(naadf, ray, naadf.chunks_size).steps,
+                          gpu::uint(size.x + size.y + size.z + 3));
         }
     }
 }
 
 TEST(March, no_ray_leaves_a_closed_shell) {
-    for (const int index : {5, 6}) {  // a wall of corners and a shell of faces, both closed for 6-connected walks
+    for (const int index :
+         {5, 6}) {  // a wall of corners and a shell of faces, both closed for 6-connected walks
         const test::NamedWorld named = std::move(test::small_worlds(kSeed)[static_cast<std::size_t>(index)]);
         const Naadf naadf = build_naadf(named.world);
         int shot = 0;
@@ -137,7 +140,8 @@ TEST(March, no_ray_leaves_a_closed_shell) {
                 const bool below_wall = c.x + c.y + c.z < 40;
                 const glm::vec3 d = ray.direction;
                 const bool upwards = d.x >= 0 && d.y >= 0 && d.z >= 0;
-                const bool inside_shell = glm::all(glm::greaterThan(c, glm::ivec3(1))) && glm::all(glm::lessThan(c, glm::ivec3(30)));
+                const bool inside_shell = glm::all(glm::greaterThan(c, glm::ivec3(1))) &&
+                                          glm::all(glm::lessThan(c, glm::ivec3(30)));
                 if (index == 6 ? !inside_shell : !(below_wall && upwards)) continue;
                 const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
                 if (index == 5 && hit.face == gpu::kFaceMiss) {
@@ -167,7 +171,8 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
             glm::vec3 direction(0.0f);
             direction[a] = (hit.face & 1u) != 0 ? elevation : -elevation;
             direction[(a + 1) % 3] = std::sqrt(std::max(0.0f, 1.0f - elevation * elevation));
-            const gpu::Ray next = gpu::leave_surface(hit.cell, hit.face, fraction, direction, gpu::kUnbounded);
+            const gpu::Ray next =
+                gpu::leave_surface(hit.cell, hit.face, fraction, direction, gpu::kUnbounded);
             const gpu::MarchHit second = gpu::march(naadf, next, naadf.chunks_size);
             ++spawned;
             if (second.face == gpu::kFaceMiss) continue;
@@ -186,15 +191,16 @@ TEST(March, bad_directions_miss_within_the_step_limit) {
     const float inf = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const float bad : {nan, inf, -inf}) {
-        for (const glm::vec3 direction : {glm::vec3(bad), glm::vec3(bad, 0, 0), glm::vec3(0, bad, 1), glm::vec3(1, 1, bad)}) {
-            const gpu::MarchHit hit = gpu::march(naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), direction, gpu::kUnbounded},
-                                                 naadf.chunks_size);
+        for (const glm::vec3 direction :
+             {glm::vec3(bad), glm::vec3(bad, 0, 0), glm::vec3(0, bad, 1), glm::vec3(1, 1, bad)}) {
+            const gpu::MarchHit hit = gpu::march(
+                naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), direction, gpu::kUnbounded}, naadf.chunks_size);
             EXPECT_EQ(hit.fault, gpu::kMarchUnsound);
             EXPECT_EQ(hit.face, gpu::kFaceMiss);
         }
     }
-    const gpu::MarchHit hit =
-        gpu::march(naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), glm::vec3(0.0f), gpu::kUnbounded}, naadf.chunks_size);
+    const gpu::MarchHit hit = gpu::march(
+        naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), glm::vec3(0.0f), gpu::kUnbounded}, naadf.chunks_size);
     EXPECT_EQ(hit.face, gpu::kFaceMiss);
 }
 

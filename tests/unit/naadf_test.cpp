@@ -29,14 +29,15 @@ std::vector<std::uint64_t> masks() {
 }
 
 // Whether the box of `extents` around `cell` is free of filled cells; beyond the grid all is `beyond_filled`.
-bool box_is_empty(glm::ivec3 size, const std::vector<std::uint8_t>& filled, glm::ivec3 cell, const Extents& extents,
-                  bool beyond_filled) {
+bool box_is_empty(glm::ivec3 size, const std::vector<std::uint8_t>& filled, glm::ivec3 cell,
+                  const Extents& extents, bool beyond_filled) {
     for (int z = cell.z - extents[4]; z <= cell.z + extents[5]; ++z) {
         for (int y = cell.y - extents[2]; y <= cell.y + extents[3]; ++y) {
             for (int x = cell.x - extents[0]; x <= cell.x + extents[1]; ++x) {
                 const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
                 if (!inside && beyond_filled) return false;
-                if (inside && filled[static_cast<std::size_t>(x + size.x * (y + size.y * z))] != 0) return false;
+                if (inside && filled[static_cast<std::size_t>(x + size.x * (y + size.y * z))] != 0)
+                    return false;
             }
         }
     }
@@ -53,7 +54,8 @@ TEST(Aadf, boxes_of_every_cell_are_empty_and_stay_inside) {
                 ASSERT_EQ(extents[at], Extents{});
                 continue;
             }
-            ASSERT_TRUE(box_is_empty(glm::ivec3(4), filled, {i % 4, i / 4 % 4, i / 16}, extents[at], true)) << mask;
+            ASSERT_TRUE(box_is_empty(glm::ivec3(4), filled, {i % 4, i / 4 % 4, i / 16}, extents[at], true))
+                << mask;
         }
     }
 }
@@ -91,7 +93,8 @@ TEST(Aadf, chunk_grid_boxes_are_empty_and_long) {
         for (const std::uint8_t extent : extents[at])
             reach += extent;
     }
-    EXPECT_GT(reach / filled.size(), 6u);  // more than one chunk per direction on average: the boxes are of use
+    EXPECT_GT(reach / filled.size(),
+              6u);  // more than one chunk per direction on average: the boxes are of use
 }
 
 TEST(Aadf, empty_grid_reaches_the_maximum) {
@@ -105,7 +108,8 @@ std::uint32_t lookup(const Naadf& naadf, glm::ivec3 local) {
     const std::uint32_t chunk =
         naadf.chunks[static_cast<std::size_t>(c.x + naadf.chunks_size.x * (c.y + naadf.chunks_size.y * c.z))];
     if (gpu::cell_state(chunk) != gpu::kCellMixed) return chunk;
-    const std::uint32_t brick = naadf.bricks[gpu::cell_payload(chunk) * 64 + gpu::child_slot((local >> 2) & 3)];
+    const std::uint32_t brick =
+        naadf.bricks[gpu::cell_payload(chunk) * 64 + gpu::child_slot((local >> 2) & 3)];
     if (gpu::cell_state(brick) != gpu::kCellMixed) return brick;
     const std::uint32_t slot = gpu::child_slot(local & 3);
     const std::uint32_t word = naadf.voxels[gpu::cell_payload(brick) * 32 + slot / 2];
@@ -121,7 +125,8 @@ TEST(Naadf, every_voxel_reads_back_with_its_material) {
                 for (int x = 0; x < size.x; ++x) {
                     const std::uint16_t voxel = named.world.get({x, y, z});
                     const std::uint32_t cell = lookup(naadf, {x, y, z});
-                    ASSERT_EQ(gpu::cell_state(cell) == gpu::kCellSolid, voxel != VoxelWorld::kEmpty) << named.name;
+                    ASSERT_EQ(gpu::cell_state(cell) == gpu::kCellSolid, voxel != VoxelWorld::kEmpty)
+                        << named.name;
                     if (voxel == VoxelWorld::kEmpty) continue;
                     ASSERT_EQ(gpu::cell_payload(cell), voxel & 0x7FFFu);
                 }

@@ -30,7 +30,8 @@ TEST(Recording, describe_lists_buffers_and_commands_in_order) {
 TEST(Recording, undeclared_buffer_is_refused) {
     Recording recording;
     EXPECT_THROW(recording.clear("absent"), InternalError);
-    EXPECT_THROW(recording.dispatch({.label = "x", .shader = "x", .bindings = {{"In", "absent"}}}), InternalError);
+    EXPECT_THROW(recording.dispatch({.label = "x", .shader = "x", .bindings = {{"In", "absent"}}}),
+                 InternalError);
 }
 
 TEST(Recording, one_name_with_two_sizes_is_refused) {
