@@ -2,7 +2,7 @@
 
 # Space that the steps take at most, MiB.
 packages_mib=1500
-build_mib=4000
+build_mib=1000
 
 say() { printf '\n== %s\n' "$*"; }
 
