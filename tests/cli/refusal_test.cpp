@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cli/child_process.h"
+#include "film/png.h"
+#include "support/scratch_folder.h"
+
+namespace voxilux::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+}
+
+struct Refused {
+    std::string name;
+    Words words;
+    std::string message;  // a part of standard error
+};
+
+void PrintTo(const Refused& refused, std::ostream* os) {
+    *os << refused.name;
+}
+
+std::string name_of(const testing::TestParamInfo<Refused>& test) {
+    return test.param.name;
+}
+
+class UsageError : public testing::TestWithParam<Refused> {};
+
+TEST_P(UsageError, ends_with_2_and_says_why) {
+    const ScratchFolder scratch;
+    const Ending ending = run(GetParam().words, {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 2) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    EXPECT_NE(ending.err.find(GetParam().message), std::string::npos) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), Words{});
+}
+
+Words with(Words more) {
+    Words words = {"render", scene_file("one_voxel"), "-o", "a.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    flags, UsageError,
+    testing::Values(
+        Refused{"no_words", {}, "Usage: voxilux"},
+        Refused{"unknown_subcommand", {"rendr"}, "there is no subcommand 'rendr'; did you mean 'render'?"},
+        Refused{"flag_without_subcommand", {"--size", "1x1"}, "subcommand"},
+        Refused{"unknown_flag", with({"--time-limt", "3s"}),
+                "no flag --time-limt; did you mean '--time-limit'?"},
+        Refused{"unknown_flag_with_value", with({"--spq=3"}), "no flag --spq; did you mean '--spp'?"},
+        Refused{"no_input", {"render", "-o", "a.png"}, "INPUT is required"},
+        Refused{"two_inputs", with({"b.vox"}), "'b.vox' is one argument too many"},
+        Refused{"size_without_value", with({"--size"}), "--size"},
+        Refused{"size_not_a_size", with({"--size", "640"}), "--size: '640' is not WIDTHxHEIGHT"},
+        Refused{"size_of_nothing", with({"--size", "0x9"}), "--size: '0x9' is not WIDTHxHEIGHT"},
+        Refused{"crop_not_a_window", with({"--crop", "1,2,3"}), "--crop: '1,2,3' is not X0,Y0,X1,Y1"},
+        Refused{"spp_not_a_number", with({"--spp", "many"}), "--spp"},
+        Refused{"spp_negative", with({"--spp", "-1"}), "--spp"},
+        Refused{"sequence", with({"--sequence", "sobl"}),
+                "--sequence: there is no 'sobl'; did you mean 'sobol'?"},
+        Refused{"camera", with({"--camera", "frnt"}), "--camera: there is no 'frnt'; did you mean 'front'?"},
+        Refused{"effect_unknown", with({"--effect", "fog=on"}),
+                "known are voxels, spheres, ao, sun, sky, emission, aov"},
+        Refused{"effect_without_state", with({"--effect", "ao"}), "must be NAME=on, NAME=off or NAME=auto"},
+        Refused{"time_limit", with({"--time-limit", "soon"}), "--time-limit: 'soon' is not a time"},
+        Refused{"error", with({"--error", "0"}), "--error: '0' is not a share above 0"},
+        Refused{"progress", with({"--progress", "loud"}), "--progress: 'loud' is not auto, never or json"},
+        Refused{"frame", with({"--frame", "-1"}), "--frame: is not 0 or above"},
+        Refused{"exposure", with({"--exposure", "nan"}), "--exposure: nan is not a number of stops"},
+        Refused{"tone", with({"--tone", "warm"}), "--tone: 'warm' is not filmic or plain"},
+        Refused{"group_size", with({"--group-size", "8"}), "--group-size: '8' is not"},
+        Refused{"device", with({"--device", "no such"}), "--device no such: no such device; there are: 0: "},
+        Refused{"device_number", with({"--device", "99"}), "--device 99"},
+        Refused{"output_ending", {"render", scene_file("one_voxel"), "-o", "a.jpg"}, "must be .exr or .png"},
+        Refused{"compare_one_image", {"compare", "a.exr"}, "TEST is required"},
+        Refused{"compare_box", {"compare", "a", "b", "--box", "1,2,3"}, "--box: '1,2,3' is not X0,Y0,X1,Y1"},
+        Refused{
+            "compare_limit", {"compare", "a", "b", "--max-flip", "-1"}, "--max-flip: -1 is not 0 or above"}),
+    name_of);
+
+// Flags of effects and tools that do not exist yet must not be taken silently.
+INSTANTIATE_TEST_SUITE_P(
+    later, UsageError,
+    testing::Values(Refused{"frames", with({"--frames", "1-3"}), "no flag --frames"},
+                    Refused{"shard", with({"--shard", "1/2"}), "no flag --shard"},
+                    Refused{"resume", with({"--resume"}), "no flag --resume"},
+                    Refused{"iterations", with({"--iterations", "3"}), "no flag --iterations"},
+                    Refused{"photons", with({"--photons", "3"}), "no flag --photons"},
+                    Refused{"radius", with({"--radius", "3"}), "no flag --radius"},
+                    Refused{"alpha", with({"--alpha", "0.7"}), "no flag --alpha"},
+                    Refused{"traversal", with({"--traversal", "dda"}), "no flag --traversal"},
+                    Refused{"metric", with({"--metric", "flip"}), "no flag --metric"}),
+    name_of);
+
+TEST(UsageErrorOf, unnamed_picture_never_replaces_a_file) {
+    const ScratchFolder scratch;
+    write_text(scratch / "one_voxel.png", "kept");
+    const Ending ending = run({"render", scene_file("one_voxel")}, {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.err.find("-o one_voxel.png overwrites it"), std::string::npos) << ending.err;
+    EXPECT_EQ(bytes_of(scratch / "one_voxel.png"), "kept");
+}
+
+class InputRefused : public testing::TestWithParam<Refused> {};
+
+TEST_P(InputRefused, ends_with_3_and_says_where) {
+    const ScratchFolder scratch;
+    write_text(scratch / "broken.vox", "VOX \x96");
+    write_text(scratch / "broken.toml", "[sun]\nelevaton = 3\n");
+    write_text(scratch / "broken.exr", "no picture");
+    write_text(scratch / "broken.png", "no picture");
+    write_text(scratch / "broken.obj", "v 0 0 0");
+    const Words before = names_in(scratch.path());
+    const Ending ending = run(GetParam().words, {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    EXPECT_NE(ending.err.find(GetParam().message), std::string::npos) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    files, InputRefused,
+    testing::Values(Refused{"absent_vox", {"render", "no.vox", "-o", "a.png"}, "no.vox"},
+                    Refused{"absent_toml", {"plan", "no.toml"}, "no.toml"},
+                    Refused{"folder", {"render", ".", "-o", "a.png"}, "."},
+                    Refused{"broken_vox", {"render", "broken.vox", "-o", "a.png"}, "broken.vox"},
+                    Refused{"broken_toml", {"render", "broken.toml", "-o", "a.png"}, "broken.toml:2:1"},
+                    Refused{"unknown_kind", {"render", "broken.obj", "-o", "a.png"}, "broken.obj"},
+                    Refused{"unknown_key", with({"-D", "sun.elevaton=3"}), "did you mean 'elevation'?"},
+                    Refused{"picture_of_nothing", with({"-D", "render.size=[0, 9]"}), "size"},
+                    Refused{"too_many_pixels", with({"--size", "65536x65536"}), "over 2^32 pixels"},
+                    Refused{"crop_outside", with({"--crop", "0,0,641,9"}), "leaves the picture of 640x360"},
+                    Refused{"no_samples", with({"--spp", "0"}), "spp must be at least 1"},
+                    Refused{"no_rays", with({"--ao-rays", "0"}), "ao_rays must be at least 1"},
+                    Refused{"no_reach", with({"--ao-radius", "-3"}), "ao_radius -3 must be above 0"},
+                    Refused{"info_broken_vox", {"info", "broken.vox"}, "broken.vox"},
+                    Refused{"info_broken_exr", {"info", "broken.exr"}, "broken.exr"},
+                    Refused{"info_broken_png", {"info", "broken.png"}, "broken.png"},
+                    Refused{
+                        "info_unknown_kind", {"info", "broken.obj"}, "info reads .vox, .toml, .exr and .png"},
+                    Refused{"compare_broken", {"compare", "broken.exr", "broken.png"}, "broken.exr"}),
+    name_of);
+
+TEST(InputRefusedOf, pictures_of_two_sizes_cannot_be_compared) {
+    const ScratchFolder scratch;
+    write_png(scratch / "a.png", make_image(2, 2, Words{"R", "G", "B"}));
+    write_png(scratch / "b.png", make_image(2, 3, Words{"R", "G", "B"}));
+    EXPECT_EQ(run({"compare", scratch / "a.png", scratch / "b.png"}).code, 3);
+}
+
+}  // namespace
+}  // namespace voxilux::test
