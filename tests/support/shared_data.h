@@ -13,6 +13,7 @@ inline std::filesystem::path shared_data() {
     return fs::is_directory(path) ? path : fs::path();
 }
 
-#define SKIP_WITHOUT_SHARED_DATA()                                                             \
-    if (shared_data().empty()) GTEST_SKIP() << "no shared test data beside the checkout (set " \
-                                               "VOXILUX_SHARED)"
+#define SKIP_WITHOUT_SHARED_DATA()                                  \
+    if (shared_data().empty())                                      \
+    GTEST_SKIP() << "no shared test data beside the checkout (set " \
+                    "VOXILUX_SHARED)"
