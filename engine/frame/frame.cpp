@@ -60,12 +60,12 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
 
 }  // namespace
 
-gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const Naadf& naadf) {
+gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world) {
     const RenderSettings& settings = plan.settings;
     gpu::FrameParams params{};
-    params.chunks = naadf.chunks_size;
-    params.world_origin = naadf.origin;
-    place_camera(params, camera_of(scene), naadf.origin,
+    params.chunks = march_world.chunks_size;
+    params.world_origin = march_world.origin;
+    place_camera(params, camera_of(scene), march_world.origin,
                  static_cast<double>(plan.image_size.x) / static_cast<double>(plan.image_size.y));
     params.width = static_cast<gpu::uint>(plan.image_size.x);
     params.height = static_cast<gpu::uint>(plan.image_size.y);

@@ -10,7 +10,8 @@ namespace voxilux {
 // The camera and the lights of a frame in the shaders' terms, relative to the world's corner. Slice and
 // sample are filled per recording. Throws Error(input_refused) for a camera further than 2^23 voxels from the
 // world, where a float can no longer tell neighbouring voxels apart.
-[[nodiscard]] gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const Naadf& naadf);
+[[nodiscard]] gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene,
+                                            const MarchWorld& march_world);
 
 // One sample of every pixel of a slice, from camera rays to the film.
 void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params, std::uint32_t sample,

@@ -60,15 +60,20 @@ std::string spheres_buffer(const RenderPlan& plan, Recording& recording) {
 std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording) {
     return {{"Frame", use_buffer(plan, "frame", recording)},
             {"Tally", use_buffer(plan, "tally", recording)},
-            {"Chunks", use_or_placeholder(plan, plan.has(Effect::voxels), "world.chunks", recording)},
-            {"Bricks", use_or_placeholder(plan, plan.has(Effect::voxels), "world.bricks", recording)},
-            {"Voxels", use_or_placeholder(plan, plan.has(Effect::voxels), "world.voxels", recording)},
+            {"Roots", use_or_placeholder(plan, plan.has(Effect::voxels), "world.roots", recording)},
+            {"Nodes", use_or_placeholder(plan, plan.has(Effect::voxels), "world.nodes", recording)},
+            {"Leaves", use_or_placeholder(plan, plan.has(Effect::voxels), "world.leaves", recording)},
             {"Spheres", spheres_buffer(plan, recording)}};
+}
+
+Constant traversal_constant(const RenderPlan& plan) {
+    return {"traversal", static_cast<std::uint32_t>(plan.world.traversal)};
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
     return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u},
-            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
+            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u},
+            traversal_constant(plan)};
 }
 
 Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,

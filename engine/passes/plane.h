@@ -40,6 +40,9 @@ struct Slice {
 // Bindings and constants of every pass that leaves surfaces (shaders/lib/surface.glsl). Structures of effects
 // that are off are bound to a placeholder word that no shader reads.
 [[nodiscard]] std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording);
+// Which structure the march reads (shaders/shared/world_cell.h).
+[[nodiscard]] Constant traversal_constant(const RenderPlan& plan);
+
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
 
 // The materials and the spheres, or the placeholder when the plan has none.

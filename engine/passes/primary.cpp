@@ -9,10 +9,11 @@ Plane record_primary_march(const RenderPlan& plan, const Slice& slice, Recording
                         .extent = pixel_extent(plan, slice),
                         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                      {"Tally", use_buffer(plan, "tally", recording)},
-                                     {"Chunks", use_buffer(plan, "world.chunks", recording)},
-                                     {"Bricks", use_buffer(plan, "world.bricks", recording)},
-                                     {"Voxels", use_buffer(plan, "world.voxels", recording)},
-                                     {"Hits", hits.buffer}}});
+                                     {"Roots", use_buffer(plan, "world.roots", recording)},
+                                     {"Nodes", use_buffer(plan, "world.nodes", recording)},
+                                     {"Leaves", use_buffer(plan, "world.leaves", recording)},
+                                     {"Hits", hits.buffer}},
+                        .constants = {traversal_constant(plan)}});
     return hits;
 }
 

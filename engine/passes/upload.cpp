@@ -35,17 +35,17 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
 
 }  // namespace
 
-void record_scene_upload(const RenderPlan& plan, const Scene& scene, const Naadf& naadf,
+void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          Recording& recording) {
     if (plan.has(Effect::voxels)) {
-        upload_all(plan, "world.chunks", naadf.chunks, recording);
-        upload_all(plan, "world.bricks", naadf.bricks, recording);
-        upload_all(plan, "world.voxels", naadf.voxels, recording);
+        upload_all(plan, "world.roots", march_world.roots, recording);
+        upload_all(plan, "world.nodes", march_world.nodes, recording);
+        upload_all(plan, "world.leaves", march_world.leaves, recording);
     }
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
         for (const Sphere& sphere : scene.spheres)
-            records.push_back(sphere_record(sphere, naadf.origin));
+            records.push_back(sphere_record(sphere, march_world.origin));
         upload_all(plan, "sphere.records", records, recording);
     }
     if (plan.has(Effect::voxels) || plan.has(Effect::spheres))

@@ -7,7 +7,7 @@
 namespace voxilux {
 
 // Puts the scene on the device: world, materials, spheres, whatever the plan has.
-void record_scene_upload(const RenderPlan& plan, const Scene& scene, const Naadf& naadf,
+void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          Recording& recording);
 
 // Puts the parameters of one slice on the device and sets the tally to zero.

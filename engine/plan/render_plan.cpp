@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "plan/film_planes.h"
 #include "shared/gpu_types.h"
-#include "shared/naadf_cell.h"
 #include "shared/tally.h"
+#include "shared/world_cell.h"
 
 namespace voxilux {
 namespace {
@@ -107,9 +107,9 @@ void list_buffers(RenderPlan& plan) {
     const std::uint64_t pixels = plan.slice_pixels();
     transient(true, "frame", sizeof(gpu::FrameParams));
     transient(true, "tally", gpu::kTallyCount * sizeof(gpu::uint));
-    persistent(plan.has(Effect::voxels), "world.chunks", plan.world.chunk_bytes);
-    persistent(plan.has(Effect::voxels), "world.bricks", plan.world.brick_bytes);
-    persistent(plan.has(Effect::voxels), "world.voxels", plan.world.voxel_bytes);
+    persistent(plan.has(Effect::voxels), "world.roots", plan.world.root_bytes);
+    persistent(plan.has(Effect::voxels), "world.nodes", plan.world.node_bytes);
+    persistent(plan.has(Effect::voxels), "world.leaves", plan.world.leaf_bytes);
     persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));
@@ -159,12 +159,13 @@ void add_notes(RenderPlan& plan, const SceneFacts& facts) {
 
 }  // namespace
 
-WorldFacts measure_world(const Naadf& naadf) {
+WorldFacts measure_world(const MarchWorld& march_world) {
     // A binding needs at least one word, also where a level has no cells.
     const auto bytes = [](const std::vector<std::uint32_t>& words) {
         return std::max<std::uint64_t>(words.size(), 1) * sizeof(std::uint32_t);
     };
-    return {naadf.size(), bytes(naadf.chunks), bytes(naadf.bricks), bytes(naadf.voxels)};
+    return {march_world.traversal, march_world.size(), bytes(march_world.roots), bytes(march_world.nodes),
+            bytes(march_world.leaves)};
 }
 
 std::uint64_t RenderPlan::total_bytes() const {

@@ -9,21 +9,22 @@
 #include "plan/effects.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
-#include "world/naadf.h"
+#include "world/march_world.h"
 
 namespace voxilux {
 
 // What a plan needs to know of the built world.
 struct WorldFacts {
+    Traversal traversal = Traversal::naadf;
     glm::ivec3 size{0};  // cells
-    std::uint64_t chunk_bytes = 0;
-    std::uint64_t brick_bytes = 0;
-    std::uint64_t voxel_bytes = 0;
+    std::uint64_t root_bytes = 0;
+    std::uint64_t node_bytes = 0;
+    std::uint64_t leaf_bytes = 0;
 
     bool operator==(const WorldFacts&) const = default;
 };
 
-[[nodiscard]] WorldFacts measure_world(const Naadf& naadf);
+[[nodiscard]] WorldFacts measure_world(const MarchWorld& march_world);
 
 struct PlannedPass {
     std::string label;

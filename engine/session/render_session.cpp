@@ -37,13 +37,13 @@ class RenderRun {
               Clock::time_point start)
         : options_(options),
           plan_(prepared.plan),
-          params_(frame_params(prepared.plan, scene, prepared.naadf)),
+          params_(frame_params(prepared.plan, scene, prepared.march_world)),
           executor_(device, pass_shaders(), options.executor),
           governor_(prepared.plan, device.limits().is_cpu),
           row_samples_(static_cast<std::size_t>(prepared.plan.settings.size.y), 0),
           start_(start) {
         Recording recording;
-        record_scene_upload(plan_, scene, prepared.naadf, recording);
+        record_scene_upload(plan_, scene, prepared.march_world, recording);
         record_film_clear(plan_, recording);
         executor_.run(recording);
     }
@@ -187,10 +187,10 @@ glm::ivec3 nearest_to_camera(const Scene& scene) {
 
 void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
                        std::vector<std::string>& warnings) {
-    const Naadf& naadf = prepared.naadf;
-    const glm::ivec3 cell(glm::floor(camera_of(scene).position - glm::dvec3(naadf.origin)));
-    if (!prepared.facts.has_voxels || gpu::is_outside(cell, naadf.size())) return;
-    if (gpu::cell_state(gpu::find_cell(naadf, cell, naadf.chunks_size).cell) == gpu::kCellSolid)
+    const MarchWorld& march_world = prepared.march_world;
+    const glm::ivec3 cell(glm::floor(camera_of(scene).position - glm::dvec3(march_world.origin)));
+    if (!prepared.facts.has_voxels || gpu::is_outside(cell, march_world.size())) return;
+    if (gpu::cell_state(gpu::find_cell(march_world, cell, march_world.chunks_size).cell) == gpu::kCellSolid)
         warnings.push_back("the camera is inside a solid voxel: the picture shows its inside, which is dark");
 }
 
@@ -199,12 +199,12 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
 PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits) {
     PreparedScene prepared{.facts = measure_scene(scene)};
     if (prepared.facts.has_voxels) {
-        prepared.naadf = build_naadf(build_world(scene));
+        prepared.march_world = build_march_world(build_world(scene));
     } else {
-        prepared.naadf.origin = nearest_to_camera(scene);
-        prepared.naadf.chunks = {0};
+        prepared.march_world.origin = nearest_to_camera(scene);
+        prepared.march_world.roots = {0};
     }
-    prepared.plan = plan_render(scene, prepared.facts, measure_world(prepared.naadf), request, limits);
+    prepared.plan = plan_render(scene, prepared.facts, measure_world(prepared.march_world), request, limits);
     return prepared;
 }
 

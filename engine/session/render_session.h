@@ -76,7 +76,7 @@ struct RenderOutcome {
 // The world of the scene as the march needs it, and the facts and the plan that follow. No device is used.
 struct PreparedScene {
     SceneFacts facts;
-    Naadf naadf;
+    MarchWorld march_world;
     RenderPlan plan;
 };
 

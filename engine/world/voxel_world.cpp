@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "scene/scene_bounds.h"
-#include "shared/naadf_cell.h"
+#include "shared/world_cell.h"
 
 namespace voxilux {
 

@@ -23,7 +23,7 @@ class VoxelWorld {
     // Fills a cell; `material` < 32768. The last call for a cell wins.
     void set(glm::ivec3 local, std::uint16_t material);
 
-    // The 16 bits of a voxel as naadf_cell.h has them: 0x8000 | material, or kEmpty. Outside the world all is
+    // The 16 bits of a voxel as world_cell.h has them: 0x8000 | material, or kEmpty. Outside the world all is
     // empty.
     [[nodiscard]] std::uint16_t get(glm::ivec3 local) const;
 
@@ -40,6 +40,35 @@ class VoxelWorld {
     // The bricks of a chunk, or null when the chunk is empty.
     [[nodiscard]] const ChunkBricks* chunk(glm::ivec3 chunk_cell) const;
     [[nodiscard]] const Brick& brick(std::uint32_t number) const { return bricks_[number]; }
+
+    // Every chunk that is not empty, x fastest: visit(chunk cell, its bricks).
+    template <class Visit>
+    void for_each_chunk(const Visit& visit) const {
+        for (std::size_t i = 0; i < chunk_slots_.size(); ++i) {
+            if (chunk_slots_[i] == kNoBrick) continue;
+            const auto number = static_cast<int>(i);
+            const glm::ivec3 cell{number % chunks_.x, number / chunks_.x % chunks_.y,
+                                  number / chunks_.x / chunks_.y};
+            visit(cell, chunk_bricks_[chunk_slots_[i]]);
+        }
+    }
+
+    // Every filled voxel: visit(local cell, its 16 bits).
+    template <class Visit>
+    void for_each_voxel(const Visit& visit) const {
+        for_each_chunk([&](glm::ivec3 chunk_cell, const ChunkBricks& numbers) {
+            for (int slot = 0; slot < 64; ++slot) {
+                const std::uint32_t number = numbers[static_cast<std::size_t>(slot)];
+                if (number == kNoBrick) continue;
+                const glm::ivec3 corner =
+                    chunk_cell * 16 + glm::ivec3(slot & 3, (slot >> 2) & 3, slot >> 4) * 4;
+                for (int i = 0; i < 64; ++i) {
+                    const std::uint16_t voxel = bricks_[number][static_cast<std::size_t>(i)];
+                    if (voxel != kEmpty) visit(corner + glm::ivec3(i & 3, (i >> 2) & 3, i >> 4), voxel);
+                }
+            }
+        });
+    }
 
   private:
     [[nodiscard]] std::size_t chunk_index(glm::ivec3 chunk_cell) const;

@@ -1,25 +1,29 @@
 #pragma once
 
-// The C++ side of shaders/shared/march.h: the march reads a Naadf where the shader reads its buffers.
+// The C++ side of shaders/shared/march.h and grow_distances.h: they read a MarchWorld where the shader reads
+// its buffers.
 
-#include "world/naadf.h"
+#include "world/march_world.h"
 
 namespace voxilux::gpu {
 
-inline std::uint32_t load_chunk(const Naadf& naadf, std::uint32_t i) {
-    return naadf.chunks[i];
+inline std::uint32_t load_root(const MarchWorld& march_world, std::uint32_t i) {
+    return march_world.roots[i];
 }
-inline std::uint32_t load_brick(const Naadf& naadf, std::uint32_t i) {
-    return naadf.bricks[i];
+inline std::uint32_t load_node(const MarchWorld& march_world, std::uint32_t i) {
+    return march_world.nodes[i];
 }
-inline std::uint32_t load_voxel_word(const Naadf& naadf, std::uint32_t i) {
-    return naadf.voxels[i];
+inline std::uint32_t load_leaf(const MarchWorld& march_world, std::uint32_t i) {
+    return march_world.leaves[i];
 }
 
 }  // namespace voxilux::gpu
 
-#define VX_WORLD_PARAM const ::voxilux::Naadf &naadf,
-#define VX_WORLD_ARG naadf,
+#define VX_WORLD_PARAM const ::voxilux::MarchWorld &march_world,
+#define VX_WORLD_ARG march_world,
+#define VX_TRAVERSAL static_cast<::voxilux::gpu::uint>(march_world.traversal)
+#include "shared/grow_distances.h"
 #include "shared/march.h"
 #undef VX_WORLD_PARAM
 #undef VX_WORLD_ARG
+#undef VX_TRAVERSAL

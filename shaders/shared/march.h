@@ -1,4 +1,4 @@
-// The march of a ray through nested distance fields (naadf_cell.h), exact by construction.
+// The march of a ray through a world of voxels, exact by construction in every structure (world_cell.h).
 //
 // A ray starts in an integer cell at a fraction in [0,1]^3 of it. Let T_a(j) be the float time at which it
 // crosses its j-th plane of axis a. One fixed `precise` expression computes T_a(j), and it never decreases
@@ -13,13 +13,13 @@
 // shell that a 6-connected walk cannot leave is light-tight. A cell owns its low faces; a ray in a face plane
 // is in the upper cell.
 //
-// The including side defines VX_WORLD_PARAM, VX_WORLD_ARG and load_chunk(), load_brick(), load_voxel_word().
+// The including side provides what find_cell.h asks for.
 #ifndef VX_MARCH_H
 #define VX_MARCH_H
 
+#include "find_cell.h"
 #include "gpu_types.h"
 #include "limits.h"
-#include "naadf_cell.h"
 #include "portable.h"
 
 VX_BEGIN
@@ -109,34 +109,6 @@ VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 hi
     return n;
 }
 
-struct MarchCell {
-    uint cell;  // state and payload
-    int log2;   // edge of the cell in voxels
-    uint bits;  // of one distance
-};
-
-// The coarsest cell of the structure that holds `local` (inside the world) and has no children.
-VX_FN MarchCell find_cell(VX_WORLD_PARAM ivec3 local, ivec3 chunks) {
-    const ivec3 c = local >> kChunkLog2;
-    MarchCell found;
-    found.cell = load_chunk(VX_WORLD_ARG uint(c.x + chunks.x * (c.y + chunks.y * c.z)));
-    found.log2 = kChunkLog2;
-    found.bits = kChunkDistanceBits;
-    if (cell_state(found.cell) == kCellMixed) {
-        const uint slot = child_slot((local >> kBrickLog2) & 3);
-        found.cell = load_brick(VX_WORLD_ARG cell_payload(found.cell) * 64u + slot);
-        found.log2 = kBrickLog2;
-        found.bits = kInnerDistanceBits;
-        if (cell_state(found.cell) == kCellMixed) {
-            const uint voxel = child_slot(local & 3);
-            const uint word = load_voxel_word(VX_WORLD_ARG cell_payload(found.cell) * 32u + (voxel >> 1u));
-            found.cell = cell_of_voxel((word >> (16u * (voxel & 1u))) & 0xFFFFu);
-            found.log2 = 0;
-        }
-    }
-    return found;
-}
-
 // Planes to cross on each axis to leave the empty box around `local`.
 VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     const uint ones = (1u << found.bits) - 1u;
@@ -146,10 +118,6 @@ VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
                                int((payload >> (uint(axes.toward.z) * found.bits)) & ones));
     const ivec3 passed = (local ^ axes.flip) & ((1 << found.log2) - 1);
     return ((extent + 1) << found.log2) - passed;
-}
-
-VX_FN bool is_outside(ivec3 local, ivec3 size) {
-    return uint(local.x) >= uint(size.x) || uint(local.y) >= uint(size.y) || uint(local.z) >= uint(size.z);
 }
 
 // First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and

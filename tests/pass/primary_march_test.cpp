@@ -57,8 +57,8 @@ std::vector<glm::ivec3> local_cells(const Scene& scene, glm::ivec3 origin) {
 }
 
 // What primary_march.comp does for a pixel, in C++.
-gpu::Hit hit_in_cpp(const Naadf& naadf, const gpu::Ray& ray) {
-    const gpu::MarchProbe probe = gpu::probe_march(naadf, ray, naadf.chunks_size);
+gpu::Hit hit_in_cpp(const MarchWorld& march_world, const gpu::Ray& ray) {
+    const gpu::MarchProbe probe = gpu::probe_march(march_world, ray, march_world.chunks_size);
     gpu::Hit hit{.cell = glm::ivec3(-1), .face = gpu::kFaceMiss, .fraction = glm::vec3(0.0f)};
     if (probe.enters == 0 || probe.hit.face == gpu::kFaceMiss) return hit;
     return {
@@ -75,12 +75,12 @@ struct Marched {
 // Marches on the device and expects the bits of C++.
 Marched march_picture(const Scene& scene) {
     test::FrameRig rig(scene);
-    Marched marched{.hits = rig.render(0).hits, .solids = local_cells(scene, rig.naadf().origin)};
+    Marched marched{.hits = rig.render(0).hits, .solids = local_cells(scene, rig.march_world().origin)};
     std::vector<gpu::Hit> want;
     for (gpu::uint y = 0; y < rig.params().height; ++y) {
         for (gpu::uint x = 0; x < rig.params().width; ++x) {
             marched.rays.push_back(gpu::camera_ray(rig.params(), x, y));
-            want.push_back(hit_in_cpp(rig.naadf(), marched.rays.back()));
+            want.push_back(hit_in_cpp(rig.march_world(), marched.rays.back()));
             marched.hit_count += want.back().face != gpu::kFaceMiss ? 1 : 0;
         }
     }

@@ -58,7 +58,7 @@ Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
         const gpu::uint width = rig.params().width;
         const test::DoubleRay ray = test::to_double(gpu::camera_ray(
             rig.params(), static_cast<gpu::uint>(i) % width, static_cast<gpu::uint>(i) / width));
-        const glm::dvec3 origin = ray.origin + glm::dvec3(rig.naadf().origin);
+        const glm::dvec3 origin = ray.origin + glm::dvec3(rig.march_world().origin);
         double nearest = voxels[i].face == gpu::kFaceMiss ? std::numeric_limits<double>::infinity()
                                                           : static_cast<double>(voxels[i].t);
         std::size_t sphere = scene.spheres.size();
@@ -76,7 +76,7 @@ Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
             continue;
         }
         ++judged.spheres;
-        const glm::dvec3 p = glm::dvec3(rig.naadf().origin + hit.cell) + glm::dvec3(hit.fraction);
+        const glm::dvec3 p = glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
         const double off = glm::length(p - scene.spheres[sphere].centre) - scene.spheres[sphere].radius;
         const bool is_right = hit.face == gpu::kFaceSphere && hit.sphere == sphere &&
                               hit.material == scene.spheres[sphere].material &&

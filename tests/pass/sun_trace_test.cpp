@@ -35,7 +35,7 @@ Scene sunny_floor() {
 }
 
 glm::dvec3 position_of(const test::FrameRig& rig, const gpu::Hit& hit) {
-    return glm::dvec3(rig.naadf().origin + hit.cell) + glm::dvec3(hit.fraction);
+    return glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
 }
 
 TEST(SunTrace, open_faces_get_exactly_the_cosine_and_faces_turned_away_nothing) {

@@ -91,7 +91,7 @@ TEST(PlanMemory, world_over_128_mib_is_refused_on_the_default_device) {
     const SceneFacts facts = measure_scene(scene);
     const WorldFacts fits{glm::ivec3(1024), 64, 64, 128 * kMiB};
     WorldFacts over = fits;
-    over.voxel_bytes += 4;
+    over.leaf_bytes += 4;
     EXPECT_NO_THROW((void)plan_render(scene, facts, fits, PlanRequest{}, DeviceLimits{}));
     try {
         (void)plan_render(scene, facts, over, PlanRequest{}, DeviceLimits{});
@@ -100,7 +100,7 @@ TEST(PlanMemory, world_over_128_mib_is_refused_on_the_default_device) {
         EXPECT_EQ(error.code(), ExitCode::out_of_memory);
         EXPECT_STREQ(
             error.what(),
-            "buffer 'world.voxels' needs 134217732 bytes but lavapipe takes 134217728 at most; make the "
+            "buffer 'world.leaves' needs 134217732 bytes but lavapipe takes 134217728 at most; make the "
             "scene smaller");
     }
 }

@@ -63,10 +63,10 @@ RecordedRender record_render(const Scene& scene, const PreparedScene& prepared) 
     const RenderPlan& plan = prepared.plan;
     RecordedRender render;
     Recording start;
-    record_scene_upload(plan, scene, prepared.naadf, start);
+    record_scene_upload(plan, scene, prepared.march_world, start);
     record_film_clear(plan, start);
     add(render, std::move(start));
-    const gpu::FrameParams params = frame_params(plan, scene, prepared.naadf);
+    const gpu::FrameParams params = frame_params(plan, scene, prepared.march_world);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     for (std::uint32_t sample = 0; sample < plan.settings.spp; ++sample) {
         for (std::uint32_t row = 0; row < height;) {

@@ -30,14 +30,14 @@ std::vector<gpu::Ray> moved_back(std::vector<gpu::Ray> rays, float distance) {
 
 TEST(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
-        const Naadf naadf = build_naadf(named.world);
-        std::vector<gpu::Ray> rays = all_rays(naadf.size(), 1500);
+        const MarchWorld march_world = build_march_world(named.world);
+        std::vector<gpu::Ray> rays = all_rays(march_world.size(), 1500);
         for (const float distance : {40.0f, 3000.0f, 1e6f}) {
-            const std::vector<gpu::Ray> far = moved_back(all_rays(naadf.size(), 300), distance);
+            const std::vector<gpu::Ray> far = moved_back(all_rays(march_world.size(), 300), distance);
             rays.insert(rays.end(), far.begin(), far.end());
         }
-        const auto got = test::march_on_device(naadf, rays);
-        const auto want = test::march_in_cpp(naadf, rays);
+        const auto got = test::march_on_device(march_world, rays);
+        const auto want = test::march_in_cpp(march_world, rays);
         const auto difference = test::differing_bits<gpu::MarchProbe>(got, want);
         EXPECT_EQ(difference.count, 0u)
             << named.name << " ray " << test::print(rays[difference.first]) << ", " << difference.detail;
@@ -46,10 +46,10 @@ TEST(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
 
 TEST(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed + 1)) {
-        const Naadf naadf = build_naadf(named.world);
+        const MarchWorld march_world = build_march_world(named.world);
         const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
-        const std::vector<gpu::Ray> rays = all_rays(naadf.size(), solids.size() > 2000 ? 15 : 60);
-        const auto got = test::march_on_device(naadf, rays);
+        const std::vector<gpu::Ray> rays = all_rays(march_world.size(), solids.size() > 2000 ? 15 : 60);
+        const auto got = test::march_on_device(march_world, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const test::OracleBounds bounds = test::oracle_bounds(solids, rays[i], kMargin);
             ASSERT_EQ(test::disagreement(bounds, rays[i], got[i].hit, kMargin), "")
@@ -59,12 +59,12 @@ TEST(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
 }
 
 TEST(MarchOnDevice, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
-    const Naadf naadf = build_naadf(test::small_worlds(kSeed)[9].world);
-    std::vector<gpu::Ray> rays = all_rays(naadf.size(), 100);
-    const auto got = test::march_on_device(naadf, rays);
+    const MarchWorld march_world = build_march_world(test::small_worlds(kSeed)[9].world);
+    std::vector<gpu::Ray> rays = all_rays(march_world.size(), 100);
+    const auto got = test::march_on_device(march_world, rays);
     for (gpu::Ray& ray : rays)
         ray.direction.x = std::nextafter(ray.direction.x, 2.0f);
-    EXPECT_GT(test::differing_bits<gpu::MarchProbe>(got, test::march_in_cpp(naadf, rays)).count,
+    EXPECT_GT(test::differing_bits<gpu::MarchProbe>(got, test::march_in_cpp(march_world, rays)).count,
               rays.size() / 4);
 }
 

@@ -38,7 +38,7 @@ gpu::Ray centred_if_axial(gpu::Ray ray) {
 }  // namespace
 
 void expect_exact_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays) {
-    const auto got = march_on_device(build_naadf(world), rays);
+    const auto got = march_on_device(build_march_world(world), rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const ExactHit want = exact_walk(world, centred_if_axial(rays[i]));
         ASSERT_EQ(got[i].hit.face, want.face) << print(rays[i]);
@@ -48,9 +48,9 @@ void expect_exact_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& ray
 }
 
 void expect_plain_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays) {
-    const Naadf naadf = build_naadf(world);
-    const auto got = march_on_device(naadf, rays);
-    const glm::ivec3 size = naadf.size();
+    const MarchWorld march_world = build_march_world(world);
+    const auto got = march_on_device(march_world, rays);
+    const glm::ivec3 size = march_world.size();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const gpu::MarchHit want = walk_cells(world, rays[i]);
         ASSERT_EQ(got[i].hit.face, want.face) << print(rays[i]);
@@ -63,7 +63,7 @@ void expect_plain_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& ray
 
 void expect_boxes(const VoxelWorld& world, const std::vector<gpu::Ray>& rays) {
     const std::vector<glm::ivec3> solids = solid_cells(world);
-    const auto got = march_on_device(build_naadf(world), rays);
+    const auto got = march_on_device(build_march_world(world), rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const OracleBounds bounds = oracle_bounds(solids, rays[i], kMarchMargin);
         ASSERT_EQ(disagreement(bounds, rays[i], got[i].hit, kMarchMargin), "") << print(rays[i]);

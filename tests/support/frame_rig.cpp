@@ -31,10 +31,10 @@ Slice slice_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t ro
 FrameRig::FrameRig(const Scene& scene, Executor& executor)
     : executor_(executor),
       prepared_(prepare_scene(scene, {.effects = {.wants_aov = true}}, test_device().limits())),
-      params_(frame_params(prepared_.plan, scene, prepared_.naadf)) {
+      params_(frame_params(prepared_.plan, scene, prepared_.march_world)) {
     EXPECT_EQ(prepared_.plan.band_count, 1u) << "a rig renders pictures of one band";
     Recording recording;
-    record_scene_upload(prepared_.plan, scene, prepared_.naadf, recording);
+    record_scene_upload(prepared_.plan, scene, prepared_.march_world, recording);
     record_film_clear(prepared_.plan, recording);
     executor_.run(recording);
 }

@@ -39,7 +39,7 @@ class FrameRig {
     [[nodiscard]] std::vector<std::int64_t> film_sums(const std::string& plane);
 
     [[nodiscard]] const RenderPlan& plan() const { return prepared_.plan; }
-    [[nodiscard]] const Naadf& naadf() const { return prepared_.naadf; }
+    [[nodiscard]] const MarchWorld& march_world() const { return prepared_.march_world; }
     [[nodiscard]] const gpu::FrameParams& params() const { return params_; }
 
   private:

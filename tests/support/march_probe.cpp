@@ -29,25 +29,26 @@ void upload(Recording& recording, const std::string& name, const std::vector<T>&
 
 }  // namespace
 
-std::vector<gpu::MarchProbe> march_on_device(const Naadf& naadf, const std::vector<gpu::Ray>& rays,
+std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, const std::vector<gpu::Ray>& rays,
                                              double* device_ms) {
     if (rays.empty()) return {};
     const auto count = checked_cast<std::uint32_t>(rays.size(), "rays");
     Recording recording;
-    upload(recording, "probe.chunks", words_or_zero(naadf.chunks));
-    upload(recording, "probe.bricks", words_or_zero(naadf.bricks));
-    upload(recording, "probe.voxels", words_or_zero(naadf.voxels));
+    upload(recording, "probe.roots", words_or_zero(march_world.roots));
+    upload(recording, "probe.nodes", words_or_zero(march_world.nodes));
+    upload(recording, "probe.leaves", words_or_zero(march_world.leaves));
     upload(recording, "probe.rays", rays);
     recording.declare({.name = "probe.marched", .size_bytes = count * sizeof(gpu::MarchProbe)});
     recording.dispatch({.label = "probe.march",
                         .shader = "march",
                         .extent = {count, 1, 1},
-                        .bindings = {{"Chunks", "probe.chunks"},
-                                     {"Bricks", "probe.bricks"},
-                                     {"Voxels", "probe.voxels"},
+                        .bindings = {{"Roots", "probe.roots"},
+                                     {"Nodes", "probe.nodes"},
+                                     {"Leaves", "probe.leaves"},
                                      {"In", "probe.rays"},
                                      {"Out", "probe.marched"}},
-                        .push = to_bytes(MarchPush{count, naadf.chunks_size})});
+                        .constants = {{"traversal", static_cast<std::uint32_t>(march_world.traversal)}},
+                        .push = to_bytes(MarchPush{count, march_world.chunks_size})});
     recording.readback("probe.marched");
     const RunResult result = test_executor().run(recording);
     const std::vector<std::byte>& bytes = result.readbacks.at("probe.marched");
@@ -57,11 +58,11 @@ std::vector<gpu::MarchProbe> march_on_device(const Naadf& naadf, const std::vect
     return outputs;
 }
 
-std::vector<gpu::MarchProbe> march_in_cpp(const Naadf& naadf, const std::vector<gpu::Ray>& rays) {
+std::vector<gpu::MarchProbe> march_in_cpp(const MarchWorld& march_world, const std::vector<gpu::Ray>& rays) {
     std::vector<gpu::MarchProbe> outputs;
     outputs.reserve(rays.size());
     for (const gpu::Ray& ray : rays)
-        outputs.push_back(gpu::probe_march(naadf, ray, naadf.chunks_size));
+        outputs.push_back(gpu::probe_march(march_world, ray, march_world.chunks_size));
     return outputs;
 }
 

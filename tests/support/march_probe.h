@@ -5,23 +5,25 @@
 #include <string>
 #include <vector>
 
-#include "world/naadf.h"
+#include "world/march_world.h"
 #include "world/world_view.h"
 
-#define VX_WORLD_PARAM const ::voxilux::Naadf &naadf,
-#define VX_WORLD_ARG naadf,
+#define VX_WORLD_PARAM const ::voxilux::MarchWorld &march_world,
+#define VX_WORLD_ARG march_world,
+#define VX_TRAVERSAL static_cast<::voxilux::gpu::uint>(march_world.traversal)
 #include "probe/march_functions.h"
 #undef VX_WORLD_PARAM
 #undef VX_WORLD_ARG
+#undef VX_TRAVERSAL
 
 namespace voxilux::test {
 
 // Device time of the last call, ms, when asked for.
-[[nodiscard]] std::vector<gpu::MarchProbe> march_on_device(const Naadf& naadf,
+[[nodiscard]] std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world,
                                                            const std::vector<gpu::Ray>& rays,
                                                            double* device_ms = nullptr);
 
-[[nodiscard]] std::vector<gpu::MarchProbe> march_in_cpp(const Naadf& naadf,
+[[nodiscard]] std::vector<gpu::MarchProbe> march_in_cpp(const MarchWorld& march_world,
                                                         const std::vector<gpu::Ray>& rays);
 
 // The ray as C++ initializers, so that a failure can become a fixed case.

@@ -9,7 +9,7 @@
 #include "support/march_oracle.h"
 #include "support/ray_families.h"
 #include "support/statistics.h"
-#include "world/naadf.h"
+#include "world/march_world.h"
 // After the world's, which says how C++ reads it.
 #include "shared/camera.h"
 

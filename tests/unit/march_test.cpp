@@ -3,7 +3,7 @@
 
 #include "support/march_oracle.h"
 #include "support/ray_families.h"
-#include "world/naadf.h"
+#include "world/march_world.h"
 
 namespace voxilux {
 namespace {
@@ -22,12 +22,14 @@ std::vector<gpu::Ray> random_rays(glm::ivec3 size, int count) {
     return std::move(test::ray_families(size, count, kSeed).front().rays);
 }
 
-TEST(March, every_family_in_every_world_visits_the_cells_of_the_plain_walk) {
+class EveryTraversal : public ::testing::TestWithParam<Traversal> {};
+
+TEST_P(EveryTraversal, visits_the_cells_of_the_plain_walk_in_every_family_and_world) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
-        const Naadf naadf = build_naadf(named.world);
-        for (const test::RayFamily& family : test::ray_families(naadf.size(), 1500, kSeed)) {
+        const MarchWorld march_world = build_march_world(named.world, GetParam());
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), 1500, kSeed)) {
             for (const gpu::Ray& ray : family.rays) {
-                const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+                const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
                 const gpu::MarchHit expected = test::walk_cells(named.world, ray);
                 ASSERT_EQ(hit.face, expected.face) << named.name << " " << family.name << " " << print(ray);
                 ASSERT_EQ(hit.fault, gpu::kMarchFine);
@@ -41,14 +43,17 @@ TEST(March, every_family_in_every_world_visits_the_cells_of_the_plain_walk) {
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(March, EveryTraversal, ::testing::ValuesIn(all_traversals()),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
 TEST(March, every_family_agrees_with_boxes_in_double_precision) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed + 1)) {
-        const Naadf naadf = build_naadf(named.world);
+        const MarchWorld march_world = build_march_world(named.world);
         const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
         const int count = solids.size() > 2000 ? 20 : 100;
-        for (const test::RayFamily& family : test::ray_families(naadf.size(), count, kSeed)) {
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), count, kSeed)) {
             for (const gpu::Ray& ray : family.rays) {
-                const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+                const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
                 const test::OracleBounds bounds = test::oracle_bounds(solids, ray, kMargin);
                 ASSERT_EQ(test::disagreement(bounds, ray, hit, kMargin), "")
                     << named.name << " " << family.name << " " << print(ray);
@@ -59,13 +64,13 @@ TEST(March, every_family_agrees_with_boxes_in_double_precision) {
 
 TEST(March, oracle_rejects_a_hit_moved_by_one_cell_or_dropped) {
     const test::NamedWorld named = std::move(test::small_worlds(kSeed)[9]);
-    const Naadf naadf = build_naadf(named.world);
+    const MarchWorld march_world = build_march_world(named.world);
     const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
     int hits = 0;
     int moved_caught = 0;
     int dropped_caught = 0;
-    for (const gpu::Ray& ray : random_rays(naadf.size(), 200)) {
-        gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+    for (const gpu::Ray& ray : random_rays(march_world.size(), 200)) {
+        gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
         if (hit.face >= gpu::kFaceInside) continue;
         ++hits;
         const test::OracleBounds bounds = test::oracle_bounds(solids, ray, kMargin);
@@ -83,9 +88,10 @@ TEST(March, oracle_rejects_a_hit_moved_by_one_cell_or_dropped) {
 TEST(March, start_in_a_solid_cell_is_a_hit_inside_at_zero) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({3, 3, 3}, 7);
-    const Naadf naadf = build_naadf(world);
-    const gpu::MarchHit hit = gpu::march(
-        naadf, gpu::Ray{{3, 3, 3}, glm::vec3(0.25f), glm::vec3(1, 0, 0), gpu::kUnbounded}, naadf.chunks_size);
+    const MarchWorld march_world = build_march_world(world);
+    const gpu::MarchHit hit =
+        gpu::march(march_world, gpu::Ray{{3, 3, 3}, glm::vec3(0.25f), glm::vec3(1, 0, 0), gpu::kUnbounded},
+                   march_world.chunks_size);
     EXPECT_EQ(hit.face, gpu::kFaceInside);
     EXPECT_EQ(hit.t, 0.0f);
     EXPECT_EQ(hit.material, 7u);
@@ -94,15 +100,15 @@ TEST(March, start_in_a_solid_cell_is_a_hit_inside_at_zero) {
 TEST(March, interval_is_closed_at_the_start_and_open_at_the_end) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({8, 3, 3}, 0);
-    const Naadf naadf = build_naadf(world);
+    const MarchWorld march_world = build_march_world(world);
     gpu::Ray ray{{1, 3, 3}, glm::vec3(0.0f, 0.5f, 0.5f), glm::vec3(1, 0, 0), 7.0f};
-    EXPECT_EQ(gpu::march(naadf, ray, naadf.chunks_size).face, gpu::kFaceMiss);
+    EXPECT_EQ(gpu::march(march_world, ray, march_world.chunks_size).face, gpu::kFaceMiss);
     ray.t_max = std::nextafter(7.0f, 8.0f);
-    const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+    const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
     EXPECT_EQ(hit.face, 0u);
     EXPECT_EQ(hit.t, 7.0f);
     ray.t_max = 0.0f;
-    EXPECT_EQ(gpu::march(naadf, ray, naadf.chunks_size).face, gpu::kFaceMiss);
+    EXPECT_EQ(gpu::march(march_world, ray, march_world.chunks_size).face, gpu::kFaceMiss);
 }
 
 // A voxel that the ray enters inside the radius but leaves outside it counts: 7.5 voxels to the wall,
@@ -110,18 +116,18 @@ TEST(March, interval_is_closed_at_the_start_and_open_at_the_end) {
 TEST(March, last_voxel_inside_the_radius_is_hit) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({9, 3, 3}, 0);
-    const Naadf naadf = build_naadf(world);
+    const MarchWorld march_world = build_march_world(world);
     const gpu::Ray ray{{1, 3, 3}, glm::vec3(0.5f), glm::vec3(1, 0, 0), 8.0f};
-    EXPECT_EQ(gpu::march(naadf, ray, naadf.chunks_size).t, 7.5f);
+    EXPECT_EQ(gpu::march(march_world, ray, march_world.chunks_size).t, 7.5f);
 }
 
 TEST(March, steps_never_exceed_the_planes_of_the_world) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed + 2)) {
-        const Naadf naadf = build_naadf(named.world);
-        const glm::ivec3 size = naadf.size();
+        const MarchWorld march_world = build_march_world(named.world);
+        const glm::ivec3 size = march_world.size();
         for (const test::RayFamily& family : test::ray_families(size, 200, kSeed)) {
             for (const gpu::Ray& ray : family.rays)
-                ASSERT_LE(gpu::march(naadf, ray, naadf.chunks_size).steps,
+                ASSERT_LE(gpu::march(march_world, ray, march_world.chunks_size).steps,
                           gpu::uint(size.x + size.y + size.z + 3));
         }
     }
@@ -131,9 +137,9 @@ TEST(March, no_ray_leaves_a_closed_shell) {
     for (const int index :
          {5, 6}) {  // a wall of corners and a shell of faces, both closed for 6-connected walks
         const test::NamedWorld named = std::move(test::small_worlds(kSeed)[static_cast<std::size_t>(index)]);
-        const Naadf naadf = build_naadf(named.world);
+        const MarchWorld march_world = build_march_world(named.world);
         int shot = 0;
-        for (const test::RayFamily& family : test::ray_families(naadf.size(), 5000, kSeed + 3)) {
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), 5000, kSeed + 3)) {
             if (family.name == "short") continue;
             for (const gpu::Ray& ray : family.rays) {
                 const glm::ivec3 c = ray.cell;
@@ -143,10 +149,10 @@ TEST(March, no_ray_leaves_a_closed_shell) {
                 const bool inside_shell = glm::all(glm::greaterThan(c, glm::ivec3(1))) &&
                                           glm::all(glm::lessThan(c, glm::ivec3(30)));
                 if (index == 6 ? !inside_shell : !(below_wall && upwards)) continue;
-                const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+                const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
                 if (index == 5 && hit.face == gpu::kFaceMiss) {
                     // It may leave the world below the wall, never above it.
-                    const glm::ivec3 last = glm::clamp(hit.cell, glm::ivec3(0), naadf.size() - 1);
+                    const glm::ivec3 last = glm::clamp(hit.cell, glm::ivec3(0), march_world.size() - 1);
                     ASSERT_LT(last.x + last.y + last.z, 40) << print(ray);
                     continue;
                 }
@@ -160,10 +166,10 @@ TEST(March, no_ray_leaves_a_closed_shell) {
 
 TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_neighbour) {
     const test::NamedWorld named = std::move(test::small_worlds(kSeed)[10]);
-    const Naadf naadf = build_naadf(named.world);
+    const MarchWorld march_world = build_march_world(named.world);
     int spawned = 0;
-    for (const gpu::Ray& ray : random_rays(naadf.size(), 3000)) {
-        const gpu::MarchHit hit = gpu::march(naadf, ray, naadf.chunks_size);
+    for (const gpu::Ray& ray : random_rays(march_world.size(), 3000)) {
+        const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
         if (hit.face >= gpu::kFaceInside) continue;
         const glm::vec3 fraction = gpu::hit_fraction(ray, hit);
         for (const float elevation : {1e-9f, 1e-7f, 1e-3f, 0.5f, 1.0f}) {
@@ -173,7 +179,7 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
             direction[(a + 1) % 3] = std::sqrt(std::max(0.0f, 1.0f - elevation * elevation));
             const gpu::Ray next =
                 gpu::leave_surface(hit.cell, hit.face, fraction, direction, gpu::kUnbounded);
-            const gpu::MarchHit second = gpu::march(naadf, next, naadf.chunks_size);
+            const gpu::MarchHit second = gpu::march(march_world, next, march_world.chunks_size);
             ++spawned;
             if (second.face == gpu::kFaceMiss) continue;
             ASSERT_FALSE(second.cell == hit.cell) << print(next);
@@ -187,20 +193,22 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
 
 TEST(March, bad_directions_miss_within_the_step_limit) {
     const test::NamedWorld named = std::move(test::small_worlds(kSeed)[7]);
-    const Naadf naadf = build_naadf(named.world);
+    const MarchWorld march_world = build_march_world(named.world);
     const float inf = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const float bad : {nan, inf, -inf}) {
         for (const glm::vec3 direction :
              {glm::vec3(bad), glm::vec3(bad, 0, 0), glm::vec3(0, bad, 1), glm::vec3(1, 1, bad)}) {
-            const gpu::MarchHit hit = gpu::march(
-                naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), direction, gpu::kUnbounded}, naadf.chunks_size);
+            const gpu::MarchHit hit =
+                gpu::march(march_world, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), direction, gpu::kUnbounded},
+                           march_world.chunks_size);
             EXPECT_EQ(hit.fault, gpu::kMarchUnsound);
             EXPECT_EQ(hit.face, gpu::kFaceMiss);
         }
     }
-    const gpu::MarchHit hit = gpu::march(
-        naadf, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), glm::vec3(0.0f), gpu::kUnbounded}, naadf.chunks_size);
+    const gpu::MarchHit hit =
+        gpu::march(march_world, gpu::Ray{{1, 1, 1}, glm::vec3(0.5f), glm::vec3(0.0f), gpu::kUnbounded},
+                   march_world.chunks_size);
     EXPECT_EQ(hit.face, gpu::kFaceMiss);
 }
 

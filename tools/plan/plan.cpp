@@ -18,7 +18,8 @@ DeviceLimits limits_for(const std::string& selector) {
 std::string describe_first_frame(const PreparedScene& prepared, const Scene& scene) {
     Recording recording;
     const Slice slice{.row_count = prepared.plan.slice_rows};
-    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.naadf), 0, recording);
+    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.march_world), 0,
+                 recording);
     return describe(recording);
 }
 

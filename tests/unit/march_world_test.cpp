@@ -1,10 +1,10 @@
-#include "world/naadf.h"
+#include "world/march_world.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "shared/naadf_cell.h"
+#include "shared/world_cell.h"
 #include "support/ray_families.h"
 #include "world/aadf.h"
 
@@ -103,28 +103,28 @@ TEST(Aadf, empty_grid_reaches_the_maximum) {
         EXPECT_EQ(extents, (Extents{31, 31, 31, 31, 31, 31}));
 }
 
-std::uint32_t lookup(const Naadf& naadf, glm::ivec3 local) {
+std::uint32_t lookup(const MarchWorld& march_world, glm::ivec3 local) {
     const glm::ivec3 c = local >> 4;
-    const std::uint32_t chunk =
-        naadf.chunks[static_cast<std::size_t>(c.x + naadf.chunks_size.x * (c.y + naadf.chunks_size.y * c.z))];
+    const std::uint32_t chunk = march_world.roots[static_cast<std::size_t>(
+        c.x + march_world.chunks_size.x * (c.y + march_world.chunks_size.y * c.z))];
     if (gpu::cell_state(chunk) != gpu::kCellMixed) return chunk;
     const std::uint32_t brick =
-        naadf.bricks[gpu::cell_payload(chunk) * 64 + gpu::child_slot((local >> 2) & 3)];
+        march_world.nodes[gpu::cell_payload(chunk) * 64 + gpu::child_slot((local >> 2) & 3)];
     if (gpu::cell_state(brick) != gpu::kCellMixed) return brick;
     const std::uint32_t slot = gpu::child_slot(local & 3);
-    const std::uint32_t word = naadf.voxels[gpu::cell_payload(brick) * 32 + slot / 2];
+    const std::uint32_t word = march_world.leaves[gpu::cell_payload(brick) * 32 + slot / 2];
     return gpu::cell_of_voxel((word >> (16 * (slot % 2))) & 0xFFFFu);
 }
 
-TEST(Naadf, every_voxel_reads_back_with_its_material) {
+TEST(MarchWorld, every_voxel_reads_back_with_its_material) {
     for (const test::NamedWorld& named : test::small_worlds(3)) {
-        const Naadf naadf = build_naadf(named.world);
-        const glm::ivec3 size = naadf.size();
+        const MarchWorld march_world = build_march_world(named.world);
+        const glm::ivec3 size = march_world.size();
         for (int z = 0; z < size.z; ++z) {
             for (int y = 0; y < size.y; ++y) {
                 for (int x = 0; x < size.x; ++x) {
                     const std::uint16_t voxel = named.world.get({x, y, z});
-                    const std::uint32_t cell = lookup(naadf, {x, y, z});
+                    const std::uint32_t cell = lookup(march_world, {x, y, z});
                     ASSERT_EQ(gpu::cell_state(cell) == gpu::kCellSolid, voxel != VoxelWorld::kEmpty)
                         << named.name;
                     if (voxel == VoxelWorld::kEmpty) continue;
@@ -135,16 +135,16 @@ TEST(Naadf, every_voxel_reads_back_with_its_material) {
     }
 }
 
-TEST(Naadf, equal_bricks_are_stored_once_and_uniform_chunks_not_at_all) {
+TEST(MarchWorld, equal_bricks_are_stored_once_and_uniform_chunks_not_at_all) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(3, 1, 1));
     for (int x = 0; x < 32; x += 4)
         world.set({x, 0, 0}, 9);
     for (int i = 0; i < 16 * 16 * 16; ++i)
         world.set({32 + i % 16, i / 16 % 16, i / 256}, 4);
-    const Naadf naadf = build_naadf(world);
-    EXPECT_EQ(naadf.voxels.size(), 32u);
-    EXPECT_EQ(naadf.bricks.size(), 128u);
-    EXPECT_EQ(naadf.chunks[2], gpu::make_cell(gpu::kCellSolid, 4));
+    const MarchWorld march_world = build_march_world(world);
+    EXPECT_EQ(march_world.leaves.size(), 32u);
+    EXPECT_EQ(march_world.nodes.size(), 128u);
+    EXPECT_EQ(march_world.roots[2], gpu::make_cell(gpu::kCellSolid, 4));
 }
 
 TEST(VoxelWorld, last_write_wins_and_outside_is_empty) {

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "world/voxel_world.h"
+
+namespace voxilux {
+
+// Structures that a ray can be marched through; shaders/shared/world_cell.h tells what each holds. All give
+// the same hits.
+enum class Traversal : std::uint8_t { dda, brick4, brick8, naadf, light, deep, wide, slim };
+inline constexpr std::size_t kTraversalCount = 8;
+
+[[nodiscard]] std::span<const Traversal> all_traversals();
+
+[[nodiscard]] std::string_view name_of(Traversal traversal);
+
+// The traversal of that name; Error(usage) with the known names when there is none.
+[[nodiscard]] Traversal traversal_named(std::string_view name);
+
+// A world in the form that a traversal marches, laid out as the shaders read it.
+struct MarchWorld {
+    Traversal traversal = Traversal::naadf;
+    glm::ivec3 origin{0};              // scene cell of local cell 0
+    glm::ivec3 chunks_size{1};         // chunks of 16^3 per axis
+    std::vector<std::uint32_t> roots;  // dense, x fastest
+    std::vector<std::uint32_t> nodes;
+    std::vector<std::uint32_t> leaves;
+    // Where the blocks of 64 cells are that have boxes to grow; not for the device's march.
+    std::vector<std::uint32_t> node_homes;  // chunk number of each block of nodes
+    std::vector<std::uint32_t> leaf_homes;  // chunk number * 64 + slot of each block of leaves
+
+    [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }
+    [[nodiscard]] std::uint64_t size_bytes() const {
+        return 4 * (std::uint64_t{roots.size()} + nodes.size() + leaves.size());
+    }
+};
+
+// Builds a structure on the CPU. Readable rather than fast: it is the oracle for every other builder. Throws
+// Error(out_of_memory) when the structure cannot hold the world (dda: more than 255 materials).
+[[nodiscard]] MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal = Traversal::naadf);
+
+}  // namespace voxilux
