@@ -53,6 +53,11 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
     command.add_option("--ao-radius", options.ao_radius, "reach of occlusion rays, in voxels")
         ->type_name("R")
         ->group(kSampling);
+    command
+        .add_option("--traversal", options.traversal,
+                    "structure that rays march through; the plan chooses one")
+        ->type_name("NAME")
+        ->group(kSampling);
     command.add_option("--seed", options.seed, "seed of every random stream")
         ->type_name("N")
         ->group(kSampling);
@@ -92,6 +97,7 @@ PlanRequest plan_request(const SceneOptions& options) {
         const EffectSwitch one = parse_effect_switch(text);
         request.effects.switches[one.effect] = one.choice;
     }
+    if (options.traversal) request.traversal = traversal_named(*options.traversal);
     if (options.crop) request.crop = parse_window("--crop", *options.crop);
     request.memory_budget_bytes = std::min(options.memory_budget_mib, kMostMib) << 20;
     return request;

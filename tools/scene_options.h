@@ -26,6 +26,7 @@ struct SceneOptions {
     std::vector<std::string> overrides;  // -D key=value
     int frame = 0;
     std::optional<std::string> crop;
+    std::optional<std::string> traversal;
     std::uint64_t memory_budget_mib = 0;
 };
 

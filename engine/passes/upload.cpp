@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/plane.h"
+#include "passes/world.h"
 #include "plan/film_planes.h"
 
 namespace voxilux {
@@ -33,14 +34,22 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
     return {shape, sphere.material};
 }
 
+WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
+    WorldBuffers buffers{use_buffer(plan, "world.roots", recording),
+                         use_buffer(plan, "world.nodes", recording),
+                         use_buffer(plan, "world.leaves", recording)};
+    if (plan.world.growth.steps == 0) return buffers;
+    buffers.homes = use_buffer(plan, "world.homes", recording);
+    buffers.grown = use_buffer(plan, "world.grown", recording);
+    return buffers;
+}
+
 }  // namespace
 
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          Recording& recording) {
     if (plan.has(Effect::voxels)) {
-        upload_all(plan, "world.roots", march_world.roots, recording);
-        upload_all(plan, "world.nodes", march_world.nodes, recording);
-        upload_all(plan, "world.leaves", march_world.leaves, recording);
+        record_world_build(march_world, world_buffers(plan, recording), recording);
     }
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;

@@ -84,8 +84,9 @@ std::uint64_t slices_of_a_sample(const RenderPlan& plan) {
 void list_passes(RenderPlan& plan) {
     const std::uint64_t slices = slices_of_a_sample(plan) * plan.settings.spp;
     const auto add = [&](bool on, const char* label, std::uint64_t count) {
-        if (on) plan.passes.push_back({label, count});
+        if (on && count > 0) plan.passes.push_back({label, count});
     };
+    add(plan.has(Effect::voxels), "world.grow", plan.world.growth.steps);
     add(plan.has(Effect::voxels), "primary.march", slices);
     add(plan.has(Effect::spheres), "sphere.trace", slices);
     add(plan.has(Effect::ao), "ao.trace", slices);
@@ -110,6 +111,9 @@ void list_buffers(RenderPlan& plan) {
     persistent(plan.has(Effect::voxels), "world.roots", plan.world.root_bytes);
     persistent(plan.has(Effect::voxels), "world.nodes", plan.world.node_bytes);
     persistent(plan.has(Effect::voxels), "world.leaves", plan.world.leaf_bytes);
+    const bool grows = plan.has(Effect::voxels) && plan.world.growth.steps > 0;
+    transient(grows, "world.homes", plan.world.growth.home_bytes);
+    transient(grows, "world.grown", plan.world.growth.grown_bytes);
     persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));
@@ -164,8 +168,8 @@ WorldFacts measure_world(const MarchWorld& march_world) {
     const auto bytes = [](const std::vector<std::uint32_t>& words) {
         return std::max<std::uint64_t>(words.size(), 1) * sizeof(std::uint32_t);
     };
-    return {march_world.traversal, march_world.size(), bytes(march_world.roots), bytes(march_world.nodes),
-            bytes(march_world.leaves)};
+    return {march_world.traversal,    march_world.size(),        bytes(march_world.roots),
+            bytes(march_world.nodes), bytes(march_world.leaves), growth_needs(march_world)};
 }
 
 std::uint64_t RenderPlan::total_bytes() const {

@@ -9,6 +9,7 @@
 #include "plan/effects.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
+#include "world/build_fields.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -20,6 +21,7 @@ struct WorldFacts {
     std::uint64_t root_bytes = 0;
     std::uint64_t node_bytes = 0;
     std::uint64_t leaf_bytes = 0;
+    GrowthNeeds growth;
 
     bool operator==(const WorldFacts&) const = default;
 };
@@ -91,6 +93,7 @@ struct PlanRequest {
     EffectRequest effects;
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
     std::optional<PixelWindow> crop;        // render these pixels of the image only
+    std::optional<Traversal> traversal;     // the plan chooses when there is none
 };
 
 // Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming

@@ -45,7 +45,7 @@ class RenderRun {
         Recording recording;
         record_scene_upload(plan_, scene, prepared.march_world, recording);
         record_film_clear(plan_, recording);
-        executor_.run(recording);
+        (void)add_times(executor_.run(recording));
     }
 
     void run(const std::function<void(const Progress&)>& on_progress) {
@@ -199,7 +199,7 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
 PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits) {
     PreparedScene prepared{.facts = measure_scene(scene)};
     if (prepared.facts.has_voxels) {
-        prepared.march_world = build_march_world(build_world(scene));
+        prepared.march_world = build_march_skeleton(build_world(scene), request.traversal.value_or(Traversal::wide));
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};

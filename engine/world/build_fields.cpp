@@ -1,7 +1,6 @@
 #include "world/build_fields.h"
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <unordered_map>
 
@@ -116,56 +115,61 @@ std::uint32_t store_chunk(MarchWorld& built, BrickCells& cells, std::uint32_t ch
     return gpu::make_cell(gpu::kCellMixed, number);
 }
 
-glm::ivec3 slot_cell(std::uint32_t slot) {
-    return {slot & 3, (slot >> 2) & 3, slot >> 4};
-}
-
-glm::ivec3 grid_cell(std::uint32_t i, glm::ivec3 size) {
-    const int index = static_cast<int>(i);
-    return {index % size.x, index / size.x % size.y, index / size.x / size.y};
-}
-
-// The cells of one level: the words that hold them, and where each is.
-struct Level {
-    std::vector<std::uint32_t>& cells;
-    std::function<glm::ivec3(std::size_t)> cell_at;
-};
-
-Level level_of(MarchWorld& built, int log2) {
-    const auto traversal = static_cast<gpu::uint>(built.traversal);
-    const glm::ivec3 chunks = built.chunks_size;
-    if (log2 == gpu::root_log2(traversal)) {
-        const glm::ivec3 grid = built.size() >> log2;
-        return {built.roots,
-                [grid](std::size_t i) { return grid_cell(static_cast<std::uint32_t>(i), grid); }};
-    }
-    if (log2 == gpu::kBrickLog2) {
-        return {built.nodes, [&built, chunks](std::size_t i) {
-                    const auto slot = static_cast<std::uint32_t>(i % 64);
-                    return grid_cell(built.node_homes[i / 64], chunks) * 4 + slot_cell(slot);
-                }};
-    }
-    return {built.leaves, [&built, chunks](std::size_t i) {
-                const std::uint32_t home = built.leaf_homes[i / 64];
-                const glm::ivec3 brick = grid_cell(home / 64, chunks) * 4 + slot_cell(home % 64);
-                return brick * 4 + slot_cell(static_cast<std::uint32_t>(i % 64));
-            }};
-}
-
 }  // namespace
 
+std::vector<std::uint32_t>& level_cells(MarchWorld& built, int log2) {
+    if (log2 == gpu::root_log2(static_cast<gpu::uint>(built.traversal))) return built.roots;
+    return log2 == gpu::kBrickLog2 ? built.nodes : built.leaves;
+}
+
+const std::vector<std::uint32_t>& level_cells(const MarchWorld& built, int log2) {
+    return level_cells(const_cast<MarchWorld&>(built), log2);
+}
+
+const std::vector<std::uint32_t>& level_homes(const MarchWorld& built, int log2) {
+    static const std::vector<std::uint32_t> none;
+    if (log2 == gpu::root_log2(static_cast<gpu::uint>(built.traversal))) return none;
+    return log2 == gpu::kBrickLog2 ? built.node_homes : built.leaf_homes;
+}
+
+GrowthNeeds growth_needs(const MarchWorld& skeleton) {
+    GrowthNeeds needs;
+    for (const int log2 : far_levels(skeleton.traversal)) {
+        const std::uint64_t cells = level_cells(skeleton, log2).size();
+        if (cells == 0) continue;
+        needs.grown_bytes = std::max(needs.grown_bytes, cells * 4);
+        needs.home_bytes =
+            std::max<std::uint64_t>({needs.home_bytes, level_homes(skeleton, log2).size() * 4, 4});
+        needs.steps += gpu::kAadfSteps;
+    }
+    return needs;
+}
+
+std::vector<int> far_levels(Traversal traversal) {
+    const auto id = static_cast<gpu::uint>(traversal);
+    if (traversal == Traversal::dda || traversal == Traversal::brick4 || traversal == Traversal::brick8)
+        return {};
+    std::vector<int> levels = {gpu::root_log2(id)};
+    if (gpu::has_brick_nodes(id) && traversal != Traversal::naadf) levels.push_back(gpu::kBrickLog2);
+    if (gpu::has_far_voxels(id)) levels.push_back(0);
+    return levels;
+}
+
 void grow_level(MarchWorld& built, int log2) {
-    const Level level = level_of(built, log2);
-    std::vector<std::uint32_t> grown = level.cells;
-    for (gpu::uint step = 0; step < 3 * gpu::kAadfRounds; ++step) {
-        for (std::size_t i = 0; i < grown.size(); ++i) {
-            const std::uint32_t own = level.cells[i];
-            if (gpu::cell_state(own) != gpu::kCellEmpty) continue;
-            grown[i] = gpu::grown_cell(built, own, level.cell_at(i), log2, built.chunks_size, step % 3,
+    const bool is_root = log2 == gpu::root_log2(static_cast<gpu::uint>(built.traversal));
+    const glm::ivec3 grid = built.size() >> log2;
+    const std::vector<std::uint32_t>& homes = level_homes(built, log2);
+    std::vector<std::uint32_t>& cells = level_cells(built, log2);
+    std::vector<std::uint32_t> grown = cells;
+    for (gpu::uint step = 0; step < gpu::kAadfSteps; ++step) {
+        for (std::uint32_t i = 0; i < cells.size(); ++i) {
+            if (gpu::cell_state(cells[i]) != gpu::kCellEmpty) continue;
+            const glm::ivec3 cell = is_root ? gpu::grid_cell(i, grid)
+                                            : gpu::home_cell(homes[i / 64], i % 64, log2, built.chunks_size);
+            grown[i] = gpu::grown_cell(built, cells[i], cell, log2, built.chunks_size, step % 3,
                                        gpu::aadf_bound(step / 3));
         }
-        level.cells.swap(grown);
-        grown = level.cells;
+        cells.swap(grown);
     }
 }
 
@@ -184,17 +188,8 @@ void build_skeleton(const VoxelWorld& world, MarchWorld& built) {
             return;
         }
         for (std::uint32_t i = 0; i < 64; ++i)
-            built.roots[gpu::grid_index(chunk_cell * 4 + slot_cell(i), grid)] = cells[i];
+            built.roots[gpu::grid_index(chunk_cell * 4 + gpu::slot_cell(i), grid)] = cells[i];
     });
-}
-
-void build_fields(const VoxelWorld& world, MarchWorld& built) {
-    build_skeleton(world, built);
-    const auto traversal = static_cast<gpu::uint>(built.traversal);
-    grow_level(built, gpu::root_log2(traversal));
-    if (built.traversal == Traversal::light || built.traversal == Traversal::deep)
-        grow_level(built, gpu::kBrickLog2);
-    if (gpu::has_far_voxels(traversal)) grow_level(built, 0);
 }
 
 }  // namespace voxilux

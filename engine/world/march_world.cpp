@@ -34,7 +34,7 @@ Traversal traversal_named(std::string_view name) {
                 fmt::format("no traversal '{}'; there are {}", name, fmt::join(kNames, ", ")));
 }
 
-MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
+MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal) {
     MarchWorld built{.traversal = traversal, .origin = world.origin(), .chunks_size = world.chunks()};
     switch (traversal) {
         case Traversal::dda:
@@ -45,8 +45,15 @@ MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
             build_masks(world, built);
             break;
         default:
-            build_fields(world, built);
+            build_skeleton(world, built);
     }
+    return built;
+}
+
+MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
+    MarchWorld built = build_march_skeleton(world, traversal);
+    for (const int log2 : far_levels(traversal))
+        grow_level(built, log2);
     return built;
 }
 

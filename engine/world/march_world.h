@@ -45,4 +45,8 @@ struct MarchWorld {
 // Error(out_of_memory) when the structure cannot hold the world (dda: more than 255 materials).
 [[nodiscard]] MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal = Traversal::naadf);
 
+// The same with the boxes that may leave their parent left at the cell itself: a march through it is right
+// but slow. The device grows them (passes/world.h).
+[[nodiscard]] MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal);
+
 }  // namespace voxilux

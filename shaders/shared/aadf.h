@@ -13,6 +13,7 @@
 VX_BEGIN
 
 VX_CONST(uint, kAadfRounds, 5u);                 // bounds 1, 3, 7, 15, 31
+VX_CONST(uint, kAadfSteps, 15u);                 // each round along x, y, z
 VX_CONST(uint, kAadfEndless, kCellPayloadMask);  // 31 in every direction: what lies outside the world
 VX_CONST(uint, kNotEmpty, 0xFFFFFFFFu);          // in place of distances
 VX_CONST(uint, kFieldTops, 0x21084210u);         // highest bit of each field

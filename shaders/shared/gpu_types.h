@@ -71,11 +71,34 @@ struct FrameParams {
     uint sphere_count;
 };
 
+// Push constants of world_grow.
+struct WorldGrowPush {
+    uint count;    // cells of the level
+    ivec3 chunks;  // of the world, per axis
+    uint axis;
+    uint log2;  // edge of the cells in voxels
+    int bound;  // longest distance of this round
+};
+
 // Push constants of film_add.
 struct FilmAddPush {
     uint count;          // values to add
     uint values_stride;  // 0 repeats the first value
     uint first_sum;      // where the values' sums begin
+};
+
+// What a march of bench.march found.
+struct BenchHit {
+    ivec3 cell;  // solid cell local to the world; of no meaning on a miss
+    uint face;   // 0..5, kFaceInside or kFaceMiss
+    float t;     // from the start of the ray
+    uint steps;
+};
+
+// Push constants of bench_march.
+struct BenchMarchPush {
+    uint count;    // rays
+    ivec3 chunks;  // of the world, per axis
 };
 
 VX_END

@@ -104,6 +104,25 @@ VX_FN uint grid_index(ivec3 cell, ivec3 size) {
     return uint(cell.x) + uint(size.x) * (uint(cell.y) + uint(size.y) * uint(cell.z));
 }
 
+// Cell of a grid by its number.
+VX_FN ivec3 grid_cell(uint index, ivec3 size) {
+    const int row = int(index / uint(size.x));
+    return ivec3(int(index % uint(size.x)), row % size.y, row / size.y);
+}
+
+// Place of a child in its parent.
+VX_FN ivec3 slot_cell(uint slot) {
+    return ivec3(int(slot & 3u), int((slot >> 2u) & 3u), int(slot >> 4u));
+}
+
+// Cell of edge 2^log2 voxels that is the child `slot` of the block at `home`: for bricks a chunk number, for
+// voxels chunk number * 64 + slot of the brick.
+VX_FN ivec3 home_cell(uint home, uint slot, int log2, ivec3 chunks) {
+    if (log2 == kBrickLog2) return grid_cell(home, chunks) * 4 + slot_cell(slot);
+    const ivec3 brick = grid_cell(home >> 6u, chunks) * 4 + slot_cell(home & 63u);
+    return brick * 4 + slot_cell(slot);
+}
+
 VX_END
 
 #endif

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"photons", with({"--photons", "3"}), "no flag --photons"},
                     Refused{"radius", with({"--radius", "3"}), "no flag --radius"},
                     Refused{"alpha", with({"--alpha", "0.7"}), "no flag --alpha"},
-                    Refused{"traversal", with({"--traversal", "dda"}), "no flag --traversal"},
+                    Refused{"traversal", with({"--traversal", "octree"}), "no traversal 'octree'"},
                     Refused{"metric", with({"--metric", "flip"}), "no flag --metric"}),
     name_of);
 

@@ -51,8 +51,16 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(FrameParams, ao_radius), VX_MEMBER(FrameParams, sky_radiance),
                   VX_MEMBER(FrameParams, sun_direction), VX_MEMBER(FrameParams, sun_irradiance),
                   VX_MEMBER(FrameParams, sun_cone_height), VX_MEMBER(FrameParams, sphere_count)),
+        VX_LAYOUT(WorldGrowPush, VX_MEMBER(WorldGrowPush, count), VX_MEMBER(WorldGrowPush, chunks),
+                  VX_MEMBER(WorldGrowPush, axis), VX_MEMBER(WorldGrowPush, log2),
+                  VX_MEMBER(WorldGrowPush, bound)),
         VX_LAYOUT(FilmAddPush, VX_MEMBER(FilmAddPush, count), VX_MEMBER(FilmAddPush, values_stride),
                   VX_MEMBER(FilmAddPush, first_sum)),
+        VX_LAYOUT(Ray, VX_MEMBER(Ray, cell), VX_MEMBER(Ray, fraction), VX_MEMBER(Ray, direction),
+                  VX_MEMBER(Ray, t_max)),
+        VX_LAYOUT(BenchHit, VX_MEMBER(BenchHit, cell), VX_MEMBER(BenchHit, face), VX_MEMBER(BenchHit, t),
+                  VX_MEMBER(BenchHit, steps)),
+        VX_LAYOUT(BenchMarchPush, VX_MEMBER(BenchMarchPush, count), VX_MEMBER(BenchMarchPush, chunks)),
     };
     return rows;
 }

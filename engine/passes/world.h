@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "record/recording.h"
+#include "world/march_world.h"
+
+namespace voxilux {
+
+// Declared buffers that hold a world on the device. `grown` is scratch: as large as the largest level that
+// grows.
+struct WorldBuffers {
+    std::string roots;
+    std::string nodes;
+    std::string leaves;
+    std::string homes;
+    std::string grown;
+};
+
+// Puts a skeleton (build_march_skeleton) on the device and grows its boxes there. The result has the bits of
+// build_march_world.
+void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording);
+
+}  // namespace voxilux

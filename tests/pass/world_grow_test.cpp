@@ -1,0 +1,73 @@
+// The boxes grown on the device against those grown on the CPU.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "passes/world.h"
+#include "support/device_fixture.h"
+#include "support/ray_families.h"
+#include "world/build_fields.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint32_t kSeed = 20264;
+
+std::string declare(Recording& recording, const std::string& name, std::uint64_t words) {
+    recording.declare({.name = name, .size_bytes = std::max<std::uint64_t>(words, 1) * 4});
+    return name;
+}
+
+std::vector<std::uint32_t> words_of(const RunResult& result, const std::string& name, std::size_t count) {
+    std::vector<std::uint32_t> words(count);
+    std::memcpy(words.data(), result.readbacks.at(name).data(), count * 4);
+    return words;
+}
+
+MarchWorld grown_on_device(MarchWorld skeleton) {
+    const GrowthNeeds needs = growth_needs(skeleton);
+    Recording recording;
+    const WorldBuffers buffers{declare(recording, "test.roots", skeleton.roots.size()),
+                               declare(recording, "test.nodes", skeleton.nodes.size()),
+                               declare(recording, "test.leaves", skeleton.leaves.size()),
+                               declare(recording, "test.homes", needs.home_bytes / 4),
+                               declare(recording, "test.grown", needs.grown_bytes / 4)};
+    record_world_build(skeleton, buffers, recording);
+    for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
+        recording.readback(name);
+    const RunResult result = test_executor().run(recording);
+    skeleton.roots = words_of(result, buffers.roots, skeleton.roots.size());
+    skeleton.nodes = words_of(result, buffers.nodes, skeleton.nodes.size());
+    skeleton.leaves = words_of(result, buffers.leaves, skeleton.leaves.size());
+    return skeleton;
+}
+
+class WorldGrow : public ::testing::TestWithParam<Traversal> {};
+
+TEST_P(WorldGrow, device_gives_the_bits_of_the_cpu_for_every_small_world) {
+    for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
+        const MarchWorld want = build_march_world(named.world, GetParam());
+        const MarchWorld got = grown_on_device(build_march_skeleton(named.world, GetParam()));
+        EXPECT_EQ(got.roots, want.roots) << named.name;
+        EXPECT_EQ(got.nodes, want.nodes) << named.name;
+        EXPECT_EQ(got.leaves, want.leaves) << named.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
+TEST(WorldGrowJudge, sees_a_world_that_differs_by_one_voxel) {
+    test::NamedWorld named = test::small_worlds(kSeed).back();
+    const MarchWorld want = build_march_world(named.world, Traversal::wide);
+    glm::ivec3 empty(1);
+    while (named.world.get(empty) != VoxelWorld::kEmpty)
+        ++empty.x;
+    named.world.set(empty, 1);
+    const MarchWorld got = grown_on_device(build_march_skeleton(named.world, Traversal::wide));
+    EXPECT_FALSE(got.leaves == want.leaves && got.roots == want.roots);
+}
+
+}  // namespace
+}  // namespace voxilux
