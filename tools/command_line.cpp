@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "bench/bench.h"
 #include "compare/compare.h"
 #include "devices/devices.h"
 #include "info/info.h"
@@ -49,6 +50,13 @@ std::vector<std::string> flags_of(const CLI::App& app) {
     return flags;
 }
 
+std::vector<std::string> names_of_subcommands(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        names.push_back(command->get_name());
+    return names;
+}
+
 std::string hint(std::string_view typed, const std::vector<std::string>& names) {
     const std::vector<std::string_view> views(names.begin(), names.end());
     const std::optional<std::string_view> nearest = nearest_name(typed, views);
@@ -66,16 +74,31 @@ std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
     return fmt::format("there is no flag {}{}", name, hint(name, flags_of(command)));
 }
 
+// For a subcommand such as bench, whose first word was none of its parts.
+std::string missing_part(const CLI::App& command, const std::vector<std::string>& words) {
+    const std::vector<std::string> names = names_of_subcommands(command);
+    if (words.empty() || words.front().starts_with("-"))
+        return fmt::format("{} what? known: {}", command.get_name(), fmt::join(names, ", "));
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    return fmt::format("there is no {} '{}'{}", command.get_name(), words.front(),
+                       name_hint(words.front(), views));
+}
+
 int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help, --version
         app.exit(error);
         return 0;
     }
-    const std::vector<CLI::App*> given = app.get_subcommands();
-    const CLI::App& command = given.empty() ? app : *given.front();
-    const std::string name = given.empty() ? app.get_name() : app.get_name() + " " + command.get_name();
+    const CLI::App* command = &app;
+    std::string name = app.get_name();
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
+    if (command != &app && !command->get_subcommands({}).empty())
+        return usage_error(missing_part(*command, app.remaining(true)), name);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-        return usage_error(unexpected_words(app, command), name);
+        return usage_error(unexpected_words(app, *command), name);
     return usage_error(error.what(), name);
 }
 
@@ -86,9 +109,7 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
         return static_cast<int>(ExitCode::usage);
     }
     const std::string word = argv[1];
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands({}))
-        names.push_back(command->get_name());
+    const std::vector<std::string> names = names_of_subcommands(app);
     if (word.starts_with("-") || std::ranges::find(names, word) != names.end()) return {};
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
@@ -108,11 +129,13 @@ int run_command_line(int argc, const char* const* argv) {
     InfoOptions info;
     DevicesCommand devices;
     CompareOptions compare;
+    BenchMarchCommand bench_march;
     const CLI::App* const render_app = add_render(app, render);
     const CLI::App* const plan_app = add_plan(app, plan);
     const CLI::App* const info_app = add_info(app, info);
     const CLI::App* const devices_app = add_devices(app, devices);
     const CLI::App* const compare_app = add_compare(app, compare);
+    const CLI::App* const bench_app = add_bench(app, bench_march);
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
@@ -125,6 +148,7 @@ int run_command_line(int argc, const char* const* argv) {
     if (plan_app->parsed()) return run_plan(plan);
     if (info_app->parsed()) return run_info(info);
     if (devices_app->parsed()) return run_devices(devices);
+    if (bench_app->parsed()) return run_bench_march(bench_march);
     VX_ASSERT(compare_app->parsed());
     return run_compare(compare);
 }

@@ -1,0 +1,42 @@
+#pragma once
+
+// Whether marched rays are right: a plain walk over the voxels, written without the march.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shared/gpu_types.h"
+#include "world/voxel_world.h"
+
+namespace voxilux {
+
+// What a ray must meet: the cell and the face that it enters through. The cell is meaningless when the face
+// is kFaceMiss.
+struct WalkedHit {
+    glm::ivec3 cell{0};
+    gpu::uint face = gpu::kFaceMiss;
+    std::uint64_t cells = 0;  // visited
+};
+
+// The first voxel of a ray that starts inside the world, one cell at a time by the march's contract: crossing
+// j of axis a comes at float time (j + flip + offset) / |direction|, x before y before z at equal times.
+// (Amanatides & Woo 1987, with absolute times.)
+[[nodiscard]] WalkedHit walk_ray(const VoxelWorld& world, const gpu::Ray& ray);
+
+// Rays of a list with what they must meet.
+struct Verdicts {
+    std::vector<std::size_t> rays;  // numbers in the list
+    std::vector<WalkedHit> hits;    // of those
+};
+
+// Walks rays spread evenly over the list until about `most_cells` cells are visited: at least one ray, at
+// most all.
+[[nodiscard]] Verdicts judge_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays,
+                                  std::uint64_t most_cells);
+
+// How many of the judged rays met something else. `hits` has one entry per ray of the list.
+[[nodiscard]] std::uint64_t count_mismatches(const Verdicts& verdicts, std::span<const gpu::BenchHit> hits);
+
+}  // namespace voxilux
