@@ -49,16 +49,21 @@ void Recording::clear(std::string buffer, std::uint32_t value) {
     commands_.push_back(Clear{std::move(buffer), value});
 }
 
-void Recording::dispatch(Dispatch dispatch) {
+void Recording::require_buffers_of(const Dispatch& dispatch) const {
     for (const Binding& binding : dispatch.bindings)
         require(binding.buffer);
+    for (const Address& address : dispatch.addresses)
+        require(address.buffer);
+}
+
+void Recording::dispatch(Dispatch dispatch) {
+    require_buffers_of(dispatch);
     const bool empty = dispatch.extent.x == 0 || dispatch.extent.y == 0 || dispatch.extent.z == 0;
     if (!empty) commands_.push_back(std::move(dispatch));
 }
 
 void Recording::dispatch_indirect(Dispatch dispatch, std::string arguments, std::uint64_t offset_bytes) {
-    for (const Binding& binding : dispatch.bindings)
-        require(binding.buffer);
+    require_buffers_of(dispatch);
     VX_ASSERT(offset_bytes + 12 <= require(arguments).size_bytes);
     commands_.push_back(DispatchIndirect{std::move(dispatch), std::move(arguments), offset_bytes});
 }
@@ -81,6 +86,8 @@ std::string describe_dispatch(const Dispatch& dispatch) {
         text += fmt::format(" {}={}", constant.name, constant.value);
     for (const Binding& binding : dispatch.bindings)
         text += fmt::format(" {}<-{}", binding.block, binding.buffer);
+    for (const Address& address : dispatch.addresses)
+        text += fmt::format(" {}<-&{}", address.member, address.buffer);
     return text;
 }
 

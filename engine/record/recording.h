@@ -32,6 +32,15 @@ struct Binding {
     bool operator==(const Binding&) const = default;
 };
 
+// Which proxy a pointer in a shader's push struct points to: the way to a buffer that is larger than a
+// binding may be. The member's name is the one written in the shader.
+struct Address {
+    std::string member;
+    std::string buffer;
+
+    bool operator==(const Address&) const = default;
+};
+
 // Value of a specialization constant by its name in the shader (bool constants take 0 or 1).
 struct Constant {
     std::string name;
@@ -64,12 +73,13 @@ struct Clear {
 };
 
 // One shader over an extent. `label` is "effect.step" and names the timer; push holds the bytes of the push
-// struct.
+// struct after its pointers, which come first and are filled in by the executor.
 struct Dispatch {
     std::string label;
     std::string shader;
     Extent extent;
     std::vector<Binding> bindings;
+    std::vector<Address> addresses;
     std::vector<Constant> constants;
     std::vector<std::byte> push;
 };
@@ -115,6 +125,7 @@ class Recording {
 
   private:
     const BufferProxy& require(std::string_view name) const;
+    void require_buffers_of(const Dispatch& dispatch) const;
 
     std::vector<BufferProxy> buffers_;
     std::vector<Command> commands_;

@@ -22,12 +22,17 @@ struct Use {
     bool writes = false;
 };
 
-void add_block_uses(const Dispatch& dispatch, const BarrierContext& context, std::vector<Use>& uses) {
+void add_shader_uses(const Dispatch& dispatch, const BarrierContext& context, std::vector<Use>& uses) {
     const ProgramInfo& program = context.program(dispatch.shader);
     for (const Binding& binding : dispatch.bindings) {
         const StorageBlock* block = program.find_block(binding.block);
         if (block == nullptr) continue;
         uses.push_back({binding.buffer, Stage::compute, block->readable, block->writable});
+    }
+    for (const Address& address : dispatch.addresses) {
+        const AddressMember* member = program.find_address(address.member);
+        if (member == nullptr) continue;
+        uses.push_back({address.buffer, Stage::compute, member->readable, member->writable});
     }
 }
 
@@ -44,12 +49,12 @@ struct UsesOf {
     }
     std::vector<Use> operator()(const Dispatch& dispatch) const {
         std::vector<Use> uses;
-        add_block_uses(dispatch, context, uses);
+        add_shader_uses(dispatch, context, uses);
         return uses;
     }
     std::vector<Use> operator()(const DispatchIndirect& indirect) const {
         std::vector<Use> uses{{indirect.arguments, Stage::indirect, true, false}};
-        add_block_uses(indirect.dispatch, context, uses);
+        add_shader_uses(indirect.dispatch, context, uses);
         return uses;
     }
     std::vector<Use> operator()(const Readback& readback) const {
@@ -133,7 +138,8 @@ bool names_buffer(const Command& command, std::string_view buffer) {
         bool operator()(const Clear& clear) const { return clear.buffer == buffer; }
         bool operator()(const Readback& readback) const { return readback.buffer == buffer; }
         bool operator()(const Dispatch& dispatch) const {
-            return std::ranges::find(dispatch.bindings, buffer, &Binding::buffer) != dispatch.bindings.end();
+            return std::ranges::count(dispatch.bindings, buffer, &Binding::buffer) > 0 ||
+                   std::ranges::count(dispatch.addresses, buffer, &Address::buffer) > 0;
         }
         bool operator()(const DispatchIndirect& indirect) const {
             return indirect.arguments == buffer || (*this)(indirect.dispatch);

@@ -32,6 +32,40 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed,
                 fmt::format("device '{}' has no memory for buffer '{}'", device.info.name, name));
 }
 
+VkBufferUsageFlags usage_of_buffers(const DeviceState& device) {
+    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    if (device.info.limits.has_addresses) usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    return usage;
+}
+
+// Gives the buffer memory of the type, mapped when it is cached memory of the host.
+void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t type, Buffer& buffer) {
+    const std::string what = fmt::format("buffer '{}' ({} bytes)", buffer.name, buffer.bytes);
+    const bool has_addresses = device.info.limits.has_addresses;
+    const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                          .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+    const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                          .pNext = has_addresses ? &flags : nullptr,
+                                          .allocationSize = bytes,
+                                          .memoryTypeIndex = type};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    vk_check(vkAllocateMemory(device.handle, &allocation, nullptr, &memory), "allocate " + what);
+    buffer.memory = {device.handle, memory};
+    vk_check(vkBindBufferMemory(device.handle, buffer.handle.get(), memory, 0), "bind the memory of " + what);
+    if ((device.memory.memoryTypes[type].propertyFlags & kCachedHost) == kCachedHost) {
+        void* mapped = nullptr;
+        vk_check(vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map " + what);
+        buffer.mapped = static_cast<std::byte*>(mapped);
+    }
+    if (has_addresses) {
+        const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                             .buffer = buffer.handle.get()};
+        buffer.address = vkGetBufferDeviceAddress(device.handle, &info);
+    }
+    set_debug_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, to_bits(memory), buffer.name);
+}
+
 Buffer create(const DeviceState& device, const std::string& name, std::uint64_t bytes,
               std::span<const VkMemoryPropertyFlags> wishes) {
     const std::string what = fmt::format("buffer '{}' ({} bytes)", name, bytes);
@@ -41,33 +75,17 @@ Buffer create(const DeviceState& device, const std::string& name, std::uint64_t 
                                 what, device.info.limits.max_allocation_bytes, device.info.name));
     }
     Buffer buffer{.name = name, .bytes = bytes};
-    const VkBufferCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .size = (bytes + 3) / 4 * 4,  // fills work on whole words
-        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                  .size = (bytes + 3) / 4 * 4,  // fills work on whole words
+                                  .usage = usage_of_buffers(device)};
     VkBuffer handle = VK_NULL_HANDLE;
     vk_check(vkCreateBuffer(device.handle, &info, nullptr, &handle), "create " + what);
     buffer.handle = {device.handle, handle};
 
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle, handle, &needs);
-    const std::uint32_t type = choose_type(device, needs.memoryTypeBits, wishes, name);
-    const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                          .allocationSize = needs.size,
-                                          .memoryTypeIndex = type};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    vk_check(vkAllocateMemory(device.handle, &allocation, nullptr, &memory), "allocate " + what);
-    buffer.memory = {device.handle, memory};
-    vk_check(vkBindBufferMemory(device.handle, handle, memory, 0), "bind the memory of " + what);
-    if ((device.memory.memoryTypes[type].propertyFlags & kHost) == kHost &&
-        (device.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_CACHED_BIT) != 0) {
-        void* mapped = nullptr;
-        vk_check(vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map " + what);
-        buffer.mapped = static_cast<std::byte*>(mapped);
-    }
+    add_memory(device, needs.size, choose_type(device, needs.memoryTypeBits, wishes, name), buffer);
     set_debug_name(device, VK_OBJECT_TYPE_BUFFER, to_bits(handle), name);
-    set_debug_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, to_bits(memory), name);
     return buffer;
 }
 

@@ -9,13 +9,15 @@
 
 namespace voxilux {
 
-// A buffer with an allocation of its own. `mapped` is null when the host does not reach its memory.
+// A buffer with an allocation of its own. `mapped` is null when the host does not reach its memory, `address`
+// 0 when shaders of the device reach no buffer by address.
 struct Buffer {
     std::string name;
     std::uint64_t bytes = 0;
     UniqueMemory memory;
     UniqueBuffer handle;
     std::byte* mapped = nullptr;
+    std::uint64_t address = 0;
 };
 
 // A storage buffer in memory of the device, mapped when that memory is also cached memory of the host

@@ -23,14 +23,14 @@ void grow(const DeviceState& device, Descriptors& descriptors) {
     set_debug_name(device, VK_OBJECT_TYPE_DESCRIPTOR_POOL, to_bits(pool), "executor.descriptors");
 }
 
-VkDescriptorBufferInfo buffer_info(const DeviceState& device, const PreparedDispatch& dispatch,
-                                   const Buffer& buffer) {
+VkDescriptorBufferInfo buffer_info(const DeviceState& device, const std::string& shader,
+                                   const std::string& block, const Buffer& buffer) {
     const std::uint64_t limit = device.info.limits.max_binding_bytes;
     if (buffer.bytes > limit) {
         throw InternalError(
-            fmt::format("internal error: shader '{}': buffer '{}' of {} bytes is over the {} bytes that one "
-                        "binding may have",
-                        dispatch.program->name, buffer.name, buffer.bytes, limit));
+            fmt::format("internal error: shader '{}': buffer '{}' of {} bytes for block '{}' is over the {} "
+                        "bytes that one binding may have",
+                        shader, buffer.name, buffer.bytes, block, limit));
     }
     return {.buffer = buffer.handle.get(), .offset = 0, .range = buffer.bytes};
 }
@@ -72,7 +72,7 @@ VkDescriptorSet create_set(const DeviceState& device, const Descriptors& descrip
     std::vector<VkWriteDescriptorSet> writes;
     for (const StorageBlock& block : blocks) {
         const auto bound = std::ranges::find(dispatch.dispatch->bindings, block.name, &Binding::block);
-        infos.push_back(buffer_info(device, dispatch, buffers.at(bound->buffer)));
+        infos.push_back(buffer_info(device, dispatch.program->name, block.name, buffers.at(bound->buffer)));
         writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                           .dstSet = set,
                           .dstBinding = block.binding,

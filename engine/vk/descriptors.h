@@ -22,8 +22,8 @@ struct Descriptors {
 void start_descriptors(const DeviceState& device, Descriptors& descriptors,
                        std::span<const PreparedDispatch> dispatches);
 
-// A set with the buffers that the dispatch binds. Throws InternalError that names a buffer over the binding
-// limit.
+// A set with the buffers that the dispatch binds. Throws InternalError that names the block and the buffer
+// when it is over the binding limit.
 [[nodiscard]] VkDescriptorSet create_set(const DeviceState& device, const Descriptors& descriptors,
                                          const PreparedDispatch& dispatch, const BufferStore& buffers);
 

@@ -193,13 +193,25 @@ class RunRecorder {
         end_timing(state_.timers, commands());
     }
 
+    // The addresses of buffers, then the bytes that came with the dispatch.
+    std::vector<std::byte> push_bytes(const PreparedDispatch& prepared) const {
+        std::vector<std::byte> bytes;
+        for (const AddressMember& member : prepared.program->info.addresses) {
+            const auto given = std::ranges::find(prepared.dispatch->addresses, member.name, &Address::member);
+            const std::vector<std::byte> address = to_bytes(state_.buffers.at(given->buffer).address);
+            bytes.insert(bytes.end(), address.begin(), address.end());
+        }
+        bytes.insert(bytes.end(), prepared.dispatch->push.begin(), prepared.dispatch->push.end());
+        return bytes;
+    }
+
     const PreparedDispatch& bind_next() {
         const PreparedDispatch& prepared = dispatches_[next_dispatch_++];
         const VkPipelineLayout layout = prepared.program->layout.get();
         const VkDescriptorSet set = create_set(state_.device, state_.descriptors, prepared, state_.buffers);
         vkCmdBindPipeline(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, prepared.pipeline);
         vkCmdBindDescriptorSets(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
-        const std::vector<std::byte>& push = prepared.dispatch->push;
+        const std::vector<std::byte> push = push_bytes(prepared);
         if (!push.empty()) {
             vkCmdPushConstants(commands(), layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                checked_cast<std::uint32_t>(push.size(), "push bytes"), push.data());

@@ -58,9 +58,9 @@ class Executor {
     ~Executor();
 
     // Runs the commands in order, waits, and returns what was read back and the times. Throws InternalError
-    // that names the shader when a dispatch does not fit it (unknown shader, block or constant, missing
-    // block, push size, extent), Error(out_of_memory) that names the buffer, Error(device_lost), Error(usage)
-    // for a group size that the device cannot run.
+    // that names the shader when a dispatch does not fit it (unknown shader, block, pointer or constant,
+    // missing block or pointer, push size, extent), Error(out_of_memory) that names the buffer,
+    // Error(device_lost), Error(usage) for a group size that the device cannot run.
     RunResult run(const Recording& recording);
 
     // The buffers alive now, by name.

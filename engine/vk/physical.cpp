@@ -102,6 +102,7 @@ void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info)
     FeatureChain chain;
     query_features(device, chain);
     require(chain.v12.scalarBlockLayout == VK_TRUE, "no scalar block layout (scalarBlockLayout)");
+    info.limits.has_addresses = chain.v12.bufferDeviceAddress == VK_TRUE;
     for (const OptionalFeature& feature : optional_features()) {
         if (*feature.member(chain) == VK_FALSE) info.lacks.emplace_back(feature.lack);
     }
@@ -143,6 +144,7 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
                    .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                                   limits.maxComputeWorkGroupCount[2]},
                    .max_push_bytes = limits.maxPushConstantsSize,
+                   .has_addresses = false,
                    .is_cpu = base.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
                    .name = info.name};
     judge(device, base.apiVersion, info);

@@ -76,6 +76,19 @@ std::size_t constant_index(const ProgramInfo& info, std::uint32_t id) {
                                     info.constants.begin());
 }
 
+void check_addresses(const Program& program, const Dispatch& dispatch) {
+    for (const Address& address : dispatch.addresses) {
+        if (program.info.find_address(address.member) == nullptr)
+            refuse(program.name, fmt::format("has no pointer '{}' in its push struct to point to '{}'",
+                                             address.member, address.buffer));
+    }
+    for (const AddressMember& member : program.info.addresses) {
+        const auto given = std::ranges::count(dispatch.addresses, member.name, &Address::member);
+        if (given != 1)
+            refuse(program.name, fmt::format("pointer '{}' is given {} times", member.name, given));
+    }
+}
+
 }  // namespace
 
 Program create_program(const DeviceState& device, const EmbeddedShader& shader) {
@@ -168,9 +181,11 @@ void check_fits(const Program& program, const Dispatch& dispatch) {
         const auto bound = std::ranges::count(dispatch.bindings, block.name, &Binding::block);
         if (bound != 1) refuse(program.name, fmt::format("block '{}' is bound {} times", block.name, bound));
     }
-    if (dispatch.push.size() != program.info.push_bytes)
-        refuse(program.name, fmt::format("{} push bytes were given, its push struct has {}",
-                                         dispatch.push.size(), program.info.push_bytes));
+    check_addresses(program, dispatch);
+    const std::size_t rest = program.info.push_bytes - program.info.addresses.size() * kAddressBytes;
+    if (dispatch.push.size() != rest)
+        refuse(program.name,
+               fmt::format("{} push bytes were given, its push struct has {}", dispatch.push.size(), rest));
 }
 
 std::array<std::uint32_t, 3> group_counts(const std::string& shader, const Extent& extent,

@@ -43,8 +43,8 @@ struct Program {
 [[nodiscard]] UniquePipeline create_pipeline(const DeviceState& device, const Program& program,
                                              std::span<const std::uint32_t> constants, VkPipelineCache cache);
 
-// Throws InternalError that names the shader unless the dispatch binds each block once and nothing else, and
-// its push bytes have the size of the push struct.
+// Throws InternalError that names the shader unless the dispatch gives each block and each pointer of the
+// push struct one buffer and nothing else, and its push bytes have the size of the rest of the push struct.
 void check_fits(const Program& program, const Dispatch& dispatch);
 
 // Groups to dispatch for the extent. One-dimensional extents beyond the limit are folded into y. Throws

@@ -53,6 +53,9 @@ void decorate(Module& module, const Instruction& in) {
         case decoration_spec_id:
             facts.spec_id = in.at(2);
             break;
+        case decoration_block:
+            facts.is_block = true;
+            break;
         case decoration_array_stride:
             facts.array_stride = in.at(2);
             break;
@@ -154,7 +157,8 @@ bool add_type(Module& module, const Instruction& in) {
         case op_type_runtime_array:
             return add({.kind = Type::runtime_array, .element = in.at(1)});
         case op_type_pointer:
-            return add({.kind = Type::pointer, .element = in.at(2)});
+            return add(
+                {.kind = Type::pointer, .element = in.at(2), .storage = static_cast<StorageClass>(in.at(1))});
         case op_type_struct: {
             const auto members = in.from(1);
             return add({.kind = Type::structure, .members = {members.begin(), members.end()}});
@@ -279,6 +283,11 @@ MemberFacts Module::member(std::uint32_t struct_id, std::uint32_t index) const {
 VariableFacts Module::variable_facts(std::uint32_t id) const {
     const auto found = decorations.find(id);
     return found == decorations.end() ? VariableFacts() : found->second.variable;
+}
+
+bool Module::is_block(std::uint32_t id) const {
+    const auto found = decorations.find(id);
+    return found != decorations.end() && found->second.is_block;
 }
 
 std::uint32_t Module::array_stride(std::uint32_t id) const {

@@ -25,16 +25,18 @@ enum class StorageClass : std::uint32_t {
     push_constant = 9,
     image = 11,
     storage_buffer = 12,
+    physical_storage_buffer = 5349,
 };
 [[nodiscard]] bool is_descriptor(StorageClass storage);
 
 struct Type {
     enum Kind { scalar, vector, matrix, array, runtime_array, structure, pointer, other };
     Kind kind = other;
-    std::uint32_t width_bits = 0;        // of a scalar
-    std::uint32_t element = 0;           // type id of the component, column, element or pointee
-    std::uint32_t count = 0;             // components or columns; for an array the id of its length
-    std::vector<std::uint32_t> members;  // type ids
+    std::uint32_t width_bits = 0;                // of a scalar
+    std::uint32_t element = 0;                   // type id of the component, column, element or pointee
+    std::uint32_t count = 0;                     // components or columns; for an array the id of its length
+    std::vector<std::uint32_t> members;          // type ids
+    StorageClass storage = StorageClass::input;  // that a pointer points into
 };
 
 struct Constant {
@@ -66,6 +68,7 @@ struct Decorations {
     VariableFacts variable;
     std::optional<std::uint32_t> spec_id;
     std::uint32_t array_stride = 0;
+    bool is_block = false;
     bool is_workgroup_size = false;
 };
 
@@ -91,6 +94,7 @@ struct Module {
     [[nodiscard]] std::string name(std::uint32_t id) const;
     [[nodiscard]] MemberFacts member(std::uint32_t struct_id, std::uint32_t index) const;
     [[nodiscard]] VariableFacts variable_facts(std::uint32_t id) const;
+    [[nodiscard]] bool is_block(std::uint32_t id) const;
     [[nodiscard]] std::uint32_t array_stride(std::uint32_t id) const;
     [[nodiscard]] std::optional<std::uint32_t> spec_id(std::uint32_t id) const;
 };

@@ -49,6 +49,7 @@ enum Op : std::uint32_t {
 
 enum DecorationNumber : std::uint32_t {
     decoration_spec_id = 1,
+    decoration_block = 2,
     decoration_array_stride = 6,
     decoration_matrix_stride = 7,
     decoration_built_in = 11,

@@ -35,7 +35,7 @@ std::uint32_t size_of_type(const Module& module, std::uint32_t type_id, std::uin
         case Type::structure:
             return end_of_struct(module, type_id, depth + 1);
         case Type::pointer:
-            return 8;  // a buffer device address
+            return kAddressBytes;
         case Type::runtime_array:
         case Type::other:
             return 0;
@@ -100,24 +100,35 @@ std::uint32_t pointee(const Module& module, const spirv::Variable& variable) {
     return pointer.element;
 }
 
+struct Access {
+    bool readable = true;
+    bool writable = true;
+};
+
+// What a block's members leave: it is readonly or writeonly when all of them are.
+Access access_of(const Module& module, std::uint32_t struct_id) {
+    const std::size_t count = module.type(struct_id).members.size();
+    Access access{.readable = count == 0, .writable = count == 0};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const spirv::MemberFacts member = module.member(struct_id, i);
+        access.readable = access.readable || !member.non_readable;
+        access.writable = access.writable || !member.non_writable;
+    }
+    return access;
+}
+
 StorageBlock block_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
     const std::uint32_t struct_id = pointee(module, variable);
     const Type& type = module.type(struct_id);
     if (type.kind != Type::structure) spirv::fail("a storage buffer is not a block (an array of blocks?)");
     const spirv::VariableFacts facts = module.variable_facts(variable_id);
-    bool all_non_writable = !type.members.empty();
-    bool all_non_readable = !type.members.empty();
-    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
-        const spirv::MemberFacts member = module.member(struct_id, i);
-        all_non_writable = all_non_writable && member.non_writable;
-        all_non_readable = all_non_readable && member.non_readable;
-    }
+    const Access access = access_of(module, struct_id);
     if (!facts.binding) spirv::fail("a storage buffer has no binding");
     StorageBlock block{.name = module.name(struct_id),
                        .set = facts.set.value_or(0),
                        .binding = *facts.binding,
-                       .readable = !facts.non_readable && !all_non_readable,
-                       .writable = !facts.non_writable && !all_non_writable};
+                       .readable = !facts.non_readable && access.readable,
+                       .writable = !facts.non_writable && access.writable};
     if (block.name.empty()) spirv::fail("a storage block has no name");
     return block;
 }
@@ -132,6 +143,38 @@ void check_blocks(const std::vector<StorageBlock>& blocks) {
     }
 }
 
+bool is_address(const Type& type) {
+    return type.kind == Type::pointer && type.storage == spirv::StorageClass::physical_storage_buffer;
+}
+
+void add_addresses(const Module& module, std::uint32_t struct_id, ProgramInfo& info) {
+    const Type& type = module.type(struct_id);
+    for (std::uint32_t i = 0; i < type.members.size(); ++i) {
+        const Type& member = module.type(type.members[i]);
+        if (!is_address(member)) continue;
+        const spirv::MemberFacts facts = module.member(struct_id, i);
+        if (facts.offset != info.addresses.size() * kAddressBytes)
+            spirv::fail("the pointers of the push struct are not its first members");
+        const Access access = access_of(module, member.element);
+        info.addresses.push_back({facts.name, access.readable, access.writable});
+    }
+}
+
+// Barriers are derived from the pointers of the push struct, so no other may lead to a block: none in
+// buffers, none made from numbers.
+void check_pointers(const Module& module) {
+    std::set<std::uint32_t> known;
+    for (const auto& [id, variable] : module.variables) {
+        if (variable.storage != spirv::StorageClass::push_constant) continue;
+        const Type& type = module.type(pointee(module, variable));
+        known.insert(type.members.begin(), type.members.end());
+    }
+    for (const auto& [id, type] : module.types) {
+        if (is_address(type) && module.is_block(type.element) && !known.contains(id))
+            spirv::fail("a pointer to a block is not a member of the push struct");
+    }
+}
+
 void add_variables(const Module& module, ProgramInfo& info) {
     for (const auto& [id, variable] : module.variables) {
         // Blocks that are declared but not used have no binding of their own and need no buffer.
@@ -142,12 +185,14 @@ void add_variables(const Module& module, ProgramInfo& info) {
             const std::uint32_t struct_id = pointee(module, variable);
             info.push_members = members_of(module, struct_id);
             info.push_bytes = end_of_struct(module, struct_id, 0);
+            add_addresses(module, struct_id, info);
         } else if (spirv::is_descriptor(variable.storage)) {
             spirv::fail("a resource is not a storage buffer");
         }
     }
     std::ranges::sort(info.blocks, {}, &StorageBlock::binding);
     check_blocks(info.blocks);
+    check_pointers(module);
 }
 
 void add_constants(const Module& module, ProgramInfo& info) {
@@ -182,6 +227,9 @@ const Row* find_named(const std::vector<Row>& rows, std::string_view name) {
 
 }  // namespace
 
+const AddressMember* ProgramInfo::find_address(std::string_view name) const {
+    return find_named(addresses, name);
+}
 const StorageBlock* ProgramInfo::find_block(std::string_view name) const {
     return find_named(blocks, name);
 }

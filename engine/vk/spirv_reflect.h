@@ -20,6 +20,15 @@ struct StorageBlock {
     bool writable = true;
 };
 
+// A pointer in the push struct to a buffer that the shader reaches by address. Pointers are the first
+// members, one after the other from offset 0.
+struct AddressMember {
+    std::string name;
+    bool readable = true;
+    bool writable = true;
+};
+inline constexpr std::uint32_t kAddressBytes = 8;
+
 struct StructMember {
     std::string name;
     std::uint32_t offset = 0;  // bytes from the start of the struct
@@ -52,20 +61,23 @@ struct LocalSizeAxis {
 struct ProgramInfo {
     std::vector<StorageBlock> blocks;  // those the shader uses, by binding
     std::array<LocalSizeAxis, 3> local_size;
-    std::uint32_t push_bytes = 0;
+    std::uint32_t push_bytes = 0;  // of the push struct, its pointers included
     std::vector<StructMember> push_members;
-    std::vector<SpecConstant> constants;  // by id
+    std::vector<AddressMember> addresses;  // in order of offset
+    std::vector<SpecConstant> constants;   // by id
     std::vector<StructInfo> structs;
     std::vector<std::uint32_t> capabilities;  // numbers of SPIR-V capabilities
 
     // Null when there is none of that name.
     [[nodiscard]] const StorageBlock* find_block(std::string_view name) const;
+    [[nodiscard]] const AddressMember* find_address(std::string_view name) const;
     [[nodiscard]] const SpecConstant* find_constant(std::string_view name) const;
     [[nodiscard]] const StructInfo* find_struct(std::string_view name) const;
 };
 
-// Reads a module with one compute entry point and storage buffers as its only resources (SPIR-V 1.6
-// specification, sections 2.3 and 3). Throws InternalError that says what is wrong with it: shaders are ours.
+// Reads a module with one compute entry point and storage buffers as its only resources, bound or reached by
+// pointers of the push struct (SPIR-V 1.6 specification, sections 2.3 and 3). Throws InternalError that says
+// what is wrong with it: shaders are ours.
 [[nodiscard]] ProgramInfo reflect(std::span<const std::uint32_t> spirv);
 
 }  // namespace voxilux

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "support/device_fixture.h"
+#include "vk/device_state.h"
 
 namespace voxilux {
 namespace {
@@ -94,7 +96,56 @@ TEST(ExecutorRefuses, binding_over_the_device_limit_by_buffer) {
     recording.declare({.name = "t.b", .size_bytes = 16});
     recording.dispatch(good_dispatch());
     Executor executor(test_device(), all_shaders());
-    EXPECT_THROW(executor.run(recording), InternalError);
+    try {
+        executor.run(recording);
+        FAIL() << "no error";
+    } catch (const InternalError& error) {
+        for (const char* part : {"'add_constant'", "'In'", "'t.a'"})
+            EXPECT_TRUE(contains(error.what(), part)) << error.what();
+    }
+}
+
+Dispatch gather_dispatch() {
+    return {.label = "t.gather",
+            .shader = "gather_words",
+            .extent = {4, 1, 1},
+            .bindings = {{"Bound", "t.a"}, {"Indices", "t.a"}, {"Out", "t.b"}},
+            .addresses = {{"from", "t.a"}},
+            .push = to_bytes(4u)};
+}
+
+TEST(ExecutorRefuses, wrong_missing_and_doubled_pointers_by_shader_and_member) {
+    if (!test_device().limits().has_addresses) GTEST_SKIP() << "no buffer addresses";
+    EXPECT_EQ(refusal(gather_dispatch()), "");
+    Dispatch dispatch = gather_dispatch();
+    dispatch.addresses[0].member = "to";
+    EXPECT_TRUE(contains(refusal(dispatch), "'gather_words': has no pointer 'to'"));
+    dispatch.addresses = {};
+    EXPECT_TRUE(contains(refusal(dispatch), "'from' is given 0 times"));
+    dispatch.addresses = {{"from", "t.a"}, {"from", "t.b"}};
+    EXPECT_TRUE(contains(refusal(dispatch), "'from' is given 2 times"));
+    dispatch = gather_dispatch();
+    dispatch.push = to_bytes(std::array{0u, 0u, 4u});  // the place of the pointer is not part of them
+    EXPECT_TRUE(contains(refusal(dispatch), "12 push bytes were given, its push struct has 4"));
+    dispatch = good_dispatch();
+    dispatch.addresses = {{"from", "t.a"}};
+    EXPECT_TRUE(contains(refusal(dispatch), "'add_constant': has no pointer 'from'"));
+}
+
+// The device is opened anew and told that it lacks them: lavapipe always has addresses.
+TEST(ExecutorRefuses, pointers_on_a_device_without_addresses_and_runs_the_rest) {
+    constexpr std::uint32_t physical_storage_buffer_addresses = 5347;
+    Device device = open_device({.selector = std::to_string(test_device().info().index)});
+    device.state().info.limits.has_addresses = false;
+    device.state().missing_capabilities.push_back(physical_storage_buffer_addresses);
+    Executor executor(device, all_shaders());
+    EXPECT_NO_THROW(executor.run(record(good_dispatch())));
+    try {
+        executor.run(record(gather_dispatch()));
+        FAIL() << "no error";
+    } catch (const InternalError& error) {
+        EXPECT_TRUE(contains(error.what(), "'gather_words'")) << error.what();
+    }
 }
 
 TEST(ExecutorRefuses, allocation_over_the_device_limit_as_out_of_memory) {

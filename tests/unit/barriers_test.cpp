@@ -18,13 +18,24 @@ ProgramInfo with_blocks(std::vector<StorageBlock> blocks) {
     return info;
 }
 
-// "copy" reads In and writes Out; "update" does both to Data; "fill" writes Out.
+ProgramInfo with_addresses(ProgramInfo info, std::vector<AddressMember> addresses) {
+    info.addresses = std::move(addresses);
+    return info;
+}
+
+// "copy" reads In and writes Out; "update" does both to Data; "fill" writes Out. "gather" reads what `from`
+// points to and writes Out, "scatter" reads In and writes what `to` points to, "stir" does both to `data`.
 const ProgramInfo& program(std::string_view shader) {
     static const std::map<std::string, ProgramInfo, std::less<>> programs = {
         {"copy", with_blocks({{.name = "In", .binding = 0, .writable = false},
                               {.name = "Out", .binding = 1, .readable = false}})},
         {"update", with_blocks({{.name = "Data", .binding = 0}})},
         {"fill", with_blocks({{.name = "Out", .binding = 0, .readable = false}})},
+        {"gather", with_addresses(with_blocks({{.name = "Out", .binding = 0, .readable = false}}),
+                                  {{.name = "from", .writable = false}})},
+        {"scatter", with_addresses(with_blocks({{.name = "In", .binding = 0, .writable = false}}),
+                                   {{.name = "to", .readable = false}})},
+        {"stir", with_addresses({}, {{.name = "data"}})},
     };
     return programs.find(shader)->second;
 }
@@ -40,6 +51,17 @@ Dispatch update(const std::string& buffer) {
 }
 Dispatch fill(const std::string& buffer) {
     return {.label = "t.fill", .shader = "fill", .bindings = {{"Out", buffer}}};
+}
+
+Dispatch gather(const std::string& from, const std::string& to) {
+    return {
+        .label = "t.gather", .shader = "gather", .bindings = {{"Out", to}}, .addresses = {{"from", from}}};
+}
+Dispatch scatter(const std::string& from, const std::string& to) {
+    return {.label = "t.scatter", .shader = "scatter", .bindings = {{"In", from}}, .addresses = {{"to", to}}};
+}
+Dispatch stir(const std::string& buffer) {
+    return {.label = "t.stir", .shader = "stir", .addresses = {{"data", buffer}}};
 }
 
 Recording with_buffers(std::initializer_list<const char*> names, bool persistent = false) {
@@ -168,6 +190,61 @@ TEST(Barriers, one_buffer_in_two_blocks_of_a_dispatch_is_no_hazard_of_its_own) {
     EXPECT_TRUE(derive_barriers(recording, kUnmapped).empty());
 }
 
+TEST(Barriers, write_by_address_is_waited_for_by_reads_of_either_kind) {
+    for (const Dispatch& reader : {copy("a", "c"), gather("a", "c")}) {
+        Recording recording = with_buffers({"a", "b", "c"});
+        recording.dispatch(scatter("b", "a"));
+        recording.dispatch(reader);
+        EXPECT_EQ(derive_barriers(recording, kUnmapped),
+                  std::vector{hazard(1, "a", read_after_write, Stage::compute, Stage::compute)})
+            << reader.label;
+    }
+}
+
+TEST(Barriers, read_by_address_waits_for_a_bound_write_and_is_waited_for) {
+    Recording recording = with_buffers({"a", "b"});
+    recording.dispatch(fill("a"));
+    recording.dispatch(gather("a", "b"));
+    recording.dispatch(fill("a"));
+    EXPECT_EQ(derive_barriers(recording, kUnmapped),
+              (std::vector{hazard(1, "a", read_after_write, Stage::compute, Stage::compute),
+                           hazard(2, "a", write_after_read, Stage::compute, Stage::compute)}));
+}
+
+TEST(Barriers, write_after_write_by_address_waits) {
+    Recording recording = with_buffers({"a", "b"});
+    recording.dispatch(scatter("b", "a"));
+    recording.dispatch(scatter("b", "a"));
+    recording.dispatch(stir("a"));
+    EXPECT_EQ(derive_barriers(recording, kUnmapped),
+              (std::vector{hazard(1, "a", write_after_write, Stage::compute, Stage::compute),
+                           hazard(2, "a", read_after_write, Stage::compute, Stage::compute)}));
+}
+
+// Twin of the three above: pointers that are only read order nothing.
+TEST(Barriers, reads_by_address_need_none_among_themselves) {
+    Recording recording = with_buffers({"a", "b", "c", "d"});
+    recording.dispatch(gather("a", "b"));
+    recording.dispatch(gather("a", "c"));
+    recording.dispatch(copy("a", "d"));
+    EXPECT_TRUE(derive_barriers(recording, kUnmapped).empty());
+}
+
+TEST(Barriers, transfer_amid_uses_by_address_is_not_direct) {
+    const std::array<std::byte, 4> word{};
+    Recording recording = with_buffers({"a", "b", "c"});
+    recording.dispatch(gather("a", "b"));
+    recording.upload("a", word);
+    recording.upload("c", word);
+    recording.readback("c");
+    recording.readback("a");
+    recording.dispatch(scatter("b", "a"));
+    EXPECT_FALSE(is_direct_transfer(recording, 1, kMapped));
+    EXPECT_TRUE(is_direct_transfer(recording, 2, kMapped));
+    EXPECT_TRUE(is_direct_transfer(recording, 3, kMapped));
+    EXPECT_FALSE(is_direct_transfer(recording, 4, kMapped));
+}
+
 // The oracle: who touches what, by brute force over all pairs of commands.
 struct Touch {
     std::string buffer;
@@ -186,6 +263,8 @@ std::vector<Touch> touches(const Command& command) {
     if (indirect != nullptr) all.push_back({indirect->arguments, Stage::indirect, false});
     for (const Binding& binding : dispatch.bindings)
         all.push_back({binding.buffer, Stage::compute, binding.block != "In"});
+    for (const Address& address : dispatch.addresses)
+        all.push_back({address.buffer, Stage::compute, address.member != "from"});
     return all;
 }
 
@@ -235,13 +314,16 @@ Recording random_recording(std::mt19937& random) {
                 recording.readback(any());
                 break;
             case 3:
-                recording.dispatch_indirect(copy(any(), any()), any());
+                recording.dispatch_indirect(scatter(any(), any()), any());
                 break;
             case 4:
                 recording.dispatch(fill(any()));
                 break;
             case 5:
-                recording.dispatch(update(any()));
+                recording.dispatch(random() % 2 == 0 ? update(any()) : stir(any()));
+                break;
+            case 6:
+                recording.dispatch(gather(any(), any()));
                 break;
             default:
                 recording.dispatch(copy(any(), any()));

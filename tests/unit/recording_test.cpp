@@ -27,11 +27,33 @@ TEST(Recording, describe_lists_buffers_and_commands_in_order) {
     EXPECT_EQ(recording.total_bytes(), 24u);
 }
 
+TEST(Recording, describe_lists_buffers_given_by_address) {
+    Recording recording;
+    recording.declare({.name = "a", .size_bytes = 8});
+    recording.declare({.name = "groups", .size_bytes = 12});
+    const Dispatch dispatch{.label = "x.step",
+                            .shader = "x_step",
+                            .extent = {4, 1, 1},
+                            .bindings = {{"In", "a"}},
+                            .addresses = {{"words", "a"}}};
+    recording.dispatch(dispatch);
+    recording.dispatch_indirect(dispatch, "groups");
+    EXPECT_EQ(describe(recording),
+              "buffer   a 8 bytes\n"
+              "buffer   groups 12 bytes\n"
+              "dispatch 4x1x1 x.step [x_step] In<-a words<-&a\n"
+              "dispatch from groups+0 x.step [x_step] In<-a words<-&a\n");
+}
+
 TEST(Recording, undeclared_buffer_is_refused) {
     Recording recording;
+    recording.declare({.name = "groups", .size_bytes = 12});
     EXPECT_THROW(recording.clear("absent"), InternalError);
     EXPECT_THROW(recording.dispatch({.label = "x", .shader = "x", .bindings = {{"In", "absent"}}}),
                  InternalError);
+    const Dispatch by_address{.label = "x", .shader = "x", .addresses = {{"words", "absent"}}};
+    EXPECT_THROW(recording.dispatch(by_address), InternalError);
+    EXPECT_THROW(recording.dispatch_indirect(by_address, "groups"), InternalError);
 }
 
 TEST(Recording, one_name_with_two_sizes_is_refused) {

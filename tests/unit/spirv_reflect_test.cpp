@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <random>
 #include <string_view>
@@ -37,9 +38,15 @@ struct Assembler {
 
 constexpr std::uint32_t kName = 5, kMemberName = 6, kEntryPoint = 15, kExecutionMode = 16, kTypeInt = 21,
                         kTypeRuntimeArray = 29, kTypeStruct = 30, kTypePointer = 32, kConstant = 43,
-                        kSpecConstant = 50, kSpecComposite = 51, kVariable = 59, kLoad = 61, kDecorate = 71,
-                        kMemberDecorate = 72;
-constexpr std::uint32_t kStorageBuffer = 12, kPushConstant = 9;
+                        kForwardPointer = 39, kSpecConstant = 50, kSpecComposite = 51, kVariable = 59,
+                        kLoad = 61, kDecorate = 71, kMemberDecorate = 72;
+constexpr std::uint32_t kStorageBuffer = 12, kPushConstant = 9, kPhysical = 5349;
+
+constexpr std::uint32_t kPhysicalAddresses = 5347;  // capability
+
+const EmbeddedShader& probe(std::string_view name) {
+    return *std::ranges::find(probe_shaders(), name, &EmbeddedShader::name);
+}
 
 // Block "Items" { uint first; uint rest[]; } at binding 3, read only by its members; local size (16, 4, 1).
 Assembler small_module() {
@@ -114,6 +121,61 @@ TEST(Reflect, push_struct_has_its_size_and_members) {
     EXPECT_EQ(info.push_members, (std::vector<StructMember>{{"count", 0}, {"scale", 12}}));
 }
 
+// Pointers to readonly block "Words" (id 70) and to plain block "Sums" (id 80); the push struct (id 40) has
+// the given members at the given offsets.
+Assembler module_with_pointers(std::array<std::uint32_t, 3> members, std::array<std::uint32_t, 3> offsets) {
+    Assembler module = small_module();
+    module.op(kName, {70}, "Words").op(kName, {80}, "Sums").op(kDecorate, {70, 2}).op(kDecorate, {80, 2});
+    module.op(kMemberDecorate, {70, 0, 35, 0}).op(kMemberDecorate, {70, 0, 24});
+    module.op(kMemberDecorate, {80, 0, 35, 0});
+    for (std::uint32_t i = 0; i < 3; ++i)
+        module.op(kMemberName, {40, i}, std::string(1, static_cast<char>('a' + i)))
+            .op(kMemberDecorate, {40, i, 35, offsets[i]});
+    module.op(kForwardPointer, {71, kPhysical}).op(kForwardPointer, {81, kPhysical});
+    module.op(kTypeStruct, {40, members[0], members[1], members[2]});
+    module.op(kTypeStruct, {70, 12}).op(kTypePointer, {71, kPhysical, 70});
+    module.op(kTypeStruct, {80, 12}).op(kTypePointer, {81, kPhysical, 80});
+    module.op(kTypePointer, {41, kPushConstant, 40}).op(kVariable, {41, 42, kPushConstant});
+    return module.op(kLoad, {40, 51, 42});
+}
+
+TEST(Reflect, pointers_of_the_push_struct_have_the_access_of_their_blocks) {
+    const ProgramInfo info = reflect(with_use(module_with_pointers({71, 81, 11}, {0, 8, 16})));
+    ASSERT_EQ(info.addresses.size(), 2u);
+    EXPECT_EQ(info.addresses[0].name, "a");
+    EXPECT_TRUE(info.addresses[0].readable && !info.addresses[0].writable);
+    EXPECT_EQ(info.addresses[1].name, "b");
+    EXPECT_TRUE(info.addresses[1].readable && info.addresses[1].writable);
+    EXPECT_EQ(info.push_bytes, 20u);
+    ASSERT_EQ(info.blocks.size(), 1u);  // what pointers lead to is not bound
+    EXPECT_EQ(info.blocks[0].name, "Items");
+    EXPECT_EQ(info.find_address("c"), nullptr);
+}
+
+TEST(Reflect, pointers_that_are_not_the_first_members_of_the_push_struct_are_refused) {
+    EXPECT_THROW((void)reflect(module_with_pointers({11, 71, 81}, {0, 8, 16}).words), InternalError);
+    EXPECT_THROW((void)reflect(module_with_pointers({71, 11, 81}, {0, 8, 16}).words), InternalError);
+}
+
+TEST(Reflect, pointer_to_a_block_that_the_push_struct_does_not_have_is_refused) {
+    EXPECT_THROW((void)reflect(module_with_pointers({71, 11, 11}, {0, 8, 12}).words), InternalError);
+}
+
+TEST(Reflect, compiled_probes_show_what_they_reach_by_address) {
+    const ProgramInfo gather = reflect(probe("gather_words").spirv);
+    ASSERT_EQ(gather.addresses.size(), 1u);
+    EXPECT_EQ(gather.addresses[0].name, "from");
+    EXPECT_TRUE(gather.addresses[0].readable && !gather.addresses[0].writable);
+    EXPECT_EQ(gather.blocks.size(), 3u);
+    EXPECT_EQ(gather.find_block("Words"), nullptr);
+    EXPECT_EQ(gather.push_bytes, 12u);
+    EXPECT_EQ(std::ranges::count(gather.capabilities, kPhysicalAddresses), 1);
+    const ProgramInfo scatter = reflect(probe("scatter_words").spirv);
+    ASSERT_EQ(scatter.addresses.size(), 1u);
+    EXPECT_TRUE(!scatter.addresses[0].readable && scatter.addresses[0].writable);
+    EXPECT_TRUE(reflect(probe("add_constant").spirv).addresses.empty());
+}
+
 TEST(Reflect, broken_modules_are_refused) {
     EXPECT_THROW((void)reflect({}), InternalError);
     EXPECT_THROW((void)reflect(Words{1, 2, 3, 4, 5}), InternalError);
@@ -138,10 +200,6 @@ TEST(Reflect, type_that_holds_itself_is_refused) {
     Assembler module = small_module();
     module.op(kMemberDecorate, {60, 0, 35, 0}).op(kTypeStruct, {60, 60});
     EXPECT_THROW((void)reflect(module.words), InternalError);
-}
-
-const EmbeddedShader& probe(std::string_view name) {
-    return *std::ranges::find(probe_shaders(), name, &EmbeddedShader::name);
 }
 
 TEST(Reflect, compiled_probe_shows_blocks_constants_and_push) {

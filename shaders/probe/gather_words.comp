@@ -1,0 +1,24 @@
+// Reads the words at the given indices, of a bound buffer or of one reached by its address.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#include "lib/invocation.glsl"
+
+layout(constant_id = 0) const bool is_by_address = true;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Words { uint words[]; };
+layout(scalar) readonly buffer Bound { uint bound[]; };
+layout(scalar) readonly buffer Indices { uint indices[]; };
+layout(scalar) writeonly buffer Out { uint outputs[]; };
+layout(push_constant, scalar) uniform Push {
+    Words from;
+    uint count;
+} push;
+
+void main() {
+    uint i = linear_id();
+    if (i >= push.count) return;
+    uint at = indices[i];
+    outputs[i] = is_by_address ? push.from.words[at] : bound[at];
+}

@@ -1,0 +1,20 @@
+// Writes words at the given indices of a buffer reached by its address.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+#include "lib/invocation.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint words[]; };
+layout(scalar) readonly buffer Indices { uint indices[]; };
+layout(scalar) readonly buffer In { uint inputs[]; };
+layout(push_constant, scalar) uniform Push {
+    Words to;
+    uint count;
+} push;
+
+void main() {
+    uint i = linear_id();
+    if (i >= push.count) return;
+    push.to.words[indices[i]] = inputs[i];
+}
