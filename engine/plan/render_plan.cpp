@@ -168,8 +168,12 @@ WorldFacts measure_world(const MarchWorld& march_world) {
     const auto bytes = [](const std::vector<std::uint32_t>& words) {
         return std::max<std::uint64_t>(words.size(), 1) * sizeof(std::uint32_t);
     };
-    return {march_world.traversal,    march_world.size(),        bytes(march_world.roots),
-            bytes(march_world.nodes), bytes(march_world.leaves), growth_needs(march_world)};
+    return {.traversal = march_world.traversal,
+            .size = march_world.size(),
+            .root_bytes = bytes(march_world.roots),
+            .node_bytes = bytes(march_world.nodes),
+            .leaf_bytes = bytes(march_world.leaves),
+            .growth = growth_needs(march_world)};
 }
 
 std::uint64_t RenderPlan::total_bytes() const {
@@ -223,6 +227,11 @@ std::string describe(const RenderPlan& plan) {
                             plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
     }
     text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
+    if (plan.has(Effect::voxels)) {
+        text +=
+            fmt::format("traversal {:<10} {}, {} x {} x {} cells\n", name_of(plan.world.traversal),
+                        plan.world.traversal_reason, plan.world.size.x, plan.world.size.y, plan.world.size.z);
+    }
     for (const EffectState& state : plan.effects)
         text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off",
                             state.reason);

@@ -16,7 +16,8 @@ namespace voxilux {
 
 // What a plan needs to know of the built world.
 struct WorldFacts {
-    Traversal traversal = Traversal::naadf;
+    Traversal traversal = Traversal::wide;
+    std::string traversal_reason;
     glm::ivec3 size{0};  // cells
     std::uint64_t root_bytes = 0;
     std::uint64_t node_bytes = 0;

@@ -7,6 +7,7 @@
 
 #include "frame/frame.h"
 #include "passes/upload.h"
+#include "plan/choose_traversal.h"
 #include "scene/scene_camera.h"
 #include "session/film_readback.h"
 #include "session/slices.h"
@@ -198,13 +199,18 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
 
 PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits) {
     PreparedScene prepared{.facts = measure_scene(scene)};
+    TraversalChoice choice;
     if (prepared.facts.has_voxels) {
-        prepared.march_world = build_march_skeleton(build_world(scene), request.traversal.value_or(Traversal::wide));
+        const VoxelWorld world = build_world(scene);
+        choice = choose_traversal(take_census(world), request.traversal, request.memory_budget_bytes, limits);
+        prepared.march_world = build_march_skeleton(world, choice.traversal);
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};
     }
-    prepared.plan = plan_render(scene, prepared.facts, measure_world(prepared.march_world), request, limits);
+    WorldFacts world_facts = measure_world(prepared.march_world);
+    world_facts.traversal_reason = choice.reason;
+    prepared.plan = plan_render(scene, prepared.facts, world_facts, request, limits);
     return prepared;
 }
 

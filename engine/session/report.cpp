@@ -76,6 +76,12 @@ Json planned_memory_json(const RenderPlan& plan) {
     return rows;
 }
 
+// Null where there are no voxels to march through.
+Json traversal_json(const RenderPlan& plan) {
+    if (!plan.has(Effect::voxels)) return nullptr;
+    return {{"name", name_of(plan.world.traversal)}, {"reason", plan.world.traversal_reason}};
+}
+
 }  // namespace
 
 Json report_json(const Scene& scene, const RenderOutcome& outcome) {
@@ -84,6 +90,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["device"] = {{"name", statistics.device.name},
                       {"driver", statistics.device.driver},
                       {"type", statistics.device.type}};
+    json["traversal"] = traversal_json(outcome.plan);
     json["samples"] = statistics.samples;
     json["stopped"] = name_of(statistics.stop);
     json["wall_s"] = statistics.wall_s;
@@ -121,6 +128,7 @@ Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) 
 
 Json plan_json(const Scene& scene, const RenderPlan& plan) {
     Json json = head_json(scene, plan, "plan");
+    json["traversal"] = traversal_json(plan);
     json["effects"] = effects_json(plan, nullptr);
     json["passes"] = planned_passes_json(plan);
     json["memory"] = planned_memory_json(plan);

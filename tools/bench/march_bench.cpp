@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "bench/ray_judge.h"
 #include "bench/stopwatch.h"
-#include "bench/structure_bytes.h"
 #include "vk/executor.h"
+#include "world/structure_bytes.h"
 
 namespace voxilux {
 namespace {
@@ -139,7 +139,7 @@ class MarchBench {
 
     Placed place_built(Traversal traversal) {
         Placed failed{.traversal = traversal,
-                      .reason = misfit(least_bytes(scene_.world, traversal), limits_)};
+                      .reason = misfit(predict_bytes(take_census(scene_.world), traversal), limits_)};
         if (!failed.reason.empty()) return failed;
         try {
             const Stopwatch watch;

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "plan/device_limits.h"
+#include "world/structure_bytes.h"
+
+namespace voxilux {
+
+struct TraversalChoice {
+    Traversal traversal = Traversal::wide;
+    std::string reason;  // one clause, shown to the user
+
+    bool operator==(const TraversalChoice&) const = default;
+};
+
+// The user's traversal, or the fastest whose structure stays within kWorldBytes and the device's limits, else
+// the smallest. `budget_bytes` of the user for the whole render replaces kWorldBytes when it is not 0: half
+// of it may be the world's.
+[[nodiscard]] TraversalChoice choose_traversal(const WorldCensus& census, std::optional<Traversal> request,
+                                               std::uint64_t budget_bytes, const DeviceLimits& limits);
+
+}  // namespace voxilux
