@@ -45,23 +45,34 @@ std::optional<double> relative_rate(const Rows& rows, const Rows& baseline) {
     return std::exp(sum / count);
 }
 
-std::string line_of(const Rows& rows, const Rows& baseline) {
+// The kinds of rays, in order of first appearance.
+std::vector<std::string> kinds_of(std::span<const BenchRow> rows) {
+    std::vector<std::string> kinds;
+    for (const BenchRow& row : rows)
+        if (std::ranges::find(kinds, row.rays) == kinds.end()) kinds.push_back(row.rays);
+    return kinds;
+}
+
+std::string line_of(const Rows& rows, const std::vector<std::string>& kinds, const Rows& baseline) {
     const BenchRow& first = *rows.front();
     if (!first.reason.empty()) return fmt::format("{:<18} does not fit: {}\n", first.traversal, first.reason);
     std::string line = fmt::format("{:<18} {:>9.2f} {:>8.2f}", first.traversal,
                                    static_cast<double>(first.memory_bytes) / (1 << 20), first.build_s);
-    for (const BenchRow* row : rows)
-        line +=
-            fmt::format("  {:>8.2f} {:>7.2f} {:>7.1f}", row->mrays_per_cpu_s, row->mrays_per_s, row->steps);
+    for (const std::string& kind : kinds) {
+        const BenchRow* row = find_rays(rows, kind);
+        line += row == nullptr ? fmt::format("  {:24}", "")
+                               : fmt::format("  {:>8.2f} {:>7.2f} {:>7.1f}", row->mrays_per_cpu_s,
+                                             row->mrays_per_s, row->steps);
+    }
     const std::optional<double> relative = relative_rate(rows, baseline);
     return line + (relative ? fmt::format("  {:>6.2f}\n", *relative) : "       -\n");
 }
 
-std::string heading_of(const Rows& rows) {
+std::string heading_of(const std::vector<std::string>& kinds) {
     std::string first = fmt::format("{:<18} {:>9} {:>8}", "", "structure", "build");
     std::string second = fmt::format("{:<18} {:>9} {:>8}", "traversal", "MiB", "s");
-    for (const BenchRow* row : rows) {
-        first += fmt::format("  {:^24}", row->rays + ", Mray/s");
+    for (const std::string& kind : kinds) {
+        first += fmt::format("  {:^24}", kind + ", Mray/s");
         second += fmt::format("  {:>8} {:>7} {:>7}", "CPU", "wall", "steps");
     }
     return fmt::format("{}  {:>6}\n{}  {:>6}\n", first, "over", second, kBaseline);
@@ -101,14 +112,15 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
 std::string describe(std::span<const BenchRow> rows) {
     if (rows.empty()) return "";
     const std::vector<Rows> groups = by_traversal(rows);
+    const std::vector<std::string> kinds = kinds_of(rows);
     const auto ran =
         std::ranges::find_if(groups, [](const Rows& group) { return group.front()->reason.empty(); });
     std::string text = fmt::format("scene     {}, extent {}\n", rows.front().scene, rows.front().extent);
-    if (ran != groups.end()) text += checks_of(*ran) + heading_of(*ran);
+    if (ran != groups.end()) text += checks_of(*ran) + heading_of(kinds);
     const auto baseline =
         std::ranges::find_if(groups, [](const Rows& group) { return group.front()->traversal == kBaseline; });
     for (const Rows& group : groups)
-        text += line_of(group, baseline == groups.end() ? Rows{} : *baseline);
+        text += line_of(group, kinds, baseline == groups.end() ? Rows{} : *baseline);
     for (const BenchRow& row : rows) {
         if (row.mismatches != 0)
             text += fmt::format("{} {}: {} of {} rays meet another voxel than the plain walk\n",

@@ -122,9 +122,9 @@ class ProceduralWorld {
 
     // Column by column: the cells between two spheres.
     void draw_sphere(Dice dice) {
-        const double radius = std::max(3.0, dice.between(0.025, 0.07, extent_));
+        const double radius = std::max(3.0, dice.between(0.02, 0.055, extent_));
         const glm::dvec3 centre(dice.between(0.1, 0.9, extent_), dice.between(0.1, 0.9, extent_),
-                                dice.between(0.25, 0.6, extent_));
+                                dice.between(0.2, 0.5, extent_));
         const int material = 2 * kMaterialsEach + static_cast<int>(dice.object) % kMaterialsEach;
         const int reach = static_cast<int>(radius) + 1;
         const double inside = radius - kSkin;
@@ -154,10 +154,10 @@ BenchScene procedural_scene(int extent, std::uint32_t seed) {
     VX_ASSERT(extent >= kLeastExtent && extent <= kMostExtent && extent % 16 == 0);
     ProceduralWorld procedural(extent, seed);
     procedural.draw();
-    const Camera camera{.position = glm::dvec3(0.03, 0.05, 0.5) * static_cast<double>(extent),
+    const Camera camera{.position = glm::dvec3(0.04, 0.06, 0.68) * static_cast<double>(extent),
                         .yaw_deg = 42.0,
-                        .pitch_deg = -12.0,
-                        .fov_y_deg = 50.0};
+                        .pitch_deg = -31.0,
+                        .fov_y_deg = 42.0};
     return {"procedural", extent, std::move(procedural.world), camera};
 }
 

@@ -67,8 +67,8 @@ double mib(std::uint64_t bytes) {
 std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
     const auto over = [&](const char* part, std::uint64_t part_bytes) {
         if (part_bytes <= limits.max_binding_bytes) return std::string();
-        return fmt::format("its {} take at least {:.0f} MiB, the device binds {:.0f} MiB", part,
-                           mib(part_bytes), mib(limits.max_binding_bytes));
+        return fmt::format("its {} take {:.0f} MiB, the device binds {:.0f} MiB", part, mib(part_bytes),
+                           mib(limits.max_binding_bytes));
     };
     const std::string roots = over("roots", bytes.roots);
     if (!roots.empty()) return roots;
@@ -88,18 +88,18 @@ void upload(const std::string& name, std::span<const T> values, Executor& execut
 
 class MarchBench {
   public:
-    MarchBench(const BenchScene& scene, const MarchBenchOptions& options, Device& device)
+    MarchBench(const BenchScene& scene, const BenchRequest& request, Device& device)
         : scene_(scene),
-          options_(options),
+          request_(request),
           limits_(device.limits()),
           executor_(device, pass_shaders(), {.time_dispatches = false}) {}
 
-    std::vector<BenchRow> run() {
-        place_all();
+    std::vector<BenchRow> run(std::span<const Traversal> traversals) {
+        place_all(traversals);
         std::vector<Measured> all = plan_rows();
         for (Measured& one : all)
             if (one.row.reason.empty()) prepare(one);
-        for (int round = 0; round < options_.rounds; ++round)
+        for (int round = 0; round < request_.rounds; ++round)
             for (Measured& one : all)
                 if (one.row.reason.empty() && one.row.count > 0) measure(one);
         std::vector<BenchRow> rows;
@@ -110,25 +110,25 @@ class MarchBench {
 
   private:
     // The structure that finds the rays is one of those that are measured, so it is built once.
-    void place_all() {
+    void place_all(std::span<const Traversal> traversals) {
         const Stopwatch watch;
         const MarchWorld guide = build_march_world(scene_.world);
         const double build_s = watch.elapsed().cpu;
-        for (const RayKind kind : options_.kinds)
+        for (const RayKind kind : request_.kinds)
             place_rays(kind, guide);
-        for (const Traversal traversal : options_.traversals)
+        for (const Traversal traversal : traversals)
             structures_.push_back(traversal == guide.traversal ? place(guide, build_s)
                                                                : place_built(traversal));
     }
 
     void place_rays(RayKind kind, const MarchWorld& guide) {
-        const std::vector<gpu::Ray> rays = bench_rays(scene_, guide, kind, options_.size, options_.seed);
+        const std::vector<gpu::Ray> rays = bench_rays(scene_, guide, kind, request_.size, request_.seed);
         const std::span<const gpu::Ray> all(rays);
         if (all.size_bytes() > limits_.max_binding_bytes) {
             throw Error(ExitCode::out_of_memory,
                         fmt::format("the rays of {}x{} pixels take {:.0f} MiB, the device binds {:.0f} MiB; "
                                     "choose a smaller --size",
-                                    options_.size.x, options_.size.y, mib(all.size_bytes()),
+                                    request_.size.x, request_.size.y, mib(all.size_bytes()),
                                     mib(limits_.max_binding_bytes)));
         }
         upload(rays_buffer(kind), all, executor_);
@@ -137,9 +137,17 @@ class MarchBench {
                          .verdicts = judge_rays(scene_.world, rays, kJudgedCells)});
     }
 
+    // Bytes that the structure takes even if all its bricks are equal: bricks of 16 bits per voxel may be
+    // stored once for all.
+    [[nodiscard]] StructureBytes least_bytes(Traversal traversal) const {
+        const auto id = static_cast<gpu::uint>(traversal);
+        StructureBytes least = predict_bytes(take_census(scene_.world), traversal);
+        if (gpu::root_log2(id) != 0 && !gpu::has_far_voxels(id)) least.leaves = 0;
+        return least;
+    }
+
     Placed place_built(Traversal traversal) {
-        Placed failed{.traversal = traversal,
-                      .reason = misfit(predict_bytes(take_census(scene_.world), traversal), limits_)};
+        Placed failed{.traversal = traversal, .reason = misfit(least_bytes(traversal), limits_)};
         if (!failed.reason.empty()) return failed;
         try {
             const Stopwatch watch;
@@ -252,7 +260,7 @@ class MarchBench {
     }
 
     const BenchScene& scene_;
-    const MarchBenchOptions& options_;
+    const BenchRequest& request_;
     const DeviceLimits& limits_;
     Executor executor_;
     std::vector<RayList> rays_;
@@ -261,8 +269,9 @@ class MarchBench {
 
 }  // namespace
 
-std::vector<BenchRow> bench_march(const BenchScene& scene, const MarchBenchOptions& options, Device& device) {
-    return MarchBench(scene, options, device).run();
+std::vector<BenchRow> bench_march(const BenchScene& scene, std::span<const Traversal> traversals,
+                                  const BenchRequest& request, Device& device) {
+    return MarchBench(scene, request, device).run(traversals);
 }
 
 }  // namespace voxilux
