@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "bench/ray_judge.h"
 #include "bench/stopwatch.h"
+#include "shared/world_cell.h"
 #include "vk/executor.h"
 #include "world/structure_bytes.h"
 
