@@ -89,7 +89,8 @@ TEST(PlanMemory, world_over_the_device_limit_asks_for_a_smaller_scene) {
 TEST(PlanMemory, world_over_128_mib_is_refused_on_the_default_device) {
     const Scene scene = test::repository_scene("one_voxel");
     const SceneFacts facts = measure_scene(scene);
-    const WorldFacts fits{glm::ivec3(1024), 64, 64, 128 * kMiB};
+    const WorldFacts fits{
+        .size = glm::ivec3(1024), .root_bytes = 64, .node_bytes = 64, .leaf_bytes = 128 * kMiB};
     WorldFacts over = fits;
     over.leaf_bytes += 4;
     EXPECT_NO_THROW((void)plan_render(scene, facts, fits, PlanRequest{}, DeviceLimits{}));
