@@ -123,8 +123,8 @@ std::string describe(std::span<const BenchRow> rows) {
         text += line_of(group, kinds, baseline == groups.end() ? Rows{} : *baseline);
     for (const BenchRow& row : rows) {
         if (row.mismatches != 0)
-            text += fmt::format("{} {}: {} of {} rays meet another voxel than the plain walk\n",
-                                row.traversal, row.rays, row.mismatches, row.checked);
+            text += fmt::format("{} {}: {} of {} rays meet another voxel than they should\n", row.traversal,
+                                row.rays, row.mismatches, row.checked);
     }
     return text;
 }
