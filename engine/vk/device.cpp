@@ -92,6 +92,8 @@ void create_logical_device(DeviceState& state, bool validation) {
                                               feature.capabilities.end());
         }
     }
+    if (!state.info.limits.has_addresses)
+        state.missing_capabilities.push_back(kPhysicalStorageBufferAddresses);
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = state.family,

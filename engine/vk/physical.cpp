@@ -37,7 +37,12 @@ const std::vector<OptionalFeature>& optional_features() {
          {4448}},
         {"no buffer device addresses (bufferDeviceAddress): buffers end at the binding limit",
          [](FeatureChain& c) { return &c.v12.bufferDeviceAddress; },
-         {5347}},
+         {}},
+        {"no subgroup operations on 64-bit integers (shaderSubgroupExtendedTypes): buffers end at the "
+         "binding "
+         "limit",
+         [](FeatureChain& c) { return &c.v12.shaderSubgroupExtendedTypes; },
+         {}},
     };
     return features;
 }
@@ -89,6 +94,20 @@ bool has_timestamps(VkPhysicalDevice device, int family) {
     return family >= 0 && queue_families(device)[static_cast<std::size_t>(family)].timestampValidBits > 0;
 }
 
+bool has_ballots(VkPhysicalDevice device) {
+    VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 two{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+    vkGetPhysicalDeviceProperties2(device, &two);
+    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+           (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+}
+
+// All that shaders/lib/address.glsl asks for.
+bool has_addresses(VkPhysicalDevice device, const FeatureChain& chain) {
+    return chain.v12.bufferDeviceAddress == VK_TRUE && chain.base.features.shaderInt64 == VK_TRUE &&
+           chain.v12.shaderSubgroupExtendedTypes == VK_TRUE && has_ballots(device);
+}
+
 void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info) {
     const int family = compute_family(device);
     info.usable = true;
@@ -102,10 +121,12 @@ void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info)
     FeatureChain chain;
     query_features(device, chain);
     require(chain.v12.scalarBlockLayout == VK_TRUE, "no scalar block layout (scalarBlockLayout)");
-    info.limits.has_addresses = chain.v12.bufferDeviceAddress == VK_TRUE;
+    info.limits.has_addresses = has_addresses(device, chain);
     for (const OptionalFeature& feature : optional_features()) {
         if (*feature.member(chain) == VK_FALSE) info.lacks.emplace_back(feature.lack);
     }
+    if (!has_ballots(device))
+        info.lacks.emplace_back("no ballots of subgroups: buffers end at the binding limit");
     if (!has_timestamps(device, family)) info.lacks.emplace_back("no timestamps: passes show 0 ms");
 }
 

@@ -29,6 +29,9 @@ struct OptionalFeature {
 };
 [[nodiscard]] const std::vector<OptionalFeature>& optional_features();
 
+// The SPIR-V capability of shaders that reach buffers by address. It hangs on several features together.
+inline constexpr std::uint32_t kPhysicalStorageBufferAddresses = 5347;
+
 // Fills `chain` with what the device offers; all false below Vulkan 1.2.
 void query_features(VkPhysicalDevice device, FeatureChain& chain);
 

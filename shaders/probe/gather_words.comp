@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
 layout(constant_id = 0) const bool is_by_address = true;
@@ -17,8 +17,9 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 void main() {
+    Words from = VX_POINTER(Words, push.from);
     uint i = linear_id();
     if (i >= push.count) return;
     uint at = indices[i];
-    outputs[i] = is_by_address ? push.from.words[at] : bound[at];
+    outputs[i] = is_by_address ? from.words[at] : bound[at];
 }

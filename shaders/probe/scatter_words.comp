@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_EXT_buffer_reference : require
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Words { uint words[]; };
@@ -14,7 +14,8 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 void main() {
+    Words to = VX_POINTER(Words, push.to);
     uint i = linear_id();
     if (i >= push.count) return;
-    push.to.words[indices[i]] = inputs[i];
+    to.words[indices[i]] = inputs[i];
 }

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "support/device_fixture.h"
 #include "vk/device_state.h"
+#include "vk/physical.h"
 
 namespace voxilux {
 namespace {
@@ -134,10 +135,9 @@ TEST(ExecutorRefuses, wrong_missing_and_doubled_pointers_by_shader_and_member) {
 
 // The device is opened anew and told that it lacks them: lavapipe always has addresses.
 TEST(ExecutorRefuses, pointers_on_a_device_without_addresses_and_runs_the_rest) {
-    constexpr std::uint32_t physical_storage_buffer_addresses = 5347;
     Device device = open_device({.selector = std::to_string(test_device().info().index)});
     device.state().info.limits.has_addresses = false;
-    device.state().missing_capabilities.push_back(physical_storage_buffer_addresses);
+    device.state().missing_capabilities.push_back(kPhysicalStorageBufferAddresses);
     Executor executor(device, all_shaders());
     EXPECT_NO_THROW(executor.run(record(good_dispatch())));
     try {
