@@ -18,7 +18,7 @@ std::int64_t halves_to_plane(float fraction, bool forwards, std::int64_t crossed
 
 }  // namespace
 
-ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray) {
+ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray, AxisOrder order) {
     ExactHit hit{.cell = ray.cell};
     glm::i64vec3 crossed(0);
     int last = -1;
@@ -35,7 +35,7 @@ ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray) {
         int next = -1;
         std::int64_t next_halves = 0;
         std::int64_t next_speed = 1;
-        for (int a = 0; a < 3; ++a) {
+        for (const int a : order) {
             const auto speed = static_cast<std::int64_t>(std::abs(ray.direction[a]));
             if (speed == 0) continue;
             const std::int64_t halves = halves_to_plane(ray.fraction[a], ray.direction[a] > 0.0f, crossed[a]);

@@ -3,8 +3,7 @@
 // The march's contract in exact integers, for rays whose numbers are halves: crossings are sorted by their
 // exact time, then by axis. Knows nothing of the march's floats.
 
-#include "world/voxel_world.h"
-#include "world/world_view.h"
+#include "support/plain_walk.h"
 
 namespace voxilux::test {
 
@@ -15,6 +14,6 @@ struct ExactHit {
 
 // Direction components must be integers below 2^10 (either zero is zero), fractions of axes that move
 // multiples of 1/2, and t_max must not matter.
-[[nodiscard]] ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray);
+[[nodiscard]] ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray, AxisOrder order = kTieRule);
 
 }  // namespace voxilux::test

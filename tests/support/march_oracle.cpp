@@ -7,33 +7,6 @@
 
 namespace voxilux::test {
 
-gpu::MarchHit walk_cells(const VoxelWorld& world, const gpu::Ray& ray) {
-    const gpu::MarchAxes axes = gpu::march_axes(ray);
-    gpu::MarchHit hit{};
-    hit.cell = ray.cell;
-    hit.face = gpu::kFaceMiss;
-    if (!(ray.t_max > 0.0f)) return hit;
-    int axis = -1;
-    while (world.contains(hit.cell)) {
-        const std::uint16_t voxel = world.get(hit.cell);
-        if (voxel != VoxelWorld::kEmpty) {
-            hit.face = axis < 0 ? gpu::kFaceInside : static_cast<gpu::uint>(axes.toward[axis] ^ 1);
-            hit.material = voxel & gpu::kVoxelPayloadMask;
-            return hit;
-        }
-        const glm::vec3 times = gpu::plane_times(axes, hit.crossed + 1);
-        axis = 0;
-        if (times.y < times[axis]) axis = 1;
-        if (times.z < times[axis]) axis = 2;
-        if (!(times[axis] < ray.t_max)) return hit;
-        hit.t = times[axis];
-        ++hit.crossed[axis];
-        hit.cell[axis] += axes.flip[axis] < 0 ? -1 : 1;
-        ++hit.steps;
-    }
-    return hit;
-}
-
 namespace {
 
 struct Interval {

@@ -1,20 +1,13 @@
 #pragma once
 
-// Two independent truths for the march. `walk_cells` is the definition of the march itself: one voxel at a
-// time, no structure. `oracle_bounds` knows nothing of steps: it tests every solid cell as a box in double
-// precision.
+// A truth for the march that knows nothing of steps: it tests every solid cell as a box in double precision.
 
 #include <optional>
 #include <vector>
 
-#include "world/voxel_world.h"
-#include "world/world_view.h"
+#include "support/plain_walk.h"
 
 namespace voxilux::test {
-
-// The march's contract executed plainly on the voxels: crossings in the order (time, axis), one cell at a
-// time.
-[[nodiscard]] gpu::MarchHit walk_cells(const VoxelWorld& world, const gpu::Ray& ray);
 
 // What a right answer must lie between. Boxes shrunk by `margin` voxels must stop a ray, boxes grown by it
 // may.
