@@ -31,15 +31,20 @@ CLI::App* add_bench(CLI::App& app, BenchMarchCommand& march) {
         ->type_name("NAME,...");
     command->add_option("--device", march.device, "index or part of the name, see voxilux devices")
         ->type_name("NAME");
+    command
+        ->add_option("--build", march.build,
+                     "what builds the structures: cpu, device, or both to compare their bits (default cpu)")
+        ->type_name("WHO");
     return bench;
 }
 
 int run_bench_march(const BenchMarchCommand& command) {
-    const std::vector<Traversal> traversals = traversals_of(command);
+    const MarchBenchOptions options{.traversals = traversals_of(command),
+                                    .builder = builder_named(command.build)};
     const BenchRequest request = bench_request(command.flags);
     Device device = open_device({.selector = command.device});
     run_benchmark(command.flags,
-                  [&](const BenchScene& scene) { return bench_march(scene, traversals, request, device); });
+                  [&](const BenchScene& scene) { return bench_march(scene, options, request, device); });
     return static_cast<int>(ExitCode::done);
 }
 

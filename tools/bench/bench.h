@@ -9,6 +9,7 @@ struct BenchMarchCommand {
     BenchFlags flags;
     std::vector<std::string> traversals;
     std::string device;
+    std::string build = "cpu";
 };
 
 // Declares the subcommand `bench` and what it measures; parsing fills `march`, which must outlive the app.

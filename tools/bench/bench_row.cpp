@@ -53,11 +53,16 @@ std::vector<std::string> kinds_of(std::span<const BenchRow> rows) {
     return kinds;
 }
 
+std::string seconds(std::optional<double> value) {
+    return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
 std::string line_of(const Rows& rows, const std::vector<std::string>& kinds, const Rows& baseline) {
     const BenchRow& first = *rows.front();
     if (!first.reason.empty()) return fmt::format("{:<18} does not fit: {}\n", first.traversal, first.reason);
-    std::string line = fmt::format("{:<18} {:>9.2f} {:>8.2f}", first.traversal,
-                                   static_cast<double>(first.memory_bytes) / (1 << 20), first.build_s);
+    std::string line = fmt::format("{:<18} {:>9.2f} {:>8} {:>8}", first.traversal,
+                                   static_cast<double>(first.memory_bytes) / (1 << 20),
+                                   seconds(first.build_s), seconds(first.device_build_s));
     for (const std::string& kind : kinds) {
         const BenchRow* row = find_rays(rows, kind);
         line += row == nullptr ? fmt::format("  {:24}", "")
@@ -69,8 +74,8 @@ std::string line_of(const Rows& rows, const std::vector<std::string>& kinds, con
 }
 
 std::string heading_of(const std::vector<std::string>& kinds) {
-    std::string first = fmt::format("{:<18} {:>9} {:>8}", "", "structure", "build");
-    std::string second = fmt::format("{:<18} {:>9} {:>8}", "traversal", "MiB", "s");
+    std::string first = fmt::format("{:<18} {:>9} {:>17}", "", "structure", "build, s");
+    std::string second = fmt::format("{:<18} {:>9} {:>8} {:>8}", "traversal", "MiB", "CPU", "device");
     for (const std::string& kind : kinds) {
         first += fmt::format("  {:^24}", kind + ", Mray/s");
         second += fmt::format("  {:>8} {:>7} {:>7}", "CPU", "wall", "steps");
@@ -103,7 +108,8 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
     json["mrays_per_s"] = row.mrays_per_s;
     json["steps"] = row.steps;
     json["memory_bytes"] = row.memory_bytes;
-    json["build_s"] = row.build_s;
+    if (row.build_s) json["build_s"] = *row.build_s;
+    if (row.device_build_s) json["device_build_s"] = *row.device_build_s;
     json["checked"] = row.checked;
     json["mismatches"] = row.mismatches;
     return json;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,7 +23,8 @@ struct BenchRow {
     double mrays_per_s = 0.0;      // best round, wall
     double steps = 0.0;            // mean
     std::uint64_t memory_bytes = 0;
-    double build_s = 0.0;  // of the structure, on the CPU
+    std::optional<double> build_s;  // CPU seconds of one thread that builds the structure; absent if none did
+    std::optional<double> device_build_s;  // wall seconds of the device, the same
     std::uint64_t checked = 0;
     std::uint64_t mismatches = 0;  // of the checked rays
 };
