@@ -11,7 +11,9 @@
 // Tie rule: a ray crosses one face at a time; where it meets an edge or a corner exactly it crosses x before
 // y before z. So each walk is 6-connected: no ray slips between two solids that touch along an edge, and a
 // shell that a 6-connected walk cannot leave is light-tight. A cell owns its low faces; a ray in a face plane
-// is in the upper cell.
+// is in the upper cell. Times are equal when their floats are: that is so for planes met at 0 and for equal
+// times whose speeds are in a ratio of a power of two; of others within rounding the floats decide, in every
+// structure alike.
 //
 // The including side provides what find_cell.h asks for.
 #ifndef VX_MARCH_H
@@ -159,10 +161,11 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     return hit;
 }
 
-// Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face.
+// Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face. What is subtracted is
+// one rounding of a number that a mirrored ray has, too, so mirrored hits have mirrored fractions.
 VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
     const MarchAxes axes = march_axes(ray);
-    VX_PRECISE vec3 passed = hit.t * axes.speed - axes.offset - vec3(axes.flip) - vec3(hit.crossed);
+    VX_PRECISE vec3 passed = hit.t * axes.speed - (vec3(hit.crossed + axes.flip) + axes.offset);
     const vec3 along = clamp(passed, vec3(0.0f), vec3(1.0f));
     const float on_face = float(hit.face & 1u);
     vec3 fraction;

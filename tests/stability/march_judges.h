@@ -1,11 +1,13 @@
 #pragma once
 
-// What the hard cases of the march share: worlds, rays, and the judges of a march on the device.
+// What the hard cases of the march share: worlds, rays, the march on the device through every structure, and
+// its judges.
 
 #include <string>
 #include <vector>
 
 #include "support/march_probe.h"
+#include "support/plain_walk.h"
 #include "support/ray_families.h"
 
 namespace voxilux::test {
@@ -21,13 +23,35 @@ inline constexpr double kMarchMargin = 1e-3;
 [[nodiscard]] std::vector<gpu::Ray> family_named(const std::string& name, glm::ivec3 size, int count);
 [[nodiscard]] std::vector<gpu::Ray> all_families(glm::ivec3 size, int count);
 
-// March on the device and expect the cells of the walk in exact integers (exact_walk.h).
+// The world in every structure.
+[[nodiscard]] std::vector<MarchWorld> all_structures(const VoxelWorld& world);
+
+// What is wrong when the rays march through these structures on the device: two that differ in a bit of the
+// result, more steps than the world has planes, the step limit reached. Empty when nothing is; `agreed` then
+// holds what all found, with the way cleared: 0 steps, and misses without a cell.
+[[nodiscard]] std::string march_differences(const std::vector<MarchWorld>& structures,
+                                            const std::vector<gpu::Ray>& rays,
+                                            std::vector<gpu::MarchProbe>& agreed);
+
+// What the rays find on the device whatever the structure; fails the test when march_differences are found.
+[[nodiscard]] std::vector<gpu::MarchProbe> march_everywhere(const std::vector<MarchWorld>& structures,
+                                                            const std::vector<gpu::Ray>& rays);
+[[nodiscard]] std::vector<gpu::MarchProbe> march_everywhere(const VoxelWorld& world,
+                                                            const std::vector<gpu::Ray>& rays);
+
+// March everywhere and expect the cells of the walk in exact integers (exact_walk.h).
 void expect_exact_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
-// March on the device and expect cell, face and time of the plain walk, and the step bound.
+// March everywhere and expect cell, face, material, planes and time of the plain walk.
 void expect_plain_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
-// March on the device and expect what boxes in double precision allow.
+// March everywhere and expect an answer that the walk in real numbers allows (interval_walk.h).
+void expect_interval_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
+
+// March everywhere and expect what boxes in double precision allow.
 void expect_boxes(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
+
+// Where a march differs from the plain walk, in words; empty where it does not.
+[[nodiscard]] std::string difference(const gpu::MarchHit& got, const gpu::MarchHit& want);
 
 }  // namespace voxilux::test

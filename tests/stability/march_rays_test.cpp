@@ -84,7 +84,7 @@ TEST(HardCase, row03_two_solids_that_touch_along_an_edge_block_every_ray_through
                 rays.push_back(ray);
             }
         }
-        for (const gpu::MarchProbe& probe : test::march_on_device(build_march_world(world), rays))
+        for (const gpu::MarchProbe& probe : test::march_everywhere(world, rays))
             EXPECT_LT(probe.hit.face, gpu::kFaceInside) << "axis " << axis;
         test::expect_exact_walk(world, rays);
     }
@@ -94,7 +94,7 @@ TEST(HardCase, row04_origins_on_faces_edges_corners_and_in_solids_give_no_negati
     for (const std::string name : {"full", "random_0.3", "random_0.9"}) {
         const VoxelWorld& world = test::world_named(name);
         const std::vector<gpu::Ray> rays = test::all_families(world.size(), 500);
-        const auto got = test::march_on_device(build_march_world(world), rays);
+        const auto got = test::march_everywhere(world, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const bool starts_solid = world.get(rays[i].cell) != VoxelWorld::kEmpty && rays[i].t_max > 0.0f;
             ASSERT_EQ(got[i].hit.face == gpu::kFaceInside, starts_solid) << test::print(rays[i]);
@@ -107,11 +107,11 @@ TEST(HardCase, row04_origins_on_faces_edges_corners_and_in_solids_give_no_negati
 // From face to face and back: the way back meets the first solid again, on the same face.
 TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
     const VoxelWorld& world = test::world_named("random_0.02");
-    const MarchWorld march_world = build_march_world(world);
+    const std::vector<MarchWorld> structures = test::all_structures(world);
     std::vector<gpu::MarchProbe> first;
     std::vector<gpu::Ray> out;
     std::vector<gpu::Ray> rays = test::family_named("random", world.size(), 30000);
-    const std::vector<gpu::MarchProbe> start = test::march_on_device(march_world, rays);
+    const std::vector<gpu::MarchProbe> start = test::march_everywhere(structures, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (start[i].hit.face >= gpu::kFaceInside) continue;
         const gpu::Ray next = gpu::leave_surface(
@@ -120,7 +120,7 @@ TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
         first.push_back(start[i]);
         out.push_back(next);
     }
-    const std::vector<gpu::MarchProbe> second = test::march_on_device(march_world, out);
+    const std::vector<gpu::MarchProbe> second = test::march_everywhere(structures, out);
     std::vector<gpu::Ray> back;
     std::vector<gpu::MarchProbe> origin;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -130,7 +130,7 @@ TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
         origin.push_back(first[i]);
     }
     ASSERT_GT(back.size(), 500u);
-    const std::vector<gpu::MarchProbe> returned = test::march_on_device(march_world, back);
+    const std::vector<gpu::MarchProbe> returned = test::march_everywhere(structures, back);
     const std::vector<glm::ivec3> solids = test::solid_cells(world);
     int moved = 0;
     for (std::size_t i = 0; i < back.size(); ++i) {
@@ -142,39 +142,6 @@ TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
     }
     // Only rays within rounding (1e-5 voxel) of an edge may end on the neighbour: some ten in a million.
     EXPECT_LE(moved, 1);
-}
-
-TEST(HardCase, row07_shift_by_whole_voxels_and_scale_of_direction_by_powers_of_two_keep_the_cells) {
-    const VoxelWorld& world = test::world_named("random_0.02");
-    VoxelWorld shifted(glm::ivec3(0), world.chunks() + 1);
-    const glm::ivec3 shift(5, 11, 16);
-    for (const glm::ivec3& cell : test::solid_cells(world))
-        shifted.set(cell + shift, 1);
-    const std::vector<gpu::Ray> rays = test::all_families(world.size(), 400);
-    std::vector<gpu::Ray> moved = rays;
-    for (gpu::Ray& ray : moved)
-        ray.cell += shift;
-    std::vector<gpu::Ray> scaled = rays;
-    for (gpu::Ray& ray : scaled) {
-        ray.direction *= 0x1p20f;
-        ray.t_max *= 0x1p-20f;
-    }
-    const auto plain = test::march_on_device(build_march_world(world), rays);
-    const auto in_shifted = test::march_on_device(build_march_world(shifted), moved);
-    const auto with_scale = test::march_on_device(build_march_world(world), scaled);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_EQ(in_shifted[i].hit.face, plain[i].hit.face) << test::print(rays[i]);
-        if (plain[i].hit.face == gpu::kFaceMiss) continue;
-        ASSERT_EQ(in_shifted[i].hit.cell, plain[i].hit.cell + shift) << test::print(rays[i]);
-        ASSERT_EQ(in_shifted[i].hit.t, plain[i].hit.t) << test::print(rays[i]);
-        // Components that count as zero before the scale may count afterwards.
-        const glm::vec3 size = glm::abs(rays[i].direction);
-        if (std::ranges::any_of(std::array{size.x, size.y, size.z},
-                                [](float c) { return c > 0.0f && c < gpu::kMinDirection; }))
-            continue;
-        ASSERT_EQ(with_scale[i].hit.cell, plain[i].hit.cell) << test::print(rays[i]);
-        ASSERT_EQ(with_scale[i].hit.t, plain[i].hit.t * 0x1p-20f) << test::print(rays[i]);
-    }
 }
 
 TEST(HardCase, row08_directions_without_a_direction_miss_and_are_counted) {
@@ -193,7 +160,7 @@ TEST(HardCase, row08_directions_without_a_direction_miss_and_are_counted) {
     }
     for (const float tiny : {0.0f, -0.0f, denormal, 1e-30f})
         rays.push_back({{1, 1, 1}, glm::vec3(0.5f), glm::vec3(tiny, -tiny, tiny), gpu::kUnbounded});
-    const auto got = test::march_on_device(build_march_world(test::world_named("checkerboard")), rays);
+    const auto got = test::march_everywhere(test::world_named("checkerboard"), rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(got[i].hit.face, gpu::kFaceMiss) << test::print(rays[i]);
         ASSERT_EQ(got[i].hit.fault, gpu::kMarchUnsound) << test::print(rays[i]);
@@ -218,7 +185,7 @@ TEST(HardCase, row09_rays_from_up_to_eight_million_voxels_hit_the_voxels_of_the_
         std::vector<gpu::Ray> rays = test::family_named("random", world.size(), 400);
         for (gpu::Ray& ray : rays)
             ray.cell -= glm::ivec3(glm::floor(glm::dvec3(ray.direction) * static_cast<double>(distance)));
-        const auto got = test::march_on_device(build_march_world(world), rays);
+        const auto got = test::march_everywhere(world, rays);
         int hits = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const test::OracleBounds bounds = test::oracle_bounds(solids, rays[i], test::kMarchMargin);
@@ -274,7 +241,7 @@ TEST(HardCase, row10_interval_is_closed_at_the_start_open_at_the_end_and_empty_o
     std::vector<gpu::Ray> rays;
     for (const Case& c : cases)
         rays.push_back(c.ray);
-    const auto got = test::march_on_device(build_march_world(world), rays);
+    const auto got = test::march_everywhere(world, rays);
     for (std::size_t i = 0; i < cases.size(); ++i)
         EXPECT_EQ(got[i].hit.face != gpu::kFaceMiss, cases[i].hits) << i << ": " << test::print(rays[i]);
 }
@@ -285,7 +252,7 @@ TEST(HardCase, exact_walk_rejects_a_march_of_a_world_with_one_voxel_moved) {
     for (const glm::ivec3& cell : test::solid_cells(world))
         other.set(cell == glm::ivec3(8, 8, 8) ? glm::ivec3(8, 8, 9) : cell, 1);
     const std::vector<gpu::Ray> rays = test::family_named("axial_on_lattice", world.size(), 4000);
-    const auto got = test::march_on_device(build_march_world(other), rays);
+    const auto got = test::march_everywhere(other, rays);
     int caught = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const test::ExactHit want = test::exact_walk(world, rays[i]);
