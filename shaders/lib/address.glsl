@@ -10,7 +10,8 @@
 // A pointer of the push block, of type Name, made ready for loads and stores: take it once, before any branch.
 // Lavapipe holds a pointer as a vector, one address per invocation, and spills the vector at every access; when
 // the value comes from one invocation it holds one address, which makes loads about five times faster, faster
-// than those of a bound block, whose bounds it checks.
+// than those of a bound block, whose bounds it checks. That holds for elements of uint and uint64_t; vectors
+// are spilled all the same, so load two words as a uint64_t and unpack32() it.
 #define VX_POINTER(Name, pointer) Name(subgroupBroadcastFirst(uint64_t(pointer)))
 
 #endif
