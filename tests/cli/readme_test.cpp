@@ -69,6 +69,7 @@ std::set<std::string> real_flags() {
     std::set<std::string> flags = flags_in(run({"--help"}).out);
     for (const char* subcommand : {"render", "plan", "info", "devices", "compare"})
         flags.merge(flags_in(run({subcommand, "--help"}).out));
+    flags.merge(flags_in(run({"bench", "march", "--help"}).out));
     return flags;
 }
 

@@ -254,7 +254,7 @@ TEST(Streams, progress_for_programs_is_a_json_object_a_line) {
 }
 
 TEST(Streams, help_of_every_subcommand_is_on_standard_output) {
-    for (const char* command : {"render", "plan", "info", "devices", "compare"}) {
+    for (const char* command : {"render", "plan", "info", "devices", "compare", "bench"}) {
         const Ending ending = run({command, "--help"});
         EXPECT_EQ(ending.code, 0);
         EXPECT_EQ(ending.err, "");

@@ -52,6 +52,7 @@ WalkedHit walk_ray(const VoxelWorld& world, const gpu::Ray& ray) {
             if (axes[a].next_time() < axes[first].next_time()) first = a;
         if (!(axes[first].next_time() < ray.t_max)) return hit;
         WalkAxis& axis = axes[first];
+        hit.t = axis.next_time();
         ++axis.crossed;
         hit.cell[static_cast<int>(first)] += axis.step;
         face = static_cast<gpu::uint>(2 * first) + (axis.step < 0 ? 1u : 0u);

@@ -17,6 +17,7 @@ namespace voxilux {
 struct WalkedHit {
     glm::ivec3 cell{0};
     gpu::uint face = gpu::kFaceMiss;
+    float t = 0.0f;           // of entering the cell
     std::uint64_t cells = 0;  // visited
 };
 

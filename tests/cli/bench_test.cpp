@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/child_process.h"
+#include "support/scratch_folder.h"
+
+namespace voxilux::test {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+Words small_bench(const Words& more) {
+    Words words = {"bench", "march", "--size", "32x18", "--rounds", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::set<std::string> keys_of(const Json& object) {
+    std::set<std::string> keys;
+    for (const auto& [key, value] : object.items())
+        keys.insert(key);
+    return keys;
+}
+
+TEST(Bench, march_prints_rows_with_their_keys_and_no_mismatch) {
+    const Ending ending = run(small_bench({"--extent", "32", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(ending.err, "");
+    const std::set<std::string> keys = {"scene", "extent", "traversal", "rays", "mrays_per_cpu_s",
+                                        "mrays_per_s", "steps", "memory_bytes", "mismatches",
+                                        // Beyond the contract:
+                                        "fits", "count", "build_s", "checked"};
+    const Json rows = Json::parse(ending.out);
+    std::set<std::string> kinds;
+    for (const Json& row : rows) {
+        EXPECT_EQ(keys_of(row), keys);
+        EXPECT_EQ(row["extent"], 32);
+        EXPECT_EQ(row["mismatches"], 0) << row;
+        EXPECT_GT(row["checked"], 0);
+        kinds.insert(row["rays"]);
+    }
+    EXPECT_EQ(kinds, (std::set<std::string>{"primary", "ao", "long"}));
+}
+
+TEST(Bench, march_takes_lists_and_repeated_flags) {
+    const Ending ending = run(small_bench({"--extent", "32,48", "--traversal", "dda,naadf", "--traversal",
+                                           "dda", "--rays", "ao", "--rays", "primary", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    const Json rows = Json::parse(ending.out);
+    ASSERT_EQ(rows.size(), 8u);
+    EXPECT_EQ(rows[0]["traversal"], "dda");
+    EXPECT_EQ(rows[0]["rays"], "ao");
+    EXPECT_EQ(rows[3]["traversal"], "naadf");
+    EXPECT_EQ(rows[3]["rays"], "primary");
+    EXPECT_EQ(rows[3]["extent"], 32);
+    EXPECT_EQ(rows[4]["extent"], 48);
+}
+
+TEST(Bench, march_takes_scene_files_instead_of_procedural_worlds) {
+    const ScratchFolder scratch;
+    const Ending ending =
+        run(small_bench({scene_file("mixed"), "--traversal", "naadf", "--json", scratch / "rows.json"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_NE(ending.out.find("scene     mixed.toml"), std::string::npos) << ending.out;
+    const Json rows = Json::parse(bytes_of(scratch / "rows.json"));
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0]["scene"], "mixed.toml");
+    EXPECT_EQ(rows[0]["mismatches"], 0);
+}
+
+// A byte per voxel of 528^3 is 140 MiB: more than software devices bind.
+TEST(Bench, structure_that_does_not_fit_says_so) {
+    const Ending ending =
+        run(small_bench({"--extent", "528", "--traversal", "dda", "--rays", "primary", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    const Json rows = Json::parse(ending.out);
+    ASSERT_EQ(rows.size(), 1u);
+    if (rows[0]["fits"] == true) GTEST_SKIP() << "this device binds more";
+    EXPECT_EQ(keys_of(rows[0]),
+              (std::set<std::string>{"scene", "extent", "traversal", "rays", "fits", "reason"}));
+}
+
+TEST(Bench, scene_without_voxels_is_refused) {
+    const Ending ending = run(small_bench({scene_file("spheres")}));
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_NE(ending.err.find("there is no voxel to march to"), std::string::npos) << ending.err;
+}
+
+}  // namespace
+}  // namespace voxilux::test
