@@ -28,9 +28,11 @@ std::vector<gpu::Ray> moved_back(std::vector<gpu::Ray> rays, float distance) {
     return rays;
 }
 
-TEST(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
+class MarchOnDevice : public ::testing::TestWithParam<Traversal> {};
+
+TEST_P(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
-        const MarchWorld march_world = build_march_world(named.world);
+        const MarchWorld march_world = build_march_world(named.world, GetParam());
         std::vector<gpu::Ray> rays = all_rays(march_world.size(), 1500);
         for (const float distance : {40.0f, 3000.0f, 1e6f}) {
             const std::vector<gpu::Ray> far = moved_back(all_rays(march_world.size(), 300), distance);
@@ -44,9 +46,9 @@ TEST(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
     }
 }
 
-TEST(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
+TEST_P(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed + 1)) {
-        const MarchWorld march_world = build_march_world(named.world);
+        const MarchWorld march_world = build_march_world(named.world, GetParam());
         const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
         const std::vector<gpu::Ray> rays = all_rays(march_world.size(), solids.size() > 2000 ? 15 : 60);
         const auto got = test::march_on_device(march_world, rays);
@@ -58,7 +60,10 @@ TEST(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
     }
 }
 
-TEST(MarchOnDevice, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
+INSTANTIATE_TEST_SUITE_P(Probe, MarchOnDevice, ::testing::ValuesIn(all_traversals()),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
+TEST(MarchOnDeviceJudge, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
     const MarchWorld march_world = build_march_world(test::small_worlds(kSeed)[9].world);
     std::vector<gpu::Ray> rays = all_rays(march_world.size(), 100);
     const auto got = test::march_on_device(march_world, rays);

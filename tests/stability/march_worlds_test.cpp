@@ -72,6 +72,7 @@ TEST(HardCase, row13_one_voxel_rod_empty_full_checkerboard_and_thin_walls_agree_
         const bool is_big = test::solid_cells(world).size() > 1000;
         test::expect_boxes(world, test::all_families(world.size(), is_big ? 30 : 300));
         test::expect_plain_walk(world, test::all_families(world.size(), 1500));
+        test::expect_interval_walk(world, test::all_families(world.size(), 300));
     }
 }
 
@@ -84,6 +85,8 @@ TEST(HardCase, row14_sizes_that_are_no_power_of_two_agree_with_the_plain_walk) {
                                   {2, 257, 1},
                                   {255, 256, 257},
                                   {1023, 1, 2},
+                                  {2, 1, 1023},
+                                  {1, 2047, 257},
                                   {2047, 2, 1},
                                   {13, 14, 15},
                                   {16, 17, 31}}) {
@@ -98,6 +101,7 @@ TEST(HardCase, row14_sizes_that_are_no_power_of_two_agree_with_the_plain_walk) {
         }
         const VoxelWorld world = build_world(scene);
         test::expect_plain_walk(world, test::all_families(world.size(), 250));
+        test::expect_interval_walk(world, test::all_families(world.size(), 50));
     }
 }
 

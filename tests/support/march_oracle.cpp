@@ -70,14 +70,7 @@ std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const 
 
 std::vector<glm::ivec3> solid_cells(const VoxelWorld& world) {
     std::vector<glm::ivec3> cells;
-    const glm::ivec3 size = world.size();
-    for (int z = 0; z < size.z; ++z) {
-        for (int y = 0; y < size.y; ++y) {
-            for (int x = 0; x < size.x; ++x) {
-                if (world.get({x, y, z}) != VoxelWorld::kEmpty) cells.push_back({x, y, z});
-            }
-        }
-    }
+    world.for_each_voxel([&](glm::ivec3 cell, std::uint16_t) { cells.push_back(cell); });
     return cells;
 }
 

@@ -24,7 +24,7 @@ struct OracleBounds {
 [[nodiscard]] std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray,
                                        const gpu::MarchHit& hit, double margin);
 
-// Local cells of every filled voxel.
+// Local cells of every filled voxel, chunk by chunk.
 [[nodiscard]] std::vector<glm::ivec3> solid_cells(const VoxelWorld& world);
 
 }  // namespace voxilux::test
