@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/checked_cast.h"
-#include "shared/aadf.h"
 #include "shared/gpu_types.h"
 #include "world/build_fields.h"
+#include "world/world_view.h"
 
 namespace voxilux {
 namespace {
@@ -19,21 +19,21 @@ std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int lo
     return log2 == gpu::kBrickLog2 ? buffers.nodes : buffers.leaves;
 }
 
-// Steps alternate between the level's buffer and the scratch. Their number is odd, so a level that starts in
-// the scratch ends in its own buffer.
-static_assert(gpu::kAadfSteps % 2 == 1);
-
+// Steps alternate between the level's own buffer and the scratch; the first source is the one from which the
+// last step ends in its own buffer.
 void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buffers, Recording& recording) {
-    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level_cells(skeleton, log2).size(), "cells"),
+    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level_words(skeleton, log2).size(), "words"),
                             .chunks = skeleton.chunks_size,
                             .log2 = static_cast<gpu::uint>(log2)};
     WorldBuffers read = buffers;
     std::string& source = level_buffer(read, skeleton, log2);
-    std::string target = source;
-    source = buffers.grown;
-    for (gpu::uint step = 0; step < gpu::kAadfSteps; ++step) {
-        push.axis = step % 3;
-        push.bound = gpu::aadf_bound(step / 3);
+    std::string target = buffers.grown;
+    if (level_steps(log2) % 2 == 1) std::swap(source, target);
+    upload_words(source, level_words(skeleton, log2), recording);
+    for (std::uint32_t number = 0; number < level_steps(log2); ++number) {
+        const gpu::GrowthStep step = gpu::growth_step(number);
+        push.axis = step.axis;
+        push.bound = step.bound;
         recording.dispatch({.label = "world.grow",
                             .shader = "world_grow",
                             .extent = {push.count, 1, 1},
@@ -48,22 +48,47 @@ void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buf
     }
 }
 
+void record_sharing(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording) {
+    const GrowthNeeds needs = growth_needs(skeleton);
+    if (needs.table_bytes == 0) return;
+    const gpu::WorldMatchPush match{static_cast<gpu::uint>(skeleton.leaves.size() / 32),
+                                    checked_cast<gpu::uint>(needs.table_bytes / 4 - 1, "slots")};
+    recording.clear(buffers.table, 0xFFFFFFFFu);
+    recording.dispatch(
+        {.label = "world.match",
+         .shader = "world_match",
+         .extent = {match.count, 1, 1},
+         .bindings = {{"Leaves", buffers.leaves}, {"Table", buffers.table}, {"Places", buffers.places}},
+         .push = to_bytes(match)});
+    WorldBuffers above = buffers;
+    const gpu::WorldSharePush share{
+        checked_cast<gpu::uint>(level_words(skeleton, gpu::kBrickLog2).size(), "cells")};
+    recording.dispatch({.label = "world.share",
+                        .shader = "world_share",
+                        .extent = {share.count, 1, 1},
+                        .bindings = {{"Table", buffers.table},
+                                     {"Places", buffers.places},
+                                     {"Cells", level_buffer(above, skeleton, gpu::kBrickLog2)}},
+                        .push = to_bytes(share)});
+}
+
 }  // namespace
 
 void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording) {
-    const std::vector<int> levels = far_levels(skeleton.traversal);
+    const std::vector<int> levels = growing_levels(skeleton.traversal);
     const int root = gpu::root_log2(static_cast<gpu::uint>(skeleton.traversal));
     const auto grows = [&](int log2) { return std::ranges::find(levels, log2) != levels.end(); };
     if (!grows(root)) upload_words(buffers.roots, skeleton.roots, recording);
-    if (!grows(gpu::kBrickLog2) || root == gpu::kBrickLog2)
+    if (root == gpu::kBrickLog2 || !grows(gpu::kBrickLog2))
         upload_words(buffers.nodes, skeleton.nodes, recording);
     if (!grows(0)) upload_words(buffers.leaves, skeleton.leaves, recording);
     for (const int log2 : levels) {
-        if (level_cells(skeleton, log2).empty()) continue;
-        upload_words(buffers.grown, level_cells(skeleton, log2), recording);
-        if (log2 != root) upload_words(buffers.homes, level_homes(skeleton, log2), recording);
+        if (level_words(skeleton, log2).empty()) continue;
+        const std::vector<glm::uvec2> homes = level_homes(skeleton, log2);
+        if (!homes.empty()) recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
         record_growth(skeleton, log2, buffers, recording);
     }
+    record_sharing(skeleton, buffers, recording);
 }
 
 }  // namespace voxilux

@@ -7,14 +7,16 @@
 
 namespace voxilux {
 
-// Declared buffers that hold a world on the device. `grown` is scratch: as large as the largest level that
-// grows.
+// Declared buffers that hold a world on the device. Those from `homes` on are scratch of the build, of the
+// sizes that growth_needs says.
 struct WorldBuffers {
     std::string roots;
     std::string nodes;
     std::string leaves;
     std::string homes;
     std::string grown;
+    std::string table;
+    std::string places;
 };
 
 // Puts a skeleton (build_march_skeleton) on the device and grows its boxes there. The result has the bits of

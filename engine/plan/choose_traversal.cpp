@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kWorldBytes = 100'000'000;
 
 // Fastest first, as measured (engine/world/README.md).
-constexpr std::array kBySpeed = {Traversal::wide, Traversal::deep, Traversal::slim, Traversal::light};
+constexpr std::array kBySpeed = {Traversal::wide, Traversal::deep, Traversal::naadf};
 
 bool fits(const StructureBytes& bytes, std::uint64_t allowed, const DeviceLimits& limits) {
     const std::uint64_t largest = std::max({bytes.roots, bytes.nodes, bytes.leaves});

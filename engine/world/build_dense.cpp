@@ -71,7 +71,8 @@ void build_masks(const VoxelWorld& world, MarchWorld& built) {
             for (int y = 0; y < per_chunk; ++y)
                 for (int x = 0; x < per_chunk; ++x) {
                     const glm::ivec3 cell = chunk_cell * per_chunk + glm::ivec3(x, y, z);
-                    built.roots[gpu::grid_index(cell, grid)] = pack_masked(world, built, cell * edge, edge);
+                    built.roots[gpu::root_index(cell * edge, built.chunks_size, log2)] =
+                        pack_masked(world, built, cell * edge, edge);
                 }
     });
 }

@@ -9,12 +9,10 @@
 namespace voxilux {
 namespace {
 
-constexpr std::array<std::string_view, kTraversalCount> kNames = {"dda",   "brick4", "brick8", "naadf",
-                                                                  "light", "deep",   "wide",   "slim"};
-
+constexpr std::array<std::string_view, kTraversalCount> kNames = {"dda",   "brick4", "brick8",
+                                                                  "naadf", "deep",   "wide"};
 constexpr std::array<Traversal, kTraversalCount> kAll = {
-    Traversal::dda,   Traversal::brick4, Traversal::brick8, Traversal::naadf,
-    Traversal::light, Traversal::deep,   Traversal::wide,   Traversal::slim};
+    Traversal::dda, Traversal::brick4, Traversal::brick8, Traversal::naadf, Traversal::deep, Traversal::wide};
 
 }  // namespace
 
@@ -52,8 +50,9 @@ MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal) {
 
 MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
     MarchWorld built = build_march_skeleton(world, traversal);
-    for (const int log2 : far_levels(traversal))
+    for (const int log2 : growing_levels(traversal))
         grow_level(built, log2);
+    if (shares_leaves(traversal)) share_leaves(built);
     return built;
 }
 

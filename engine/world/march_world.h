@@ -13,8 +13,8 @@ namespace voxilux {
 
 // Structures that a ray can be marched through; shaders/shared/world_cell.h tells what each holds. All give
 // the same hits.
-enum class Traversal : std::uint8_t { dda, brick4, brick8, naadf, light, deep, wide, slim };
-inline constexpr std::size_t kTraversalCount = 8;
+enum class Traversal : std::uint8_t { dda, brick4, brick8, naadf, deep, wide };
+inline constexpr std::size_t kTraversalCount = 6;
 
 [[nodiscard]] std::span<const Traversal> all_traversals();
 
@@ -31,9 +31,9 @@ struct MarchWorld {
     std::vector<std::uint32_t> roots;  // dense, x fastest
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> leaves;
-    // Where the blocks of 64 cells are that have boxes to grow; not for the device's march.
-    std::vector<std::uint32_t> node_homes;  // chunk number of each block of nodes
-    std::vector<std::uint32_t> leaf_homes;  // chunk number * 64 + slot of each block of leaves
+    // Where the blocks of nodes and of leaves are whose boxes grow (world_cell.h: pack_home).
+    std::vector<glm::uvec2> node_homes;
+    std::vector<glm::uvec2> leaf_homes;
 
     [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }
     [[nodiscard]] std::uint64_t size_bytes() const {
@@ -45,8 +45,8 @@ struct MarchWorld {
 // Error(out_of_memory) when the structure cannot hold the world (dda: more than 255 materials).
 [[nodiscard]] MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal = Traversal::naadf);
 
-// The same with the boxes that may leave their parent left at the cell itself: a march through it is right
-// but slow. The device grows them (passes/world.h).
+// The same before its boxes grow: a march through it is right but slow. The device goes on from here
+// (passes/world.h).
 [[nodiscard]] MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal);
 
 }  // namespace voxilux

@@ -70,7 +70,7 @@ StructureBytes predict_bytes(const WorldCensus& census, Traversal traversal) {
             .roots = 4 * cells, .nodes = 64 * census.mixed_bricks8, .leaves = 1024 * census.mixed_bricks8};
     StructureBytes bytes{.roots = 4 * cells};
     if (gpu::has_brick_nodes(id)) bytes.nodes = 256 * census.mixed_chunks;
-    bytes.leaves = (gpu::has_far_voxels(id) ? 256 : 128) * census.mixed_bricks;
+    bytes.leaves = 128 * census.mixed_bricks;
     return bytes;
 }
 

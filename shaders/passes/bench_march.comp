@@ -19,10 +19,16 @@ layout(push_constant, scalar) uniform Push {
     BenchMarchPush push;
 };
 
+layout(constant_id = 0) const bool starts_outside = true;
+
 void main() {
     uint i = linear_id();
     if (i >= push.count) return;
-    WorldEntry entry = enter_world(rays[i], push.chunks << kChunkLog2);
+    WorldEntry entry;
+    entry.ray = rays[i];
+    entry.t = 0.0;
+    entry.enters = true;
+    if (starts_outside) entry = enter_world(rays[i], push.chunks << kChunkLog2);
     BenchHit hit;
     hit.cell = ivec3(-1);
     hit.face = kFaceMiss;

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// One step of growing the boxes of one level of the world: each empty cell along one axis, both ways. The level is
-// read as it was before the step, through its own block, and written to Grown.
+// One step of growing the boxes of one level of the world, a word per invocation. The level is read as it was before
+// the step, through its own block, and written to Grown.
 
 #include "lib/invocation.glsl"
 
@@ -12,10 +12,10 @@
 #include "shared/grow_distances.h"
 
 layout(scalar) readonly buffer Homes {
-    uint homes[];
+    uvec2 homes[];
 };
 layout(scalar) writeonly buffer Grown {
-    uint grown_cells[];
+    uint grown_words[];
 };
 layout(push_constant, scalar) uniform Push {
     WorldGrowPush push;
@@ -24,16 +24,13 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     uint i = linear_id();
     if (i >= push.count) return;
-    bool is_root = int(push.log2) == root_log2(traversal);
-    uint own = 0u;
-    if (is_root) own = load_root(i);
-    if (!is_root && push.log2 == uint(kBrickLog2)) own = load_node(i);
-    if (!is_root && push.log2 == 0u) own = load_leaf(i);
-    uint grown = own;
-    if (cell_state(own) == kCellEmpty) {
-        ivec3 cell = is_root ? grid_cell(i, (push.chunks << kChunkLog2) >> int(push.log2))
-                             : home_cell(homes[i >> 6u], i & 63u, int(push.log2), push.chunks);
-        grown = grown_cell(own, cell, int(push.log2), push.chunks, push.axis, push.bound);
+    int log2 = int(push.log2);
+    GrowthStep step = GrowthStep(push.axis, push.bound);
+    if (log2 == 0) {
+        grown_words[i] = grown_leaf_word(load_leaf(i), homes[i >> 5u], i & 31u, push.chunks, step);
+    } else {
+        uint own = log2 == root_log2(traversal) ? load_root(i) : load_node(i);
+        ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : home_cell(homes[i >> 6u], i & 63u);
+        grown_words[i] = grown_word(own, cell, log2, push.chunks, step);
     }
-    grown_cells[i] = grown;
 }

@@ -45,16 +45,10 @@ VX_FN MarchCell cell_of_mask(VX_WORLD_PARAM uint number, ivec3 local, int log2) 
 }
 
 VX_FN MarchCell cell_of_leaf(VX_WORLD_PARAM uint number, ivec3 local) {
-    const uint i = number * 64u + child_slot(local & 3);
     MarchCell found;
+    found.cell = cell_of_voxel(load_half_leaf(VX_WORLD_ARG number * 64u + child_slot(local & 3)));
     found.log2 = 0;
-    if (has_far_voxels(VX_TRAVERSAL)) {
-        found.cell = load_leaf(VX_WORLD_ARG i);
-        found.bits = kFarBits;
-    } else {
-        found.cell = cell_of_voxel(load_half_leaf(VX_WORLD_ARG i));
-        found.bits = kNearBits;
-    }
+    found.bits = kNearBits;
     return found;
 }
 
@@ -62,10 +56,9 @@ VX_FN MarchCell cell_of_leaf(VX_WORLD_PARAM uint number, ivec3 local) {
 // children.
 VX_FN MarchCell find_cell(VX_WORLD_PARAM ivec3 local, ivec3 chunks) {
     const int log2 = root_log2(VX_TRAVERSAL);
-    const ivec3 grid = (chunks << kChunkLog2) >> log2;
-    if (VX_TRAVERSAL == kTraversalDda) return cell_of_byte(VX_WORLD_ARG local, grid);
+    if (VX_TRAVERSAL == kTraversalDda) return cell_of_byte(VX_WORLD_ARG local, chunks << kChunkLog2);
     MarchCell found;
-    found.cell = load_root(VX_WORLD_ARG grid_index(local >> log2, grid));
+    found.cell = load_root(VX_WORLD_ARG root_index(local, chunks, log2));
     found.log2 = log2;
     found.bits = kFarBits;
     if (VX_TRAVERSAL == kTraversalBrick4 || VX_TRAVERSAL == kTraversalBrick8) {

@@ -8,10 +8,8 @@
 //   bricks brick8   cells of 8^3, no boxes   512-bit mask per brick     the same naadf    chunks, boxes <= 31
 //   bricks, boxes within       16 bits per voxel, boxes within the brick
 //                                     the chunk
-//   light    chunks, boxes <= 31      bricks, boxes <= 31        as naadf
-//   deep     chunks, boxes <= 31      bricks, boxes <= 31        a cell per voxel, boxes <= 31
+//   deep     chunks, boxes <= 31      bricks, boxes <= 31        16 bits per voxel, boxes <= 3
 //   wide     bricks, boxes <= 31      -                          as deep
-//   slim     bricks, boxes <= 31      -                          as naadf
 //
 // A cell is empty, filled with one material, or mixed (it has children). An empty cell with a box stores how
 // many further cells of its own size are empty in each of the directions -x +x -y +y -z +z: the box they span
@@ -28,11 +26,9 @@ VX_CONST(uint, kTraversalDda, 0u);
 VX_CONST(uint, kTraversalBrick4, 1u);
 VX_CONST(uint, kTraversalBrick8, 2u);
 VX_CONST(uint, kTraversalNaadf, 3u);
-VX_CONST(uint, kTraversalLight, 4u);
-VX_CONST(uint, kTraversalDeep, 5u);
-VX_CONST(uint, kTraversalWide, 6u);
-VX_CONST(uint, kTraversalSlim, 7u);
-VX_CONST(uint, kTraversalCount, 8u);
+VX_CONST(uint, kTraversalDeep, 4u);
+VX_CONST(uint, kTraversalWide, 5u);
+VX_CONST(uint, kTraversalCount, 6u);
 
 VX_CONST(uint, kCellEmpty, 0u);
 VX_CONST(uint, kCellSolid, 1u);
@@ -44,10 +40,8 @@ VX_CONST(uint, kCellPayloadMask, 0x3FFFFFFFu);
 VX_CONST(int, kBrickLog2, 2);  // a brick is 4^3 voxels
 VX_CONST(int, kChunkLog2, 4);  // a chunk is 16^3 voxels
 
-VX_CONST(uint, kFarBits, 5u);   // of a distance that may leave the parent
-VX_CONST(uint, kNearBits, 2u);  // of a distance inside the parent
-VX_CONST(int, kFarMax, 31);
-VX_CONST(int, kNearMax, 3);
+VX_CONST(uint, kFarBits, 5u);   // of a distance of roots and nodes
+VX_CONST(uint, kNearBits, 2u);  // of a distance of voxels, and of bricks that stay inside their chunk
 
 VX_CONST(uint, kVoxelSolidBit, 0x8000u);  // of the 16 bits of a voxel; the others hold material or distances
 VX_CONST(uint, kVoxelPayloadMask, 0x7FFFu);  // 32,768 materials
@@ -80,18 +74,16 @@ VX_FN uint child_slot(ivec3 local) {
 VX_FN int root_log2(uint traversal) {
     if (traversal == kTraversalDda) return 0;
     if (traversal == kTraversalBrick8) return 3;
-    const bool has_brick_roots =
-        traversal == kTraversalBrick4 || traversal == kTraversalWide || traversal == kTraversalSlim;
-    return has_brick_roots ? kBrickLog2 : kChunkLog2;
+    return traversal == kTraversalBrick4 || traversal == kTraversalWide ? kBrickLog2 : kChunkLog2;
 }
 
 // Whether chunks have bricks as children.
 VX_FN bool has_brick_nodes(uint traversal) {
-    return traversal == kTraversalNaadf || traversal == kTraversalLight || traversal == kTraversalDeep;
+    return traversal == kTraversalNaadf || traversal == kTraversalDeep;
 }
 
-// Whether the leaves are a cell per voxel, with boxes that may leave the brick.
-VX_FN bool has_far_voxels(uint traversal) {
+// Whether boxes may leave their parent on every level.
+VX_FN bool has_free_boxes(uint traversal) {
     return traversal == kTraversalDeep || traversal == kTraversalWide;
 }
 
@@ -102,6 +94,14 @@ VX_FN bool is_outside(ivec3 local, ivec3 size) {
 // Number of a root cell in a grid of `size` cells.
 VX_FN uint grid_index(ivec3 cell, ivec3 size) {
     return uint(cell.x) + uint(size.x) * (uint(cell.y) + uint(size.y) * uint(cell.z));
+}
+
+// Word of the roots that holds the cell of `local`. Bricks are in order of their chunks, 64 together: a ray
+// stays in few cache lines.
+VX_FN uint root_index(ivec3 local, ivec3 chunks, int log2) {
+    if (log2 == kBrickLog2)
+        return grid_index(local >> kChunkLog2, chunks) * 64u + child_slot((local >> kBrickLog2) & 3);
+    return grid_index(local >> log2, (chunks << kChunkLog2) >> log2);
 }
 
 // Cell of a grid by its number.
@@ -115,12 +115,16 @@ VX_FN ivec3 slot_cell(uint slot) {
     return ivec3(int(slot & 3u), int((slot >> 2u) & 3u), int(slot >> 4u));
 }
 
-// Cell of edge 2^log2 voxels that is the child `slot` of the block at `home`: for bricks a chunk number, for
-// voxels chunk number * 64 + slot of the brick.
-VX_FN ivec3 home_cell(uint home, uint slot, int log2, ivec3 chunks) {
-    if (log2 == kBrickLog2) return grid_cell(home, chunks) * 4 + slot_cell(slot);
-    const ivec3 brick = grid_cell(home >> 6u, chunks) * 4 + slot_cell(home & 63u);
-    return brick * 4 + slot_cell(slot);
+// A cell packed in two words: where a block of 64 cells is, in cells of the parent's edge. Components are
+// below 2^16.
+VX_FN uvec2 pack_home(ivec3 cell) {
+    return uvec2(uint(cell.x) | (uint(cell.y) << 16u), uint(cell.z));
+}
+
+// Cell that is the child `slot` of the block at `home`, in cells of its own edge.
+VX_FN ivec3 home_cell(uvec2 home, uint slot) {
+    const ivec3 parent = ivec3(int(home.x & 0xFFFFu), int(home.x >> 16u), int(home.y));
+    return parent * 4 + slot_cell(slot);
 }
 
 VX_END

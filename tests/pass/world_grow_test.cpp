@@ -32,7 +32,9 @@ MarchWorld grown_on_device(MarchWorld skeleton) {
                                declare(recording, "test.nodes", skeleton.nodes.size()),
                                declare(recording, "test.leaves", skeleton.leaves.size()),
                                declare(recording, "test.homes", needs.home_bytes / 4),
-                               declare(recording, "test.grown", needs.grown_bytes / 4)};
+                               declare(recording, "test.grown", needs.grown_bytes / 4),
+                               declare(recording, "test.table", needs.table_bytes / 4),
+                               declare(recording, "test.places", needs.place_bytes / 4)};
     record_world_build(skeleton, buffers, recording);
     for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
         recording.readback(name);

@@ -118,14 +118,13 @@ std::string first_lie(const VoxelWorld& world, const FilledCount& filled, const 
 StoredDistances stored_distances(MarchWorld& built, glm::ivec3 local) {
     const auto traversal = static_cast<gpu::uint>(built.traversal);
     const gpu::MarchCell found = gpu::find_cell(built, local, built.chunks_size);
-    if (far_levels(built.traversal).empty()) return {};
+    if (growing_levels(built.traversal).empty()) return {};
     const int root = gpu::root_log2(traversal);
-    std::uint32_t* cell = &built.roots[gpu::grid_index(local >> root, built.size() >> root)];
+    std::uint32_t* cell = &built.roots[gpu::root_index(local, built.chunks_size, root)];
     if (gpu::cell_state(*cell) == gpu::kCellMixed && gpu::has_brick_nodes(traversal))
         cell = &built.nodes[gpu::cell_payload(*cell) * 64u + gpu::child_slot((local >> gpu::kBrickLog2) & 3)];
     if (gpu::cell_state(*cell) != gpu::kCellMixed) return {cell, 0, found.bits, found.log2};
     const std::uint32_t leaf = gpu::cell_payload(*cell) * 64u + gpu::child_slot(local & 3);
-    if (gpu::has_far_voxels(traversal)) return {&built.leaves[leaf], 0, found.bits, 0};
     return {&built.leaves[leaf / 2], 16 * (leaf % 2), found.bits, 0};
 }
 

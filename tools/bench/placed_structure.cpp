@@ -36,6 +36,8 @@ void build_on_device(const MarchWorld& skeleton, Executor& executor) {
     WorldBuffers buffers = declare_structure(skeleton.traversal, bytes_of(skeleton), recording);
     buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
     buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
+    buffers.table = declare("bench.table", needs.table_bytes, false, recording);
+    buffers.places = declare("bench.places", needs.place_bytes, false, recording);
     record_world_build(skeleton, buffers, recording);
     executor.run(recording);
 }
@@ -47,12 +49,10 @@ void warm_up(Traversal traversal, Executor& executor) {
     build_on_device(build_march_skeleton(world, traversal), executor);
 }
 
-// Bytes that the structure takes even if all its bricks are equal: bricks of 16 bits per voxel may be stored
-// once for all.
+// Bytes that the structure takes even if all its bricks are equal: the paper's form stores those once.
 StructureBytes least_bytes(const VoxelWorld& world, Traversal traversal) {
-    const auto id = static_cast<gpu::uint>(traversal);
     StructureBytes least = predict_bytes(take_census(world), traversal);
-    if (gpu::root_log2(id) != 0 && !gpu::has_far_voxels(id)) least.leaves = 0;
+    if (traversal == Traversal::naadf) least.leaves = 0;
     return least;
 }
 
@@ -121,7 +121,7 @@ void place_from_cpu(PlacedStructure& placed, const VoxelWorld& world, const Devi
     const MarchWorld built = build_march_world(world, placed.traversal);
     placed.cpu_build = watch.elapsed().cpu;
     if (!is_fit(placed, built, limits)) return;
-    if (false && placed.device_build)
+    if (placed.device_build)
         compare_builds(built, executor);
     else
         upload(built, executor);
