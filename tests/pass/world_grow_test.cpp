@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "passes/world.h"
+#include "shared/hash.h"
+#include "shared/world_cell.h"
 #include "support/device_fixture.h"
 #include "support/ray_families.h"
 #include "world/build_fields.h"
@@ -58,6 +60,25 @@ TEST_P(WorldGrow, device_gives_the_bits_of_the_cpu_for_every_small_world) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
+// More cells than a dispatch of 65,535 groups in a row takes (hole 11 of the list of hard cases), of chunks
+// or of bricks.
+class WorldGrowNightly : public ::testing::TestWithParam<Traversal> {};
+
+TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the_cpu) {
+    if (far_levels(GetParam()).empty()) GTEST_SKIP() << "no boxes to grow";
+    const int log2 = gpu::root_log2(static_cast<gpu::uint>(GetParam()));
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(256, 128, 132) / (1 << (gpu::kChunkLog2 - log2)));
+    for (std::uint32_t i = 0; i < 3000; ++i)
+        world.set(glm::ivec3(gpu::pcg3d(glm::uvec3(i, kSeed, 1)) % glm::uvec3(world.size())), 1);
+    const MarchWorld want = build_march_world(world, GetParam());
+    ASSERT_GT(want.roots.size(), std::size_t{65535} * 64);
+    const MarchWorld got = grown_on_device(build_march_skeleton(world, GetParam()));
+    EXPECT_TRUE(got.roots == want.roots && got.nodes == want.nodes && got.leaves == want.leaves);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pass, WorldGrowNightly, ::testing::ValuesIn(all_traversals()),
                          [](const auto& one) { return std::string(name_of(one.param)); });
 
 TEST(WorldGrowJudge, sees_a_world_that_differs_by_one_voxel) {

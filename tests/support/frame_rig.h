@@ -3,6 +3,7 @@
 // Runs record_frame() on the test device and keeps what every pass wrote.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,9 @@ struct FramePlanes {
 // executor. The plan has one film band and every AOV.
 class FrameRig {
   public:
-    explicit FrameRig(const Scene& scene, Executor& executor = test_executor());
+    // The plan chooses the structure of the world when `traversal` is none.
+    explicit FrameRig(const Scene& scene, Executor& executor = test_executor(),
+                      std::optional<Traversal> traversal = std::nullopt);
 
     // Renders the sample in one piece into the film.
     FramePlanes render(std::uint32_t sample);
