@@ -1,17 +1,14 @@
-// The rays of `voxilux bench march` through Embree: one ray at a time on one thread, what a program without a
-// GPU would call. Prints rows of the same form, to be put side by side. Not a test: it is built where Embree
-// is installed.
+// `voxilux bench march` with Embree in the contest: the same rays, one at a time on one thread, as a program
+// without a GPU would ask. Not a test: it is built where Embree is installed.
 
 #include <xmmintrin.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
-#include "base/error.h"
-#include "bench/bench_flags.h"
+#include "bench/bench.h"
 #include "bench/embree_scene.h"
-#include "bench/stopwatch.h"
 #include "exit_message.h"
 #include "world/world_view.h"  // gives camera.h the world that it marches
 
@@ -34,19 +31,13 @@ class FlushDenormals {
     unsigned before_ = _mm_getcsr();
 };
 
-// One way to ask Embree, for the rays of one kind.
-struct Query {
-    BenchRow row;
-    bool is_occlusion = false;
-    const std::vector<gpu::Ray>* rays = nullptr;
-    Seconds best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-};
-
 struct RayList {
     RayKind kind;
     std::vector<gpu::Ray> rays;
     std::vector<gpu::BenchHit> marched;  // what the march finds
 };
+
+enum class Query : std::uint8_t { intersect1, occluded1 };
 
 bool is_hit(const gpu::BenchHit& hit) {
     return hit.face != gpu::kFaceMiss;
@@ -59,24 +50,13 @@ gpu::BenchHit march_one(const MarchWorld& guide, const gpu::Ray& ray) {
     return {.cell = hit.cell, .face = hit.face, .t = entry.t + hit.t, .steps = hit.steps};
 }
 
-Seconds ask(const EmbreeScene& embree, const Query& query, std::vector<gpu::BenchHit>& hits) {
-    hits.resize(query.rays->size());
-    const FlushDenormals flush;
-    const Stopwatch watch;
-    if (query.is_occlusion)
-        embree.find_occluded(*query.rays, hits);
-    else
-        embree.intersect(*query.rays, hits);
-    return watch.elapsed();
-}
-
 // Rays whose outcome differs from the march's. Embree's arithmetic is not exact: rays that graze an edge may
 // differ.
-std::uint64_t count_differences(const Query& query, std::span<const gpu::BenchHit> hits,
+std::uint64_t count_differences(Query query, std::span<const gpu::BenchHit> hits,
                                 std::span<const gpu::BenchHit> marched) {
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const bool same = query.is_occlusion || !is_hit(hits[i]) || !is_hit(marched[i]) ||
+        const bool same = query == Query::occluded1 || !is_hit(hits[i]) || !is_hit(marched[i]) ||
                           (hits[i].cell == marched[i].cell && hits[i].face == marched[i].face);
         if (is_hit(hits[i]) != is_hit(marched[i]) || !same) ++count;
     }
@@ -85,7 +65,8 @@ std::uint64_t count_differences(const Query& query, std::span<const gpu::BenchHi
 
 class EmbreeBench {
   public:
-    EmbreeBench(const BenchScene& scene, const BenchRequest& request) : scene_(scene), request_(request) {
+    EmbreeBench(const BenchScene& scene, const BenchRequest& request) : scene_(scene), embree_(scene.world) {
+        build_s_ = build_watch_.elapsed().cpu;
         const MarchWorld guide = build_march_world(scene.world);
         for (const RayKind kind : request.kinds) {
             RayList list{.kind = kind, .rays = bench_rays(scene, guide, kind, request.size, request.seed)};
@@ -95,76 +76,111 @@ class EmbreeBench {
         }
     }
 
-    std::vector<BenchRow> run() {
-        const Stopwatch watch;
-        const EmbreeScene embree(scene_.world);
-        build_s_ = watch.elapsed().cpu;
-        std::vector<Query> queries = plan_queries(embree);
-        std::vector<gpu::BenchHit> hits;
-        for (Query& query : queries) {
-            ask(embree, query, hits);
-            judge(query, hits);
-        }
-        for (int round = 0; round < request_.rounds; ++round) {
-            for (Query& query : queries) {
-                const Seconds taken = ask(embree, query, hits);
-                query.best = {std::min(query.best.cpu, taken.cpu), std::min(query.best.wall, taken.wall)};
-            }
-        }
-        std::vector<BenchRow> rows;
-        for (Query& query : queries) {
-            const double million = static_cast<double>(query.rays->size()) * 1e-6;
-            query.row.mrays_per_cpu_s = million / query.best.cpu;
-            query.row.mrays_per_s = million / query.best.wall;
-            rows.push_back(query.row);
-        }
-        return rows;
+    // A row for each query and kind of rays; says on standard error how many rays hit. They must not outlive
+    // this.
+    std::vector<Contestant> contestants() {
+        std::vector<Contestant> all;
+        for (const RayList& list : lists_)
+            all.push_back(contestant(Query::intersect1, list));
+        for (const RayList& list : lists_)
+            if (list.kind != RayKind::primary) all.push_back(contestant(Query::occluded1, list));
+        return all;
     }
 
   private:
-    std::vector<Query> plan_queries(const EmbreeScene& embree) const {
-        std::vector<Query> queries;
-        for (const bool is_occlusion : {false, true}) {
-            for (const RayList& list : lists_) {
-                if (is_occlusion && list.kind == RayKind::primary) continue;
-                queries.push_back(
-                    {.row = {.scene = scene_.name,
-                             .extent = scene_.extent,
-                             .traversal = is_occlusion ? "embree.occluded1" : "embree.intersect1",
-                             .rays = std::string(name_of(list.kind)),
-                             .count = list.rays.size(),
-                             .memory_bytes = embree.bytes(),
-                             .build_s = build_s_,
-                             .checked = list.rays.size()},
-                     .is_occlusion = is_occlusion,
-                     .rays = &list.rays});
-            }
-        }
-        return queries;
+    Contestant contestant(Query query, const RayList& list) {
+        BenchRow row{.scene = scene_.name,
+                     .extent = scene_.extent,
+                     .traversal = query == Query::occluded1 ? "embree.occluded1" : "embree.intersect1",
+                     .rays = std::string(name_of(list.kind)),
+                     .count = list.rays.size(),
+                     .memory_bytes = embree_.bytes(),
+                     .build_s = build_s_,
+                     .checked = list.rays.size()};
+        if (list.rays.empty()) return {.row = row};
+        ask(query, list, 1);
+        row.mismatches = count_differences(query, hits_, list.marched);
+        fmt::print(stderr, "{} {} {} {}: {} hits, the march finds {}\n", row.scene, row.extent, row.traversal,
+                   row.rays, std::ranges::count_if(hits_, is_hit),
+                   std::ranges::count_if(list.marched, is_hit));
+        return {.row = row,
+                .run = [this, query, &list](std::uint32_t repeats) { return ask(query, list, repeats); }};
     }
 
-    void judge(Query& query, std::span<const gpu::BenchHit> hits) const {
-        const auto list =
-            std::ranges::find_if(lists_, [&](const RayList& one) { return &one.rays == query.rays; });
-        query.row.mismatches = count_differences(query, hits, list->marched);
-        fmt::print(stderr, "{} {} {} {}: {} hits, the march finds {}\n", query.row.scene, query.row.extent,
-                   query.row.traversal, query.row.rays, std::ranges::count_if(hits, is_hit),
-                   std::ranges::count_if(list->marched, is_hit));
+    Seconds ask(Query query, const RayList& list, std::uint32_t repeats) {
+        hits_.resize(list.rays.size());
+        const FlushDenormals flush;
+        const Stopwatch watch;
+        for (std::uint32_t i = 0; i < repeats; ++i) {
+            if (query == Query::occluded1)
+                embree_.find_occluded(list.rays, hits_);
+            else
+                embree_.intersect(list.rays, hits_);
+        }
+        return watch.elapsed();
     }
 
     const BenchScene& scene_;
-    const BenchRequest& request_;
-    std::vector<RayList> lists_;
+    Stopwatch build_watch_;  // before what it times
+    EmbreeScene embree_;
     double build_s_ = 0.0;
+    std::vector<RayList> lists_;
+    std::vector<gpu::BenchHit> hits_;
 };
 
+bool is_embree(const BenchRow& row) {
+    return row.traversal.starts_with("embree.");
+}
+
+// The rate of the row over Embree's better one for the same rays.
+double rate_over_embree(const BenchRow& row, const std::vector<BenchRow>& rows) {
+    double best = 0.0;
+    for (const BenchRow& other : rows)
+        if (is_embree(other) && other.rays == row.rays) best = std::max(best, other.mrays_per_cpu_s);
+    return row.mrays_per_cpu_s / best;
+}
+
+// One line per structure: its rates per CPU second over Embree's, and their geometric mean.
+void print_ratios(const std::vector<BenchRow>& rows) {
+    for (auto row = rows.begin(); row != rows.end();) {
+        const auto end = std::find_if(
+            row, rows.end(), [&](const BenchRow& other) { return other.traversal != row->traversal; });
+        std::string line;
+        double logs = 0.0;
+        for (auto one = row; one != end; ++one) {
+            const double ratio = rate_over_embree(*one, rows);
+            line += fmt::format("  {} {:.2f}", one->rays, ratio);
+            logs += std::log(ratio);
+        }
+        if (!is_embree(*row) && row->reason.empty())
+            fmt::print(stderr, "{} {} {} over Embree:{}  mean {:.2f}\n", row->scene, row->extent,
+                       row->traversal, line, std::exp(logs / static_cast<double>(end - row)));
+        row = end;
+    }
+}
+
+std::vector<BenchRow> bench_both(const BenchScene& scene, const MarchBenchOptions& options,
+                                 const BenchRequest& request, Device& device) {
+    MarchBench march(scene, options, request, device);
+    EmbreeBench embree(scene, request);
+    std::vector<Contestant> contestants = march.contestants();
+    std::ranges::move(embree.contestants(), std::back_inserter(contestants));
+    std::vector<BenchRow> rows = run_contest(contestants, request.rounds);
+    print_ratios(rows);
+    return rows;
+}
+
 int run(int argc, char** argv) {
-    CLI::App app{"The rays of voxilux bench march through Embree, one at a time on one thread."};
-    BenchFlags flags;
-    add_bench_flags(app, flags);
+    CLI::App app{"voxilux bench march with Embree in the contest, one ray at a time on one thread."};
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    BenchMarchCommand command;
+    add_march_flags(app, command);
     CLI11_PARSE(app, argc, argv);
-    const BenchRequest request = bench_request(flags);
-    run_benchmark(flags, [&](const BenchScene& scene) { return EmbreeBench(scene, request).run(); });
+    const MarchBenchOptions options = march_options(command);
+    const BenchRequest request = bench_request(command.flags);
+    Device device = open_device({.selector = command.device});
+    run_benchmark(command.flags,
+                  [&](const BenchScene& scene) { return bench_both(scene, options, request, device); });
     return 0;
 }
 

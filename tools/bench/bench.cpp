@@ -21,26 +21,33 @@ std::vector<Traversal> traversals_of(const BenchMarchCommand& command) {
 
 }  // namespace
 
+void add_march_flags(CLI::App& command, BenchMarchCommand& march) {
+    add_bench_flags(command, march.flags);
+    add_word_list(command, "--traversal", march.traversals, "structures to march through (default all)")
+        ->type_name("NAME,...");
+    command.add_option("--device", march.device, "index or part of the name, see voxilux devices")
+        ->type_name("NAME");
+    command
+        .add_option("--build", march.build,
+                    "what builds the structures: cpu, device, or both to compare their bits (default cpu)")
+        ->type_name("WHO");
+}
+
+MarchBenchOptions march_options(const BenchMarchCommand& command) {
+    return {.traversals = traversals_of(command), .builder = builder_named(command.build)};
+}
+
 CLI::App* add_bench(CLI::App& app, BenchMarchCommand& march) {
     CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march");
     bench->require_subcommand(1);
     CLI::App* command = bench->add_subcommand(
         "march", "rays through each structure of a world, in millions per second of CPU and of wall time");
-    add_bench_flags(*command, march.flags);
-    add_word_list(*command, "--traversal", march.traversals, "structures to march through (default all)")
-        ->type_name("NAME,...");
-    command->add_option("--device", march.device, "index or part of the name, see voxilux devices")
-        ->type_name("NAME");
-    command
-        ->add_option("--build", march.build,
-                     "what builds the structures: cpu, device, or both to compare their bits (default cpu)")
-        ->type_name("WHO");
+    add_march_flags(*command, march);
     return bench;
 }
 
 int run_bench_march(const BenchMarchCommand& command) {
-    const MarchBenchOptions options{.traversals = traversals_of(command),
-                                    .builder = builder_named(command.build)};
+    const MarchBenchOptions options = march_options(command);
     const BenchRequest request = bench_request(command.flags);
     Device device = open_device({.selector = command.device});
     run_benchmark(command.flags,

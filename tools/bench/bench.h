@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/bench_flags.h"
+#include "bench/march_bench.h"
 
 namespace voxilux {
 
@@ -11,6 +11,12 @@ struct BenchMarchCommand {
     std::string device;
     std::string build = "cpu";
 };
+
+// Parsing fills `march`, which must outlive the app.
+void add_march_flags(CLI::App& command, BenchMarchCommand& march);
+
+// Throws Error(usage) for a name that does not exist.
+[[nodiscard]] MarchBenchOptions march_options(const BenchMarchCommand& command);
 
 // Declares the subcommand `bench` and what it measures; parsing fills `march`, which must outlive the app.
 CLI::App* add_bench(CLI::App& app, BenchMarchCommand& march);

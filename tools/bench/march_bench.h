@@ -3,8 +3,9 @@
 #include <vector>
 
 #include "bench/bench_flags.h"
+#include "bench/contest.h"
 #include "bench/placed_structure.h"
-#include "vk/device.h"
+#include "bench/ray_judge.h"
 
 namespace voxilux {
 
@@ -13,9 +14,40 @@ struct MarchBenchOptions {
     Builder builder = Builder::cpu;
 };
 
-// Marches the rays of a scene through each structure on the device and judges a share of the hits. The rounds
-// of all rows take turns, so that their ratios hold although the load of the machine changes. A structure
-// that the device cannot bind gives rows with a reason. Throws Error(out_of_memory) when the rays do not fit.
+// The rays of a scene and the structures to march them through, on the device.
+class MarchBench {
+  public:
+    // Throws Error(out_of_memory) when the device cannot bind the rays.
+    MarchBench(const BenchScene& scene, const MarchBenchOptions& options, const BenchRequest& request,
+               Device& device);
+
+    // A row for each structure and kind of rays, its hits judged; structures that the device cannot bind give
+    // rows with a reason. They must not outlive this.
+    [[nodiscard]] std::vector<Contestant> contestants();
+
+  private:
+    // The rays of a kind, on the device, with what some of them must meet.
+    struct RayList {
+        RayKind kind;
+        std::uint32_t count = 0;
+        Verdicts verdicts;
+    };
+
+    [[nodiscard]] RayList place_rays(RayKind kind, const std::vector<gpu::Ray>& rays,
+                                     const DeviceLimits& limits);
+    [[nodiscard]] BenchRow row_of(const PlacedStructure& structure, const RayList& rays) const;
+    void judge(BenchRow& row, const PlacedStructure& structure, const RayList& rays);
+    Seconds run(const PlacedStructure& structure, const RayList& rays, std::uint32_t repeats);
+    static Recording record_march(const PlacedStructure& structure, const RayList& rays,
+                                  std::uint32_t repeats);
+
+    const BenchScene& scene_;
+    Executor executor_;
+    std::vector<RayList> rays_;
+    std::vector<PlacedStructure> structures_;
+};
+
+// Marches all of it and returns the rows.
 [[nodiscard]] std::vector<BenchRow> bench_march(const BenchScene& scene, const MarchBenchOptions& options,
                                                 const BenchRequest& request, Device& device);
 
