@@ -12,6 +12,14 @@ run_tests() {
     ctest --test-dir "$folder" --no-tests=error --output-on-failure --parallel "$(nproc)" "$@"
 }
 
+# The shaders on the Mesa of backports: every test that runs them, and the rates of the march.
+test_newer_mesa() (
+    VK_DRIVER_FILES=$(setup/newer_mesa.sh) || exit 1
+    export VK_DRIVER_FILES
+    run_tests build/release --label-regex 'pass|probe|stability|analytic' --label-exclude nightly &&
+        build/release/voxilux bench march --extent 256,512,1024
+)
+
 check_format() {
     find engine shaders tools tests fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format-14 --dry-run --Werror
 }
@@ -35,6 +43,7 @@ install_packages picture tests
 if [ "$*" = --nightly ]; then
     build release
     check "nightly tests" run_tests build/release --label-regex nightly
+    check "newer Mesa" test_newer_mesa
 else
     check "format (clang-format-14 -i mends it)" check_format
     build asan unit_tests

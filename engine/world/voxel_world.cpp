@@ -43,6 +43,17 @@ void VoxelWorld::set(glm::ivec3 local, std::uint16_t material) {
     voxel = static_cast<std::uint16_t>(gpu::kVoxelSolidBit | material);
 }
 
+void VoxelWorld::put(glm::ivec3 local, std::uint16_t voxel) {
+    if (voxel != kEmpty) {
+        set(local, voxel & gpu::kVoxelPayloadMask);
+    } else if (get(local) != kEmpty) {
+        const std::uint32_t number =
+            (*chunk(local >> gpu::kChunkLog2))[gpu::child_slot((local >> gpu::kBrickLog2) & 3)];
+        bricks_[number][gpu::child_slot(local & 3)] = kEmpty;
+        --voxel_count_;
+    }
+}
+
 std::uint16_t VoxelWorld::get(glm::ivec3 local) const {
     if (!contains(local)) return kEmpty;
     const ChunkBricks* bricks = chunk(local >> gpu::kChunkLog2);

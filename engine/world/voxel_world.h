@@ -23,6 +23,9 @@ class VoxelWorld {
     // Fills a cell; `material` < 32768. The last call for a cell wins.
     void set(glm::ivec3 local, std::uint16_t material);
 
+    // Sets a cell to the 16 bits that get() gives: kEmpty clears it.
+    void put(glm::ivec3 local, std::uint16_t voxel);
+
     // The 16 bits of a voxel as world_cell.h has them: 0x8000 | material, or kEmpty. Outside the world all is
     // empty.
     [[nodiscard]] std::uint16_t get(glm::ivec3 local) const;

@@ -1,0 +1,266 @@
+#include "world/edit_world.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <tuple>
+
+#include "base/checked_cast.h"
+#include "world/build_fields.h"
+#include "world/world_view.h"
+
+namespace voxilux {
+namespace {
+
+// How far the boxes of a level depend on its cells: the sum of the longest looks of all rounds, 1 + 2 + 4 + 8
+// + 16.
+constexpr int kFarDependence = 31;
+
+// Cells low <= c < high.
+struct CellBounds {
+    glm::ivec3 low{std::numeric_limits<int>::max()};
+    glm::ivec3 high{std::numeric_limits<int>::min()};
+
+    [[nodiscard]] bool empty() const { return low.x >= high.x || low.y >= high.y || low.z >= high.z; }
+    void include(const CellBounds& other) {
+        if (other.empty()) return;
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+    void include(glm::ivec3 cell) { include(CellBounds{cell, cell + 1}); }
+    [[nodiscard]] CellBounds grown(int by) const { return empty() ? *this : CellBounds{low - by, high + by}; }
+    [[nodiscard]] CellBounds children() const { return empty() ? *this : CellBounds{low * 4, high * 4}; }
+    [[nodiscard]] bool contains(glm::ivec3 c) const {
+        return c.x >= low.x && c.y >= low.y && c.z >= low.z && c.x < high.x && c.y < high.y && c.z < high.z;
+    }
+};
+
+template <class Visit>
+void for_each_cell(CellBounds bounds, glm::ivec3 size, const Visit& visit) {
+    if (bounds.empty()) return;
+    const glm::ivec3 low = glm::max(bounds.low, glm::ivec3(0));
+    const glm::ivec3 high = glm::min(bounds.high, size);
+    for (int z = low.z; z < high.z; ++z)
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x)
+                visit(glm::ivec3(x, y, z));
+}
+
+bool is_empty(std::uint32_t cell) {
+    return gpu::cell_state(cell) == gpu::kCellEmpty;
+}
+
+// One edit of a structure with free boxes: first the states of cells, then the boxes from the largest cells
+// down.
+class Edit {
+  public:
+    Edit(const VoxelWorld& world, MarchWorld& built)
+        : world_(world), built_(built), has_nodes_(built.traversal == Traversal::deep) {}
+
+    void touch(glm::ivec3 brick) {
+        const std::uint32_t before = brick_state(brick);
+        const std::uint32_t after = pack(brick);
+        if (is_empty(before) && is_empty(after)) return;  // its box stays
+        leaves_.include(brick);
+        if (has_nodes_) open_chunk(brick >> 2);
+        *brick_word(brick) = after;
+        if (is_empty(before) != is_empty(after)) bricks_.include(brick);
+        if (has_nodes_) close_chunk(brick >> 2);
+    }
+
+    void grow() {
+        if (has_nodes_) bricks_.include(regrow(gpu::kChunkLog2, chunks_.grown(kFarDependence)).children());
+        leaves_.include(bricks_);
+        leaves_.include(regrow(gpu::kBrickLog2, bricks_.grown(kFarDependence)));
+        regrow_leaves(leaves_.grown(1));
+    }
+
+  private:
+    // The word of a brick; null inside a chunk that has no nodes.
+    std::uint32_t* brick_word(glm::ivec3 brick) {
+        if (!has_nodes_)
+            return &built_.roots[gpu::root_index(brick * 4, built_.chunks_size, gpu::kBrickLog2)];
+        const std::uint32_t root = chunk_word(brick >> 2);
+        if (gpu::cell_state(root) != gpu::kCellMixed) return nullptr;
+        return &built_.nodes[gpu::cell_payload(root) * 64 + gpu::child_slot(brick & 3)];
+    }
+
+    std::uint32_t& chunk_word(glm::ivec3 chunk) {
+        return built_.roots[gpu::grid_index(chunk, built_.chunks_size)];
+    }
+
+    std::uint32_t brick_state(glm::ivec3 brick) {
+        const std::uint32_t* word = brick_word(brick);
+        return word != nullptr ? *word : chunk_word(brick >> 2);
+    }
+
+    // The cell of a brick as the voxels have it now, with a block of its own when it is mixed.
+    std::uint32_t pack(glm::ivec3 brick) {
+        std::array<std::uint16_t, 64> voxels;
+        for (std::uint32_t i = 0; i < 64; ++i)
+            voxels[i] = world_.get(brick * 4 + gpu::slot_cell(i));
+        if (std::ranges::all_of(voxels, [&](std::uint16_t v) { return v == voxels[0]; }))
+            return gpu::cell_of_voxel(voxels[0]);
+        const auto number = checked_cast<std::uint32_t>(built_.leaves.size() / 32, "mixed bricks");
+        for (std::size_t i = 0; i < 64; i += 2)
+            built_.leaves.push_back(voxels[i] | (std::uint32_t{voxels[i + 1]} << 16));
+        built_.leaf_homes.push_back(gpu::pack_home(brick));
+        return gpu::make_cell(gpu::kCellMixed, number);
+    }
+
+    // Gives a chunk of one cell its 64 bricks.
+    void open_chunk(glm::ivec3 chunk) {
+        std::uint32_t& root = chunk_word(chunk);
+        if (gpu::cell_state(root) == gpu::kCellMixed) return;
+        const std::uint32_t content = is_empty(root) ? 0 : root;
+        if (is_empty(root)) chunks_.include(chunk);
+        bricks_.include(CellBounds{chunk, chunk + 1}.children());
+        root = gpu::make_cell(gpu::kCellMixed,
+                              checked_cast<std::uint32_t>(built_.nodes.size() / 64, "mixed chunks"));
+        built_.nodes.insert(built_.nodes.end(), 64, content);
+        built_.node_homes.push_back(gpu::pack_home(chunk));
+    }
+
+    // Takes them away when all have become one cell.
+    void close_chunk(glm::ivec3 chunk) {
+        std::uint32_t& root = chunk_word(chunk);
+        const auto cells = std::span(built_.nodes).subspan(std::size_t{gpu::cell_payload(root)} * 64, 64);
+        const bool all_empty = std::ranges::all_of(cells, is_empty);
+        const bool all_solid =
+            gpu::cell_state(cells[0]) == gpu::kCellSolid &&
+            std::ranges::all_of(cells, [&](std::uint32_t cell) { return cell == cells[0]; });
+        if (!all_empty && !all_solid) return;
+        if (all_empty) chunks_.include(chunk);
+        bricks_.include(CellBounds{chunk, chunk + 1}.children());
+        root = all_empty ? 0 : cells[0];
+    }
+
+    struct Growing {
+        glm::ivec3 cell;
+        std::uint32_t* word;
+        std::uint32_t before;
+        std::uint32_t next;
+    };
+
+    // The empty cells of roots or nodes in the bounds, their boxes set to nothing.
+    std::vector<Growing> take(int log2, CellBounds bounds) {
+        std::vector<Growing> taken;
+        for_each_cell(bounds, built_.size() >> log2, [&](glm::ivec3 cell) {
+            std::uint32_t* word = log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
+            if (word == nullptr || !is_empty(*word)) return;
+            taken.push_back({cell, word, *word, 0});
+            *word = 0;
+        });
+        return taken;
+    }
+
+    // Redoes the boxes of the roots or nodes in the bounds and returns the cells whose boxes are others now.
+    // The cells around them take part, so that each sees the steps of all it depends on, and get their boxes
+    // back.
+    CellBounds regrow(int log2, CellBounds bounds) {
+        CellBounds changed;
+        std::vector<Growing> taken = take(log2, bounds.grown(kFarDependence));
+        for (std::uint32_t number = 0; number < level_steps(log2); ++number) {
+            const gpu::GrowthStep step = gpu::growth_step(number);
+            for (Growing& one : taken)
+                one.next = gpu::grown_word(built_, *one.word, one.cell, log2, built_.chunks_size, step);
+            for (const Growing& one : taken)
+                *one.word = one.next;
+        }
+        for (const Growing& one : taken) {
+            if (!bounds.contains(one.cell)) *one.word = one.before;
+            if (*one.word != one.before) changed.include(one.cell);
+        }
+        return changed;
+    }
+
+    struct GrowingBrick {
+        glm::ivec3 cell;
+        std::uint32_t* word;
+        std::uint32_t before;
+        std::array<std::uint32_t, 32> next;
+    };
+
+    std::uint32_t* block(const GrowingBrick& one) {
+        return built_.leaves.data() + std::size_t{gpu::cell_payload(*one.word)} * 32;
+    }
+
+    // The mixed bricks in the bounds, each with a block of its own at the end of the leaves, its boxes set to
+    // nothing.
+    std::vector<GrowingBrick> take_bricks(CellBounds bounds) {
+        std::vector<GrowingBrick> taken;
+        for_each_cell(bounds, built_.chunks_size * 4, [&](glm::ivec3 cell) {
+            std::uint32_t* word = brick_word(cell);
+            if (word == nullptr || gpu::cell_state(*word) != gpu::kCellMixed) return;
+            taken.push_back({cell, word, *word, {}});
+            *word = pack(cell);
+        });
+        return taken;
+    }
+
+    void regrow_leaves(CellBounds bounds) {
+        const std::size_t kept = built_.leaf_homes.size();
+        std::vector<GrowingBrick> taken = take_bricks(bounds.grown(1));
+        for (std::uint32_t number = 0; number < level_steps(0); ++number) {
+            const gpu::GrowthStep step = gpu::growth_step(number);
+            for (GrowingBrick& one : taken) {
+                const glm::uvec2 home = gpu::pack_home(one.cell);
+                for (std::uint32_t i = 0; i < 32; ++i)
+                    one.next[i] =
+                        gpu::grown_leaf_word(built_, block(one)[i], home, i, built_.chunks_size, step);
+            }
+            for (const GrowingBrick& one : taken)
+                std::ranges::copy(one.next, block(one));
+        }
+        keep_changed(taken, bounds, kept);
+    }
+
+    // Bricks outside the bounds and those that have not changed get their old block back; the new blocks of
+    // the others move together behind the first `kept`.
+    void keep_changed(std::vector<GrowingBrick>& taken, CellBounds bounds, std::size_t kept) {
+        for (const GrowingBrick& one : taken) {
+            const std::uint32_t* old = built_.leaves.data() + std::size_t{gpu::cell_payload(one.before)} * 32;
+            if (!bounds.contains(one.cell) || std::equal(one.next.begin(), one.next.end(), old)) {
+                *one.word = one.before;
+                continue;
+            }
+            *one.word = gpu::make_cell(gpu::kCellMixed, static_cast<std::uint32_t>(kept));
+            std::ranges::copy(one.next, built_.leaves.data() + kept * 32);
+            built_.leaf_homes[kept++] = gpu::pack_home(one.cell);
+        }
+        built_.leaf_homes.resize(kept);
+        built_.leaves.resize(kept * 32);
+    }
+
+    const VoxelWorld& world_;
+    MarchWorld& built_;
+    bool has_nodes_;
+    CellBounds chunks_;  // that became empty or stopped being so
+    CellBounds bricks_;  // the same, and those whose chunk got or lost its nodes
+    CellBounds leaves_;  // bricks whose voxels were edited or whose surroundings changed
+};
+
+}  // namespace
+
+void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits) {
+    std::vector<glm::ivec3> bricks;
+    for (const VoxelEdit& edit : edits) {
+        world.put(edit.local, edit.voxel);
+        bricks.push_back(edit.local >> gpu::kBrickLog2);
+    }
+    if (!shares_leaves(built.traversal)) {
+        built = build_march_world(world, built.traversal);
+        return;
+    }
+    const auto order = [](glm::ivec3 a, glm::ivec3 b) {
+        return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+    };
+    std::ranges::sort(bricks, order);
+    bricks.erase(std::ranges::unique(bricks).begin(), bricks.end());
+    Edit edit(world, built);
+    for (const glm::ivec3 brick : bricks)
+        edit.touch(brick);
+    edit.grow();
+}
+
+}  // namespace voxilux

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "world/march_world.h"
+
+namespace voxilux {
+
+struct VoxelEdit {
+    glm::ivec3 local{0};      // inside the world
+    std::uint16_t voxel = 0;  // 16 bits as VoxelWorld::get gives them: kEmpty clears the cell
+};
+
+// Sets and clears voxels in a world and in its structure. Afterwards every cell and every box is what
+// build_march_world would make of the edited world; blocks of leaves may be numbered otherwise, and those
+// that are no longer used stay. wide and deep redo the boxes around the edits only: up to one brick around an
+// edit inside bricks that stay mixed, up to 31 cells around a brick or chunk that becomes empty or stops
+// being so. The other structures are built anew.
+void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits);
+
+}  // namespace voxilux

@@ -1,0 +1,113 @@
+// Edited structures against structures built anew from the edited voxels.
+
+#include "world/edit_world.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/ray_families.h"
+#include "world/world_view.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint32_t kSeed = 20265;
+
+// First voxel whose cell, with its box, differs between two structures; empty when there is none. Blocks may
+// be numbered otherwise.
+std::string first_difference(const MarchWorld& a, const MarchWorld& b) {
+    const glm::ivec3 size = a.size();
+    for (int z = 0; z < size.z; ++z) {
+        for (int y = 0; y < size.y; ++y) {
+            for (int x = 0; x < size.x; ++x) {
+                const gpu::MarchCell in_a = gpu::find_cell(a, {x, y, z}, a.chunks_size);
+                const gpu::MarchCell in_b = gpu::find_cell(b, {x, y, z}, b.chunks_size);
+                if (in_a.cell != in_b.cell || in_a.log2 != in_b.log2 || in_a.bits != in_b.bits)
+                    return fmt::format("({}, {}, {}): {:#x} at level {}, {:#x} at level {}", x, y, z,
+                                       in_a.cell, in_a.log2, in_b.cell, in_b.log2);
+            }
+        }
+    }
+    return "";
+}
+
+std::vector<VoxelEdit> random_edits(const VoxelWorld& world, int count, double clears, std::mt19937& dice) {
+    std::vector<VoxelEdit> edits;
+    for (int i = 0; i < count; ++i) {
+        const glm::ivec3 at(glm::uvec3(dice(), dice(), dice()) % glm::uvec3(world.size()));
+        const bool clear = static_cast<double>(dice() % 1000) < 1000.0 * clears;
+        edits.push_back(
+            {at, clear ? VoxelWorld::kEmpty : static_cast<std::uint16_t>(0x8000u | (dice() % 3))});
+    }
+    return edits;
+}
+
+class EditWorld : public ::testing::TestWithParam<Traversal> {};
+
+TEST_P(EditWorld, random_edits_of_every_small_world_equal_a_rebuild) {
+    std::mt19937 dice(kSeed);
+    for (test::NamedWorld& named : test::small_worlds(kSeed)) {
+        MarchWorld built = build_march_world(named.world, GetParam());
+        for (const int count : {1, 1, 7}) {
+            edit_world(named.world, built, random_edits(named.world, count, 0.4, dice));
+            ASSERT_EQ(first_difference(built, build_march_world(named.world, GetParam())), "") << named.name;
+        }
+    }
+}
+
+TEST_P(EditWorld, chunks_that_fill_empty_and_split_equal_a_rebuild) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(9, 2, 2));
+    MarchWorld built = build_march_world(world, GetParam());
+    const auto fill = [&](std::uint16_t voxel) {
+        std::vector<VoxelEdit> edits;
+        for (int i = 0; i < 4096; ++i)
+            edits.push_back({glm::ivec3(64 + i % 16, i / 16 % 16, i / 256), voxel});
+        edit_world(world, built, edits);
+        ASSERT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+    };
+    fill(0x8001);
+    const VoxelEdit hole{{70, 5, 5}, VoxelWorld::kEmpty};
+    edit_world(world, built, std::span(&hole, 1));
+    ASSERT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+    fill(0x8002);
+    fill(VoxelWorld::kEmpty);
+    EXPECT_EQ(world.voxel_count(), 0u);
+}
+
+TEST_P(EditWorld, a_voxel_far_away_keeps_the_boxes_around_it) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(40, 1, 1));
+    world.set({8, 8, 8}, 1);
+    MarchWorld built = build_march_world(world, GetParam());
+    const VoxelEdit far{{630, 3, 3}, 0x8001};
+    edit_world(world, built, std::span(&far, 1));
+    EXPECT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+}
+
+TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(3));
+    world.set({20, 20, 20}, 1);
+    const MarchWorld built = build_march_world(world, GetParam());
+    world.put({40, 20, 20}, 0x8001);
+    EXPECT_NE(first_difference(built, build_march_world(world, GetParam())), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()),
+                         [](const auto& one) { return std::string(name_of(one.param)); });
+
+TEST(EditWorldBlocks, an_edit_inside_a_mixed_brick_adds_few_blocks) {
+    std::mt19937 dice(kSeed);
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(4));
+    for (int i = 0; i < 20000; ++i)
+        world.set(glm::ivec3(glm::uvec3(dice(), dice(), dice()) % glm::uvec3(world.size())), 1);
+    MarchWorld built = build_march_world(world, Traversal::wide);
+    const std::size_t before = built.leaves.size() / 32;
+    const VoxelEdit edit{{30, 30, 30}, 0x8002};
+    edit_world(world, built, std::span(&edit, 1));
+    EXPECT_LE(built.leaves.size() / 32, before + 28)
+        << "the brick, its copy with boxes, and its 26 neighbours";
+}
+
+}  // namespace
+}  // namespace voxilux
