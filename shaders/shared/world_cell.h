@@ -2,14 +2,14 @@
 // in bricks of 4^3 and chunks of 16^3, in three arrays of words: roots (a dense grid), nodes, leaves. A
 // traversal uses those it needs:
 //
-//   name     roots                    nodes                      leaves
-//   dda      -                        -                          a byte per voxel: 0 empty, else material + 1
-//   brick4   cells of 4^3, no boxes   64-bit mask per brick      material of 16 bits per voxel of mixed
-//   bricks brick8   cells of 8^3, no boxes   512-bit mask per brick     the same naadf    chunks, boxes <= 31
-//   bricks, boxes within       16 bits per voxel, boxes within the brick
-//                                     the chunk
-//   deep     chunks, boxes <= 31      bricks, boxes <= 31        16 bits per voxel, boxes <= 3
-//   wide     bricks, boxes <= 31      -                          as deep
+//   name    roots                   nodes                   leaves
+//   dda     -                       -                       byte per voxel: 0 empty, else material + 1
+//   brick4  cells of 4^3, no boxes  64-bit mask per brick   16-bit material per voxel of mixed bricks
+//   brick8  cells of 8^3, no boxes  512-bit mask per brick  the same
+//   naadf   chunks, boxes <= 31     bricks, boxes <= 3      16 bits per voxel, boxes <= 3
+//                                   within the chunk        within the brick
+//   deep    chunks, boxes <= 31     bricks, boxes <= 31     16 bits per voxel, boxes <= 3
+//   wide    bricks, boxes <= 31     -                       as deep
 //
 // A cell is empty, filled with one material, or mixed (it has children). An empty cell with a box stores how
 // many further cells of its own size are empty in each of the directions -x +x -y +y -z +z: the box they span

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 #include <map>
 
@@ -48,6 +49,8 @@ std::string first_fault(const VoxelWorld& world, const test::DenseVoxels& dense,
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const gpu::MarchHit& hit = got[i].hit;
         std::string fault = test::difference(hit, test::walk_cells(dense, got[i].entry));
+        if (world.contains(rays[i].cell) && std::memcmp(&got[i].entry, &rays[i], sizeof rays[i]) != 0)
+            fault += " starts elsewhere";
         if (hit.steps > most || hit.fault != gpu::kMarchFine) fault += " takes too many steps or has a fault";
         if (i % kIntervalStride == 0 && world.contains(got[i].entry.cell))
             fault += test::disagreement(test::interval_walk(world, got[i].entry), hit);

@@ -11,6 +11,7 @@
 #include "support/ray_families.h"
 #include "world/aadf.h"
 #include "world/build_fields.h"
+#include "world/edit_world.h"
 #include "world/world_view.h"
 
 namespace voxilux {
@@ -84,6 +85,33 @@ TEST_P(EmptyBoxes, are_empty_for_random_fillings) {
 using EmptyBoxesNightly = EmptyBoxes;
 TEST_P(EmptyBoxesNightly, are_empty_for_thousands_of_random_fillings) {
     expect_truth(GetParam(), 5000, kSeed + 1);
+}
+
+// A cube of 1, 4 or 16 cells set to one material or cleared: a voxel, about a brick, about a chunk.
+std::vector<VoxelEdit> random_edits(glm::ivec3 size, std::mt19937& dice) {
+    constexpr std::array kEdges = {1, 1, 4, 4, 16};
+    const int edge = kEdges[dice() % kEdges.size()];
+    const bool is_aligned = dice() % 2 == 0;
+    glm::ivec3 corner(glm::uvec3(dice(), dice(), dice()) % glm::uvec3(size - edge + 1));
+    if (is_aligned) corner = corner / edge * edge;
+    const auto voxel = static_cast<std::uint16_t>(dice() % 2 == 0 ? 0u : gpu::kVoxelSolidBit | dice() % 3);
+    std::vector<VoxelEdit> edits;
+    for (int i = 0; i < edge * edge * edge; ++i)
+        edits.push_back({corner + glm::ivec3(i % edge, i / edge % edge, i / edge / edge), voxel});
+    return edits;
+}
+
+TEST_P(EmptyBoxes, are_empty_after_random_edits) {
+    std::mt19937 dice(kSeed + 5);
+    for (int filling = 0; filling < 8; ++filling) {
+        VoxelWorld world = random_filling(dice);
+        MarchWorld built = build_march_world(world, GetParam());
+        for (int edit = 0; edit < 8; ++edit) {
+            edit_world(world, built, random_edits(world.size(), dice));
+            ASSERT_EQ(test::first_lie(world, test::FilledCount(world), built), "")
+                << "filling " << filling << ", edit " << edit;
+        }
+    }
 }
 
 // The twin: wherever a distance that is one longer would reach a voxel, writing it is noticed.
