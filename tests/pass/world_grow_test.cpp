@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()),
 class WorldGrowNightly : public ::testing::TestWithParam<Traversal> {};
 
 TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the_cpu) {
-    if (far_levels(GetParam()).empty()) GTEST_SKIP() << "no boxes to grow";
+    if (growing_levels(GetParam()).empty()) GTEST_SKIP() << "no boxes to grow";
     const int log2 = gpu::root_log2(static_cast<gpu::uint>(GetParam()));
     VoxelWorld world(glm::ivec3(0), glm::ivec3(256, 128, 132) / (1 << (gpu::kChunkLog2 - log2)));
     for (std::uint32_t i = 0; i < 3000; ++i)
