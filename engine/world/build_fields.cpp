@@ -1,11 +1,12 @@
 #include "world/build_fields.h"
 
 #include <algorithm>
-#include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "base/checked_cast.h"
 #include "world/aadf.h"
+#include "world/leaf_block.h"
 #include "world/world_view.h"
 
 namespace voxilux {
@@ -18,50 +19,46 @@ std::uint32_t pack_near(const Extents& extents) {
     return packed;
 }
 
-std::uint64_t filled_mask(const VoxelWorld::Brick& brick) {
-    std::uint64_t mask = 0;
-    for (std::size_t i = 0; i < 64; ++i)
-        mask |= static_cast<std::uint64_t>(brick[i] != VoxelWorld::kEmpty) << i;
-    return mask;
-}
-
 bool is_uniform(const VoxelWorld::Brick& brick) {
     return std::ranges::all_of(brick, [&](std::uint16_t voxel) { return voxel == brick[0]; });
 }
 
-// Appends mixed bricks to the leaves. Boxes that stay inside the brick are made here, and such bricks are
-// stored once per distinct content.
+std::array<std::uint16_t, 64> confined_boxes(const VoxelWorld::Brick& brick) {
+    const std::array<Extents, 64> extents = grow_aadf_4(filled_mask(brick));
+    std::array<std::uint16_t, 64> boxes{};
+    for (std::size_t i = 0; i < 64; ++i)
+        boxes[i] = static_cast<std::uint16_t>(pack_near(extents[i]));
+    return boxes;
+}
+
+// Appends mixed bricks to the leaves, each distinct block of words once.
 class LeafStore {
   public:
-    explicit LeafStore(MarchWorld& built)
-        : built_(built), is_free_(gpu::has_free_boxes(static_cast<gpu::uint>(built.traversal))) {}
+    LeafStore(const VoxelWorld& world, MarchWorld& built)
+        : surroundings_(world), leaves_(built.leaves), is_free_(has_free_boxes(built.traversal)) {}
 
     // `cell` counts bricks.
     std::uint32_t add(const VoxelWorld::Brick& brick, glm::ivec3 cell) {
-        const auto number = checked_cast<std::uint32_t>(built_.leaves.size() / 32, "mixed bricks");
-        if (is_free_) {
-            built_.leaf_homes.push_back(gpu::pack_home(cell));
-            append(brick, {});
-            return number;
-        }
-        const std::string key(reinterpret_cast<const char*>(brick.data()), sizeof(brick));
-        const auto [known, is_new] = numbers_.try_emplace(key, number);
-        if (is_new) append(brick, grow_aadf_4(filled_mask(brick)));
+        const LeafBlock block =
+            leaf_block(brick, is_free_ ? near_boxes(surroundings_.around(cell)) : confined_boxes(brick));
+        const auto number = checked_cast<std::uint32_t>(leaves_.size() / block.size(), "mixed bricks");
+        const auto [known, is_new] = numbers_.try_emplace(block, number);
+        if (is_new) leaves_.insert(leaves_.end(), block.begin(), block.end());
         return known->second;
     }
 
   private:
-    void append(const VoxelWorld::Brick& brick, const std::array<Extents, 64>& extents) {
-        const auto half = [&](std::size_t i) {
-            return brick[i] != VoxelWorld::kEmpty ? std::uint32_t{brick[i]} : pack_near(extents[i]);
-        };
-        for (std::size_t i = 0; i < 64; i += 2)
-            built_.leaves.push_back(half(i) | (half(i + 1) << 16));
-    }
+    struct Hash {
+        std::size_t operator()(const LeafBlock& block) const {
+            return std::hash<std::string_view>()(
+                {reinterpret_cast<const char*>(block.data()), sizeof(block)});
+        }
+    };
 
-    MarchWorld& built_;
+    FilledMasks surroundings_;
+    std::vector<std::uint32_t>& leaves_;
     bool is_free_;
-    std::unordered_map<std::string, std::uint32_t> numbers_;
+    std::unordered_map<LeafBlock, std::uint32_t, Hash> numbers_;
 };
 
 using BrickCells = std::array<std::uint32_t, 64>;
@@ -118,7 +115,7 @@ void build_skeleton(const VoxelWorld& world, MarchWorld& built) {
     built.roots.assign(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y) *
                            static_cast<std::size_t>(grid.z),
                        gpu::make_cell(gpu::kCellEmpty, 0));
-    LeafStore store(built);
+    LeafStore store(world, built);
     world.for_each_chunk([&](glm::ivec3 chunk_cell, const VoxelWorld::ChunkBricks& numbers) {
         const std::uint32_t chunk = gpu::grid_index(chunk_cell, world.chunks());
         BrickCells cells = pack_chunk(world, numbers, chunk_cell, store);

@@ -7,6 +7,7 @@
 
 #include "base/checked_cast.h"
 #include "world/build_fields.h"
+#include "world/leaf_block.h"
 #include "world/world_view.h"
 
 namespace voxilux {
@@ -15,6 +16,8 @@ namespace {
 // How far the boxes of a level depend on its cells: the sum of the longest looks of all rounds, 1 + 2 + 4 + 8
 // + 16.
 constexpr int kFarDependence = 31;
+// In place of a block's number.
+constexpr std::uint32_t kNoBlock = gpu::kCellPayloadMask;
 
 // Cells low <= c < high.
 struct CellBounds {
@@ -61,7 +64,6 @@ class Edit {
         const std::uint32_t before = brick_state(brick);
         const std::uint32_t after = pack(brick);
         if (is_empty(before) && is_empty(after)) return;  // its box stays
-        leaves_.include(brick);
         if (has_nodes_) open_chunk(brick >> 2);
         *brick_word(brick) = after;
         if (is_empty(before) != is_empty(after)) bricks_.include(brick);
@@ -70,9 +72,23 @@ class Edit {
 
     void grow() {
         if (has_nodes_) bricks_.include(regrow(gpu::kChunkLog2, chunks_.grown(kFarDependence)).children());
-        leaves_.include(bricks_);
-        leaves_.include(regrow(gpu::kBrickLog2, bricks_.grown(kFarDependence)));
-        regrow_leaves(leaves_.grown(1));
+        regrow(gpu::kBrickLog2, bricks_.grown(kFarDependence));
+    }
+
+    // Gives a mixed brick the block that its voxels and those of the bricks around it call for.
+    void store_leaf(glm::ivec3 brick) {
+        if (!world_.contains(brick * 4)) return;
+        std::uint32_t* word = brick_word(brick);
+        if (word == nullptr || gpu::cell_state(*word) != gpu::kCellMixed) return;
+        const LeafBlock block =
+            leaf_block(world_.brick(world_.brick_number(brick)), near_boxes(surroundings_of(world_, brick)));
+        const std::size_t number = gpu::cell_payload(*word);
+        if (number != kNoBlock &&
+            std::equal(block.begin(), block.end(), built_.leaves.data() + number * block.size()))
+            return;
+        *word = gpu::make_cell(gpu::kCellMixed, checked_cast<std::uint32_t>(
+                                                    built_.leaves.size() / block.size(), "mixed bricks"));
+        built_.leaves.insert(built_.leaves.end(), block.begin(), block.end());
     }
 
   private:
@@ -94,18 +110,14 @@ class Edit {
         return word != nullptr ? *word : chunk_word(brick >> 2);
     }
 
-    // The cell of a brick as the voxels have it now, with a block of its own when it is mixed.
-    std::uint32_t pack(glm::ivec3 brick) {
-        std::array<std::uint16_t, 64> voxels;
-        for (std::uint32_t i = 0; i < 64; ++i)
-            voxels[i] = world_.get(brick * 4 + gpu::slot_cell(i));
-        if (std::ranges::all_of(voxels, [&](std::uint16_t v) { return v == voxels[0]; }))
-            return gpu::cell_of_voxel(voxels[0]);
-        const auto number = checked_cast<std::uint32_t>(built_.leaves.size() / 32, "mixed bricks");
-        for (std::size_t i = 0; i < 64; i += 2)
-            built_.leaves.push_back(voxels[i] | (std::uint32_t{voxels[i + 1]} << 16));
-        built_.leaf_homes.push_back(gpu::pack_home(brick));
-        return gpu::make_cell(gpu::kCellMixed, number);
+    // The cell of a brick as the voxels have it now, without its block yet when it is mixed.
+    std::uint32_t pack(glm::ivec3 brick) const {
+        const std::uint16_t first = world_.get(brick * 4);
+        for (std::uint32_t i = 1; i < 64; ++i) {
+            if (world_.get(brick * 4 + gpu::slot_cell(i)) != first)
+                return gpu::make_cell(gpu::kCellMixed, kNoBlock);
+        }
+        return gpu::cell_of_voxel(first);
     }
 
     // Gives a chunk of one cell its 64 bricks.
@@ -174,70 +186,11 @@ class Edit {
         return changed;
     }
 
-    struct GrowingBrick {
-        glm::ivec3 cell;
-        std::uint32_t* word;
-        std::uint32_t before;
-        std::array<std::uint32_t, 32> next;
-    };
-
-    std::uint32_t* block(const GrowingBrick& one) {
-        return built_.leaves.data() + std::size_t{gpu::cell_payload(*one.word)} * 32;
-    }
-
-    // The mixed bricks in the bounds, each with a block of its own at the end of the leaves, its boxes set to
-    // nothing.
-    std::vector<GrowingBrick> take_bricks(CellBounds bounds) {
-        std::vector<GrowingBrick> taken;
-        for_each_cell(bounds, built_.chunks_size * 4, [&](glm::ivec3 cell) {
-            std::uint32_t* word = brick_word(cell);
-            if (word == nullptr || gpu::cell_state(*word) != gpu::kCellMixed) return;
-            taken.push_back({cell, word, *word, {}});
-            *word = pack(cell);
-        });
-        return taken;
-    }
-
-    void regrow_leaves(CellBounds bounds) {
-        const std::size_t kept = built_.leaf_homes.size();
-        std::vector<GrowingBrick> taken = take_bricks(bounds.grown(1));
-        for (std::uint32_t number = 0; number < level_steps(0); ++number) {
-            const gpu::GrowthStep step = gpu::growth_step(number);
-            for (GrowingBrick& one : taken) {
-                const glm::uvec2 home = gpu::pack_home(one.cell);
-                for (std::uint32_t i = 0; i < 32; ++i)
-                    one.next[i] =
-                        gpu::grown_leaf_word(built_, block(one)[i], home, i, built_.chunks_size, step);
-            }
-            for (const GrowingBrick& one : taken)
-                std::ranges::copy(one.next, block(one));
-        }
-        keep_changed(taken, bounds, kept);
-    }
-
-    // Bricks outside the bounds and those that have not changed get their old block back; the new blocks of
-    // the others move together behind the first `kept`.
-    void keep_changed(std::vector<GrowingBrick>& taken, CellBounds bounds, std::size_t kept) {
-        for (const GrowingBrick& one : taken) {
-            const std::uint32_t* old = built_.leaves.data() + std::size_t{gpu::cell_payload(one.before)} * 32;
-            if (!bounds.contains(one.cell) || std::equal(one.next.begin(), one.next.end(), old)) {
-                *one.word = one.before;
-                continue;
-            }
-            *one.word = gpu::make_cell(gpu::kCellMixed, static_cast<std::uint32_t>(kept));
-            std::ranges::copy(one.next, built_.leaves.data() + kept * 32);
-            built_.leaf_homes[kept++] = gpu::pack_home(one.cell);
-        }
-        built_.leaf_homes.resize(kept);
-        built_.leaves.resize(kept * 32);
-    }
-
     const VoxelWorld& world_;
     MarchWorld& built_;
     bool has_nodes_;
     CellBounds chunks_;  // that became empty or stopped being so
     CellBounds bricks_;  // the same, and those whose chunk got or lost its nodes
-    CellBounds leaves_;  // bricks whose voxels were edited or whose surroundings changed
 };
 
 }  // namespace
@@ -248,7 +201,7 @@ void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit>
         world.put(edit.local, edit.voxel);
         bricks.push_back(edit.local >> gpu::kBrickLog2);
     }
-    if (!shares_leaves(built.traversal)) {
+    if (!has_free_boxes(built.traversal)) {
         built = build_march_world(world, built.traversal);
         return;
     }
@@ -261,6 +214,10 @@ void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit>
     for (const glm::ivec3 brick : bricks)
         edit.touch(brick);
     edit.grow();
+    for (const glm::ivec3 brick : bricks) {
+        for (int i = 0; i < 27; ++i)
+            edit.store_leaf(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+    }
 }
 
 }  // namespace voxilux

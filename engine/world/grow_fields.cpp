@@ -31,9 +31,9 @@ std::vector<int> growing_levels(Traversal traversal) {
         case Traversal::naadf:
             return {gpu::kChunkLog2};
         case Traversal::deep:
-            return {gpu::kChunkLog2, gpu::kBrickLog2, 0};
+            return {gpu::kChunkLog2, gpu::kBrickLog2};
         case Traversal::wide:
-            return {gpu::kBrickLog2, 0};
+            return {gpu::kBrickLog2};
         default:
             return {};
     }
@@ -58,7 +58,7 @@ std::uint32_t level_steps(int log2) {
 
 std::vector<glm::uvec2> level_homes(const MarchWorld& built, int log2) {
     if (log2 == gpu::kChunkLog2) return {};
-    if (log2 == 0) return built.leaf_homes;
+    if (log2 == 0) return {};
     if (!is_root(built, log2)) return built.node_homes;
     std::vector<glm::uvec2> homes(built.roots.size() / 64);
     for (std::uint32_t i = 0; i < homes.size(); ++i)
@@ -87,7 +87,8 @@ void grow_level(MarchWorld& built, int log2) {
 }
 
 bool shares_leaves(Traversal traversal) {
-    return gpu::has_free_boxes(static_cast<gpu::uint>(traversal));
+    (void)traversal;
+    return false;
 }
 
 void share_leaves(MarchWorld& built) {

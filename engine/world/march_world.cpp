@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "world/build_dense.h"
 #include "world/build_fields.h"
+#include "world/world_view.h"
 
 namespace voxilux {
 namespace {
@@ -18,6 +19,10 @@ constexpr std::array<Traversal, kTraversalCount> kAll = {
 
 std::span<const Traversal> all_traversals() {
     return kAll;
+}
+
+bool has_free_boxes(Traversal traversal) {
+    return gpu::has_free_boxes(static_cast<gpu::uint>(traversal));
 }
 
 std::string_view name_of(Traversal traversal) {

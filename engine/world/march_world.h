@@ -18,6 +18,9 @@ inline constexpr std::size_t kTraversalCount = 6;
 
 [[nodiscard]] std::span<const Traversal> all_traversals();
 
+// Whether boxes may leave their parent on every level.
+[[nodiscard]] bool has_free_boxes(Traversal traversal);
+
 [[nodiscard]] std::string_view name_of(Traversal traversal);
 
 // The traversal of that name; Error(usage) with the known names when there is none.
@@ -31,9 +34,8 @@ struct MarchWorld {
     std::vector<std::uint32_t> roots;  // dense, x fastest
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> leaves;
-    // Where the blocks of nodes and of leaves are whose boxes grow (world_cell.h: pack_home).
+    // Where the blocks of nodes are whose boxes grow (world_cell.h: pack_home).
     std::vector<glm::uvec2> node_homes;
-    std::vector<glm::uvec2> leaf_homes;
 
     [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }
     [[nodiscard]] std::uint64_t size_bytes() const {

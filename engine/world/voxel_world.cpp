@@ -67,6 +67,12 @@ const VoxelWorld::ChunkBricks* VoxelWorld::chunk(glm::ivec3 chunk_cell) const {
     return slot == kNoBrick ? nullptr : &chunk_bricks_[slot];
 }
 
+std::uint32_t VoxelWorld::brick_number(glm::ivec3 brick_cell) const {
+    if (!contains(brick_cell * 4)) return kNoBrick;
+    const ChunkBricks* bricks = chunk(brick_cell >> 2);
+    return bricks == nullptr ? kNoBrick : (*bricks)[gpu::child_slot(brick_cell & 3)];
+}
+
 VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
     const Box box = voxel_bounds(scene);
     if (box.empty()) return VoxelWorld(glm::ivec3(0), glm::ivec3(1));

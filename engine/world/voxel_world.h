@@ -43,6 +43,10 @@ class VoxelWorld {
     // The bricks of a chunk, or null when the chunk is empty.
     [[nodiscard]] const ChunkBricks* chunk(glm::ivec3 chunk_cell) const;
     [[nodiscard]] const Brick& brick(std::uint32_t number) const { return bricks_[number]; }
+    [[nodiscard]] std::size_t brick_count() const { return bricks_.size(); }
+
+    // Number of the brick at a cell counted in bricks; kNoBrick where all is empty, outside too.
+    [[nodiscard]] std::uint32_t brick_number(glm::ivec3 brick_cell) const;
 
     // Every chunk that is not empty, x fastest: visit(chunk cell, its bricks).
     template <class Visit>
