@@ -57,23 +57,16 @@ std::string spheres_buffer(const RenderPlan& plan, Recording& recording) {
     return use_or_placeholder(plan, plan.has(Effect::spheres), "sphere.records", recording);
 }
 
-std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording) {
-    return {{"Frame", use_buffer(plan, "frame", recording)},
-            {"Tally", use_buffer(plan, "tally", recording)},
-            {"Roots", use_or_placeholder(plan, plan.has(Effect::voxels), "world.roots", recording)},
-            {"Nodes", use_or_placeholder(plan, plan.has(Effect::voxels), "world.nodes", recording)},
-            {"Leaves", use_or_placeholder(plan, plan.has(Effect::voxels), "world.leaves", recording)},
-            {"Spheres", spheres_buffer(plan, recording)}};
-}
-
-Constant traversal_constant(const RenderPlan& plan) {
-    return {"traversal", static_cast<std::uint32_t>(plan.world.traversal)};
+WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
+    const bool on = plan.has(Effect::voxels);
+    return {.roots = use_or_placeholder(plan, on, "world.roots", recording),
+            .nodes = use_or_placeholder(plan, on, "world.nodes", recording),
+            .leaves = use_or_placeholder(plan, on, "world.leaves", recording)};
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
     return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u},
-            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u},
-            traversal_constant(plan)};
+            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
 }
 
 Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
@@ -82,10 +75,13 @@ Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const Surf
     Dispatch dispatch{.label = pass.label,
                       .shader = pass.shader,
                       .extent = pixel_extent(plan, slice),
-                      .bindings = surface_bindings(plan, recording),
+                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                                   {"Tally", use_buffer(plan, "tally", recording)},
+                                   {"Spheres", spheres_buffer(plan, recording)},
+                                   {"Hits", hits.buffer},
+                                   {pass.output_block, output.buffer}},
                       .constants = surface_constants(plan)};
-    dispatch.bindings.push_back({"Hits", hits.buffer});
-    dispatch.bindings.push_back({pass.output_block, output.buffer});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return output;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "passes/world.h"
 #include "plan/render_plan.h"
 #include "record/recording.h"
 
@@ -37,12 +38,11 @@ struct Slice {
 // Invocations of a pass over the pixels of a slice.
 [[nodiscard]] Extent pixel_extent(const RenderPlan& plan, const Slice& slice);
 
-// Bindings and constants of every pass that leaves surfaces (shaders/lib/surface.glsl). Structures of effects
-// that are off are bound to a placeholder word that no shader reads.
-[[nodiscard]] std::vector<Binding> surface_bindings(const RenderPlan& plan, Recording& recording);
-// Which structure the march reads (shaders/shared/world_cell.h).
-[[nodiscard]] Constant traversal_constant(const RenderPlan& plan);
+// The world's arrays, or a placeholder that no shader reads when the plan has no voxels. The scratch of the
+// build is left out.
+[[nodiscard]] WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording);
 
+// Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
 
 // The materials and the spheres, or the placeholder when the plan has none.

@@ -34,10 +34,8 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
     return {shape, sphere.material};
 }
 
-WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
-    WorldBuffers buffers{use_buffer(plan, "world.roots", recording),
-                         use_buffer(plan, "world.nodes", recording),
-                         use_buffer(plan, "world.leaves", recording)};
+WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
+    WorldBuffers buffers = world_buffers(plan, recording);
     if (plan.world.growth.steps == 0) return buffers;
     buffers.homes = use_buffer(plan, "world.homes", recording);
     buffers.grown = use_buffer(plan, "world.grown", recording);
@@ -51,9 +49,7 @@ WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
 
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          Recording& recording) {
-    if (plan.has(Effect::voxels)) {
-        record_world_build(march_world, world_buffers(plan, recording), recording);
-    }
+    if (plan.has(Effect::voxels)) record_world_build(march_world, build_buffers(plan, recording), recording);
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
         for (const Sphere& sphere : scene.spheres)

@@ -34,16 +34,14 @@ void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buf
         const gpu::GrowthStep step = gpu::growth_step(number);
         push.axis = step.axis;
         push.bound = step.bound;
-        recording.dispatch({.label = "world.grow",
-                            .shader = "world_grow",
-                            .extent = {push.count, 1, 1},
-                            .bindings = {{"Roots", read.roots},
-                                         {"Nodes", read.nodes},
-                                         {"Leaves", read.leaves},
-                                         {"Homes", buffers.homes},
-                                         {"Grown", target}},
-                            .constants = {{"traversal", static_cast<std::uint32_t>(skeleton.traversal)}},
-                            .push = to_bytes(push)});
+        Dispatch dispatch{.label = "world.grow",
+                          .shader = "world_grow",
+                          .extent = {push.count, 1, 1},
+                          .bindings = {{"Homes", buffers.homes}},
+                          .addresses = {{"grown", target}},
+                          .push = to_bytes(push)};
+        point_to_world(skeleton.traversal, read, dispatch);
+        recording.dispatch(std::move(dispatch));
         std::swap(source, target);
     }
 }
@@ -54,25 +52,31 @@ void record_sharing(const MarchWorld& skeleton, const WorldBuffers& buffers, Rec
     const gpu::WorldMatchPush match{static_cast<gpu::uint>(skeleton.leaves.size() / 32),
                                     checked_cast<gpu::uint>(needs.table_bytes / 4 - 1, "slots")};
     recording.clear(buffers.table, 0xFFFFFFFFu);
-    recording.dispatch(
-        {.label = "world.match",
-         .shader = "world_match",
-         .extent = {match.count, 1, 1},
-         .bindings = {{"Leaves", buffers.leaves}, {"Table", buffers.table}, {"Places", buffers.places}},
-         .push = to_bytes(match)});
+    recording.dispatch({.label = "world.match",
+                        .shader = "world_match",
+                        .extent = {match.count, 1, 1},
+                        .bindings = {{"Table", buffers.table}, {"Places", buffers.places}},
+                        .addresses = {{"leaves", buffers.leaves}},
+                        .push = to_bytes(match)});
     WorldBuffers above = buffers;
     const gpu::WorldSharePush share{
         checked_cast<gpu::uint>(level_words(skeleton, gpu::kBrickLog2).size(), "cells")};
     recording.dispatch({.label = "world.share",
                         .shader = "world_share",
                         .extent = {share.count, 1, 1},
-                        .bindings = {{"Table", buffers.table},
-                                     {"Places", buffers.places},
-                                     {"Cells", level_buffer(above, skeleton, gpu::kBrickLog2)}},
+                        .bindings = {{"Table", buffers.table}, {"Places", buffers.places}},
+                        .addresses = {{"cells", level_buffer(above, skeleton, gpu::kBrickLog2)}},
                         .push = to_bytes(share)});
 }
 
 }  // namespace
+
+void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
+    dispatch.addresses.push_back({"roots", buffers.roots});
+    dispatch.addresses.push_back({"nodes", buffers.nodes});
+    dispatch.addresses.push_back({"leaves", buffers.leaves});
+    dispatch.constants.push_back({"traversal", static_cast<std::uint32_t>(traversal)});
+}
 
 void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording) {
     const std::vector<int> levels = growing_levels(skeleton.traversal);

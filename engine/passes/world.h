@@ -19,6 +19,10 @@ struct WorldBuffers {
     std::string places;
 };
 
+// Lets a dispatch march through a world or read it: gives it the pointers and the constant that
+// shaders/lib/world_access.glsl asks for.
+void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch);
+
 // Puts a skeleton (build_march_skeleton) on the device and grows its boxes there. The result has the bits of
 // build_march_world.
 void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording);

@@ -17,8 +17,7 @@ constexpr std::array kBySpeed = {Traversal::wide, Traversal::deep, Traversal::na
 
 bool fits(const StructureBytes& bytes, std::uint64_t allowed, const DeviceLimits& limits) {
     const std::uint64_t largest = std::max({bytes.roots, bytes.nodes, bytes.leaves});
-    const std::uint64_t most = limits.has_addresses ? limits.max_allocation_bytes : limits.max_binding_bytes;
-    return largest <= std::min(most, limits.max_allocation_bytes) && bytes.total() <= allowed;
+    return largest <= limits.max_allocation_bytes && bytes.total() <= allowed;
 }
 
 }  // namespace

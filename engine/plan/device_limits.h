@@ -13,7 +13,6 @@ struct DeviceLimits {
     std::uint64_t max_allocation_bytes = std::uint64_t{2} << 30;  // one buffer
     std::array<std::uint32_t, 3> max_groups = {65535, 65535, 65535};
     std::uint32_t max_push_bytes = 128;
-    bool has_addresses = true;  // shaders may reach a buffer by its address: it may be larger than a binding
     bool is_cpu = true;
     std::string name = "lavapipe";
 

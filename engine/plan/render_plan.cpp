@@ -107,16 +107,19 @@ void list_buffers(RenderPlan& plan) {
     const auto persistent = [&](bool on, const std::string& name, std::uint64_t bytes) {
         if (on) plan.buffers.push_back({name, bytes, true});
     };
+    const auto by_address = [&](bool on, const std::string& name, std::uint64_t bytes, bool is_persistent) {
+        if (on) plan.buffers.push_back({name, bytes, is_persistent, true});
+    };
     const bool traced = plan.has(Effect::voxels) || plan.has(Effect::spheres);
     const std::uint64_t pixels = plan.slice_pixels();
     transient(true, "frame", sizeof(gpu::FrameParams));
     transient(true, "tally", gpu::kTallyCount * sizeof(gpu::uint));
-    persistent(plan.has(Effect::voxels), "world.roots", plan.world.root_bytes);
-    persistent(plan.has(Effect::voxels), "world.nodes", plan.world.node_bytes);
-    persistent(plan.has(Effect::voxels), "world.leaves", plan.world.leaf_bytes);
+    by_address(plan.has(Effect::voxels), "world.roots", plan.world.root_bytes, true);
+    by_address(plan.has(Effect::voxels), "world.nodes", plan.world.node_bytes, true);
+    by_address(plan.has(Effect::voxels), "world.leaves", plan.world.leaf_bytes, true);
     const bool grows = plan.has(Effect::voxels) && plan.world.growth.steps > 0;
     transient(grows, "world.homes", plan.world.growth.home_bytes);
-    transient(grows, "world.grown", plan.world.growth.grown_bytes);
+    by_address(grows, "world.grown", plan.world.growth.grown_bytes, false);
     const bool shares = grows && plan.world.growth.table_bytes > 0;
     transient(shares, "world.table", plan.world.growth.table_bytes);
     transient(shares, "world.places", plan.world.growth.place_bytes);
@@ -140,7 +143,8 @@ void list_buffers(RenderPlan& plan) {
 
 void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const DeviceLimits& limits) {
     for (const PlannedBuffer& planned : plan.buffers) {
-        const std::uint64_t limit = std::min(limits.max_binding_bytes, limits.max_allocation_bytes);
+        std::uint64_t limit = limits.max_allocation_bytes;
+        if (!planned.by_address) limit = std::min(limit, limits.max_binding_bytes);
         if (planned.bytes > limit) {
             throw Error(ExitCode::out_of_memory,
                         fmt::format("buffer '{}' needs {} bytes but {} takes {} at most; make the {} smaller",
@@ -170,7 +174,7 @@ void add_notes(RenderPlan& plan, const SceneFacts& facts) {
 }  // namespace
 
 WorldFacts measure_world(const MarchWorld& march_world) {
-    // A binding needs at least one word, also where a level has no cells.
+    // A buffer has at least one word, also where a level has no cells.
     const auto bytes = [](const std::vector<std::uint32_t>& words) {
         return std::max<std::uint64_t>(words.size(), 1) * sizeof(std::uint32_t);
     };

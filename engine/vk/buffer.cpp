@@ -32,21 +32,18 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed,
                 fmt::format("device '{}' has no memory for buffer '{}'", device.info.name, name));
 }
 
-VkBufferUsageFlags usage_of_buffers(const DeviceState& device) {
-    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    if (device.info.limits.has_addresses) usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    return usage;
-}
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
 // Gives the buffer memory of the type, mapped when it is cached memory of the host.
 void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t type, Buffer& buffer) {
     const std::string what = fmt::format("buffer '{}' ({} bytes)", buffer.name, buffer.bytes);
-    const bool has_addresses = device.info.limits.has_addresses;
     const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
                                           .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
     const VkMemoryAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                          .pNext = has_addresses ? &flags : nullptr,
+                                          .pNext = &flags,
                                           .allocationSize = bytes,
                                           .memoryTypeIndex = type};
     VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -58,11 +55,9 @@ void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t ty
         vk_check(vkMapMemory(device.handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "map " + what);
         buffer.mapped = static_cast<std::byte*>(mapped);
     }
-    if (has_addresses) {
-        const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
-                                             .buffer = buffer.handle.get()};
-        buffer.address = vkGetBufferDeviceAddress(device.handle, &info);
-    }
+    const VkBufferDeviceAddressInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                         .buffer = buffer.handle.get()};
+    buffer.address = vkGetBufferDeviceAddress(device.handle, &info);
     set_debug_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, to_bits(memory), buffer.name);
 }
 
@@ -77,7 +72,7 @@ Buffer create(const DeviceState& device, const std::string& name, std::uint64_t 
     Buffer buffer{.name = name, .bytes = bytes};
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .size = (bytes + 3) / 4 * 4,  // fills work on whole words
-                                  .usage = usage_of_buffers(device)};
+                                  .usage = kUsage};
     VkBuffer handle = VK_NULL_HANDLE;
     vk_check(vkCreateBuffer(device.handle, &info, nullptr, &handle), "create " + what);
     buffer.handle = {device.handle, handle};

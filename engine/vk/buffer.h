@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// A buffer with an allocation of its own. `mapped` is null when the host does not reach its memory, `address`
-// 0 when shaders of the device reach no buffer by address.
+// A buffer with an allocation of its own. `mapped` is null when the host does not reach its memory; `address`
+// is where shaders find it.
 struct Buffer {
     std::string name;
     std::uint64_t bytes = 0;

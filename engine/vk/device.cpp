@@ -21,11 +21,16 @@ std::string lower(std::string_view text) {
     return result;
 }
 
+// What keeps a device from being used comes first in its list.
+std::string first_lack(const DeviceInfo& device) {
+    return device.lacks.empty() ? "a lack: it cannot be used" : device.lacks.front();
+}
+
 std::string one_line(std::span<const DeviceInfo> devices) {
     std::string text;
     for (const DeviceInfo& device : devices)
         text += fmt::format("{}{}: {}{}", text.empty() ? "" : ", ", device.index, device.name,
-                            device.usable ? "" : " (not usable)");
+                            device.usable ? "" : fmt::format(" ({})", first_lack(device)));
     return text.empty() ? "none" : text;
 }
 
@@ -75,25 +80,21 @@ std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& device
     return infos;
 }
 
-// Enables scalar blocks and every optional feature that the device has, and notes what shaders must not use.
-// Bounds-checked buffers go with validation: they cost time on GPUs and turn a stray access into a defined
-// one.
+// Enables every known feature that the device has, and notes what shaders must not use. Bounds-checked
+// buffers go with validation: they cost time on GPUs and turn a stray access into a defined one.
 void create_logical_device(DeviceState& state, bool validation) {
     FeatureChain offered;
     query_features(state.physical, offered);
     FeatureChain enabled;
-    enabled.v12.scalarBlockLayout = VK_TRUE;
     enabled.base.features.robustBufferAccess =
         validation ? offered.base.features.robustBufferAccess : VK_FALSE;
-    for (const OptionalFeature& feature : optional_features()) {
+    for (const Feature& feature : known_features()) {
         *feature.member(enabled) = *feature.member(offered);
         if (*feature.member(offered) == VK_FALSE) {
             state.missing_capabilities.insert(state.missing_capabilities.end(), feature.capabilities.begin(),
                                               feature.capabilities.end());
         }
     }
-    if (!state.info.limits.has_addresses)
-        state.missing_capabilities.push_back(kPhysicalStorageBufferAddresses);
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = state.family,
@@ -163,8 +164,8 @@ std::size_t pick_device(std::span<const DeviceInfo> devices, std::string_view se
     }
     const DeviceInfo& device = devices[*found];
     if (device.usable) return *found;
-    throw Error(ExitCode::no_device, fmt::format("device {} ({}) has {}", device.index, device.name,
-                                                 device.lacks.empty() ? "a lack" : device.lacks.front()));
+    throw Error(ExitCode::no_device,
+                fmt::format("device {} ({}) has {}", device.index, device.name, first_lack(device)));
 }
 
 Device open_device(const DeviceRequest& request) {

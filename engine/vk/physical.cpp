@@ -13,38 +13,58 @@ FeatureChain::FeatureChain() {
     v11.pNext = &v12;
 }
 
-const std::vector<OptionalFeature>& optional_features() {
-    // Numbers of the capabilities: SPIR-V specification, section 3.31.
-    static const std::vector<OptionalFeature> features = {
-        {"no 64-bit integers (shaderInt64): exact 64-bit sums cannot run",
+const std::vector<Feature>& known_features() {
+    // Worlds are reached by address (shaders/lib/address.glsl), which takes more than the feature of that
+    // name. Numbers of the capabilities: SPIR-V specification, section 3.31.
+    static const std::vector<Feature> features = {
+        {"no scalar block layout (scalarBlockLayout)",
+         true,
+         [](FeatureChain& c) { return &c.v12.scalarBlockLayout; },
+         {}},
+        {"no buffer device addresses (bufferDeviceAddress)",
+         true,
+         [](FeatureChain& c) { return &c.v12.bufferDeviceAddress; },
+         {}},
+        {"no 64-bit integers (shaderInt64)",
+         true,
          [](FeatureChain& c) { return &c.base.features.shaderInt64; },
-         {11}},
+         {}},
+        {"no subgroup operations on 64-bit integers (shaderSubgroupExtendedTypes)",
+         true,
+         [](FeatureChain& c) { return &c.v12.shaderSubgroupExtendedTypes; },
+         {}},
         {"no 64-bit atomics (shaderBufferInt64Atomics): exact 64-bit sums of many threads cannot run",
+         false,
          [](FeatureChain& c) { return &c.v12.shaderBufferInt64Atomics; },
          {12}},
         {"no doubles (shaderFloat64): double-precision references cannot run on it",
+         false,
          [](FeatureChain& c) { return &c.base.features.shaderFloat64; },
          {10}},
         {"no 16-bit integers (shaderInt16)",
+         false,
          [](FeatureChain& c) { return &c.base.features.shaderInt16; },
          {22}},
-        {"no 8-bit integers (shaderInt8)", [](FeatureChain& c) { return &c.v12.shaderInt8; }, {39}},
+        {"no 8-bit integers (shaderInt8)", false, [](FeatureChain& c) { return &c.v12.shaderInt8; }, {39}},
         {"no 16-bit storage (storageBuffer16BitAccess)",
+         false,
          [](FeatureChain& c) { return &c.v11.storageBuffer16BitAccess; },
          {4433}},
         {"no 8-bit storage (storageBuffer8BitAccess)",
+         false,
          [](FeatureChain& c) { return &c.v12.storageBuffer8BitAccess; },
          {4448}},
-        {"no buffer device addresses (bufferDeviceAddress): buffers end at the binding limit",
-         [](FeatureChain& c) { return &c.v12.bufferDeviceAddress; },
-         {}},
-        {"no subgroup operations on 64-bit integers (shaderSubgroupExtendedTypes): buffers end at the "
-         "binding "
-         "limit",
-         [](FeatureChain& c) { return &c.v12.shaderSubgroupExtendedTypes; },
-         {}},
     };
     return features;
+}
+
+std::vector<std::string> missing_features(FeatureChain& offered, bool is_required) {
+    std::vector<std::string> lacks;
+    for (const Feature& feature : known_features()) {
+        if (feature.is_required == is_required && *feature.member(offered) == VK_FALSE)
+            lacks.emplace_back(feature.lack);
+    }
+    return lacks;
 }
 
 void query_features(VkPhysicalDevice device, FeatureChain& chain) {
@@ -102,12 +122,6 @@ bool has_ballots(VkPhysicalDevice device) {
            (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
 }
 
-// All that shaders/lib/address.glsl asks for.
-bool has_addresses(VkPhysicalDevice device, const FeatureChain& chain) {
-    return chain.v12.bufferDeviceAddress == VK_TRUE && chain.base.features.shaderInt64 == VK_TRUE &&
-           chain.v12.shaderSubgroupExtendedTypes == VK_TRUE && has_ballots(device);
-}
-
 void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info) {
     const int family = compute_family(device);
     info.usable = true;
@@ -120,13 +134,11 @@ void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info)
     if (!info.usable) return;
     FeatureChain chain;
     query_features(device, chain);
-    require(chain.v12.scalarBlockLayout == VK_TRUE, "no scalar block layout (scalarBlockLayout)");
-    info.limits.has_addresses = has_addresses(device, chain);
-    for (const OptionalFeature& feature : optional_features()) {
-        if (*feature.member(chain) == VK_FALSE) info.lacks.emplace_back(feature.lack);
-    }
-    if (!has_ballots(device))
-        info.lacks.emplace_back("no ballots of subgroups: buffers end at the binding limit");
+    for (const std::string& lack : missing_features(chain, true))
+        require(false, lack);
+    require(has_ballots(device), "no ballots of subgroups in compute shaders");
+    for (const std::string& lack : missing_features(chain, false))
+        info.lacks.push_back(lack);
     if (!has_timestamps(device, family)) info.lacks.emplace_back("no timestamps: passes show 0 ms");
 }
 
@@ -165,7 +177,6 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
                    .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                                   limits.maxComputeWorkGroupCount[2]},
                    .max_push_bytes = limits.maxPushConstantsSize,
-                   .has_addresses = false,
                    .is_cpu = base.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
                    .name = info.name};
     judge(device, base.apiVersion, info);

@@ -3,6 +3,7 @@
 #include <volk.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vk/device.h"
@@ -21,16 +22,17 @@ struct FeatureChain {
     VkPhysicalDeviceFeatures2 base{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
 };
 
-// A feature that shaders may use when the device has it, and what goes without it.
-struct OptionalFeature {
+// A feature that shaders use, and what goes without it: nothing, or all but that.
+struct Feature {
     const char* lack;  // sentence for DeviceInfo::lacks
+    bool is_required = false;
     VkBool32* (*member)(FeatureChain&);
-    std::vector<std::uint32_t> capabilities;  // SPIR-V capabilities that need it
+    std::vector<std::uint32_t> capabilities;  // SPIR-V capabilities that need it, where it is optional
 };
-[[nodiscard]] const std::vector<OptionalFeature>& optional_features();
+[[nodiscard]] const std::vector<Feature>& known_features();
 
-// The SPIR-V capability of shaders that reach buffers by address. It hangs on several features together.
-inline constexpr std::uint32_t kPhysicalStorageBufferAddresses = 5347;
+// One sentence for each known feature that is missing in `offered` and is or is not required.
+[[nodiscard]] std::vector<std::string> missing_features(FeatureChain& offered, bool is_required);
 
 // Fills `chain` with what the device offers; all false below Vulkan 1.2.
 void query_features(VkPhysicalDevice device, FeatureChain& chain);

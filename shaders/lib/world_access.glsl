@@ -1,27 +1,46 @@
-// The device side of march.h: the world's three arrays and the traversal that reads them.
+// The device side of march.h: the world's three arrays, reached by their addresses because each may be larger than a
+// binding, and the traversal that reads them. Include lib/address.glsl before any other file, define VX_PUSH before
+// this one to what the push block holds beside the world, and call open_world() at the start of main().
 #ifndef VX_WORLD_ACCESS_GLSL
 #define VX_WORLD_ACCESS_GLSL
 
+#include "shared/gpu_types.h"
+
+#ifndef VX_PUSH
+#define VX_PUSH
+#endif
+
 layout(constant_id = 10) const uint traversal = 0u;
 
-layout(scalar) readonly buffer Roots {
-    uint root_cells[];
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WorldWords {
+    uint words[];
 };
-layout(scalar) readonly buffer Nodes {
-    uint node_cells[];
-};
-layout(scalar) readonly buffer Leaves {
-    uint leaf_words[];
+layout(push_constant, scalar) uniform Push {
+    WorldWords roots;
+    WorldWords nodes;
+    WorldWords leaves;
+    VX_PUSH
 };
 
+WorldWords root_cells;
+WorldWords node_cells;
+WorldWords leaf_cells;
+
+// Takes the pointers once, while all invocations are active: VX_POINTER says why.
+void open_world() {
+    root_cells = VX_POINTER(WorldWords, roots);
+    node_cells = VX_POINTER(WorldWords, nodes);
+    leaf_cells = VX_POINTER(WorldWords, leaves);
+}
+
 uint load_root(uint i) {
-    return root_cells[i];
+    return root_cells.words[i];
 }
 uint load_node(uint i) {
-    return node_cells[i];
+    return node_cells.words[i];
 }
 uint load_leaf(uint i) {
-    return leaf_words[i];
+    return leaf_cells.words[i];
 }
 
 #define VX_WORLD_PARAM

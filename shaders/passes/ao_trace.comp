@@ -4,6 +4,8 @@
 
 // Share of cosine-weighted rays off each hit that meet nothing within the radius: 1 in the open, and for misses.
 
+#include "lib/address.glsl"
+
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
@@ -33,6 +35,7 @@ float trace_openness(Pixel pixel, Hit hit) {
 }
 
 void main() {
+    open_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

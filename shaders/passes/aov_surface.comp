@@ -4,6 +4,8 @@
 
 // Albedo and normal of each hit; zero for misses.
 
+#include "lib/address.glsl"
+
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 

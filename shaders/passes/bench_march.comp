@@ -4,8 +4,10 @@
 
 // First voxel that each ray of a list meets, entering the world as camera rays do: what `voxilux bench march` times.
 
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
+#define VX_PUSH BenchMarchPush push;
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 
@@ -15,13 +17,11 @@ layout(scalar) readonly buffer Rays {
 layout(scalar) writeonly buffer BenchHits {
     BenchHit hits[];
 };
-layout(push_constant, scalar) uniform Push {
-    BenchMarchPush push;
-};
 
 layout(constant_id = 0) const bool starts_outside = true;
 
 void main() {
+    open_world();
     uint i = linear_id();
     if (i >= push.count) return;
     WorldEntry entry;

@@ -4,6 +4,8 @@
 
 // First voxel that each camera ray of the slice meets.
 
+#include "lib/address.glsl"
+
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
@@ -28,6 +30,7 @@ Hit no_hit() {
 }
 
 void main() {
+    open_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = no_hit();

@@ -4,6 +4,8 @@
 
 // Replaces hits that lie behind an analytic sphere. Earlier hits are read with a stride, 0 when there are none.
 
+#include "lib/address.glsl"
+
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 

@@ -5,6 +5,8 @@
 // Sunlight that reaches each hit, as a share of the irradiance on a surface that faces the sun: visibility of a random
 // point of the sun's disc times the cosine. 0 for misses.
 
+#include "lib/address.glsl"
+
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
@@ -18,6 +20,7 @@ layout(scalar) writeonly buffer Sun {
 };
 
 void main() {
+    open_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

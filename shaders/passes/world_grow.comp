@@ -3,34 +3,35 @@
 #extension GL_GOOGLE_include_directive : require
 
 // One step of growing the boxes of one level of the world, a word per invocation. The level is read as it was before
-// the step, through its own block, and written to Grown.
+// the step, through its own pointer, and written to `grown`.
 
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer GrownWords {
+    uint words[];
+};
+
+#define VX_PUSH GrownWords grown; WorldGrowPush push;
 #include "lib/world_access.glsl"
-#include "shared/gpu_types.h"
 #include "shared/grow_distances.h"
 
 layout(scalar) readonly buffer Homes {
     uvec2 homes[];
 };
-layout(scalar) writeonly buffer Grown {
-    uint grown_words[];
-};
-layout(push_constant, scalar) uniform Push {
-    WorldGrowPush push;
-};
 
 void main() {
+    open_world();
+    GrownWords grown_words = VX_POINTER(GrownWords, grown);
     uint i = linear_id();
     if (i >= push.count) return;
     int log2 = int(push.log2);
     GrowthStep step = GrowthStep(push.axis, push.bound);
     if (log2 == 0) {
-        grown_words[i] = grown_leaf_word(load_leaf(i), homes[i >> 5u], i & 31u, push.chunks, step);
+        grown_words.words[i] = grown_leaf_word(load_leaf(i), homes[i >> 5u], i & 31u, push.chunks, step);
     } else {
         uint own = log2 == root_log2(traversal) ? load_root(i) : load_node(i);
         ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : home_cell(homes[i >> 6u], i & 63u);
-        grown_words[i] = grown_word(own, cell, log2, push.chunks, step);
+        grown_words.words[i] = grown_word(own, cell, log2, push.chunks, step);
     }
 }

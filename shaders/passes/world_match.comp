@@ -6,13 +6,14 @@
 // keeps the lowest number of its bricks. Slots never become free and bricks never change, so equal bricks meet in one
 // slot whatever the order of the invocations, and the table's last state does not depend on it.
 
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
 #include "shared/gpu_types.h"
 #include "shared/hash.h"
 
-layout(scalar) readonly buffer Leaves {
-    uint leaf_words[];
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LeafWords {
+    uint words[];
 };
 layout(scalar) coherent buffer Table {
     uint slots[];
@@ -21,29 +22,37 @@ layout(scalar) writeonly buffer Places {
     uint places[];
 };
 layout(push_constant, scalar) uniform Push {
+    LeafWords leaves;
     WorldMatchPush push;
 };
 
 const uint kFree = 0xFFFFFFFFu;
 const uint kBlockWords = 32u;
 
+LeafWords leaf_cells;
+
+uint leaf_word(uint i) {
+    return leaf_cells.words[i];
+}
+
 uint hash_of(uint brick) {
     uint hash = 0u;
     for (uint i = 0u; i < kBlockWords; i += 4u) {
         uint first = brick * kBlockWords + i;
-        hash ^= hash4(leaf_words[first] ^ hash, leaf_words[first + 1u], leaf_words[first + 2u], leaf_words[first + 3u]);
+        hash ^= hash4(leaf_word(first) ^ hash, leaf_word(first + 1u), leaf_word(first + 2u), leaf_word(first + 3u));
     }
     return hash;
 }
 
 bool are_equal(uint a, uint b) {
     for (uint i = 0u; i < kBlockWords; ++i) {
-        if (leaf_words[a * kBlockWords + i] != leaf_words[b * kBlockWords + i]) return false;
+        if (leaf_word(a * kBlockWords + i) != leaf_word(b * kBlockWords + i)) return false;
     }
     return true;
 }
 
 void main() {
+    leaf_cells = VX_POINTER(LeafWords, leaves);
     uint brick = linear_id();
     if (brick >= push.count) return;
     uint slot = hash_of(brick) & push.slot_mask;

@@ -4,8 +4,10 @@
 
 // Enters the world and marches once per element, as a camera ray does.
 
+#include "lib/address.glsl"
 #include "lib/invocation.glsl"
 
+#define VX_PUSH uint count; ivec3 chunks;
 #include "lib/world_access.glsl"
 #include "probe/march_functions.h"
 
@@ -15,12 +17,9 @@ layout(scalar) readonly buffer In {
 layout(scalar) writeonly buffer Out {
     MarchProbe outputs[];
 };
-layout(push_constant, scalar) uniform Push {
-    uint count;
-    ivec3 chunks;
-};
 
 void main() {
+    open_world();
     uint i = linear_id();
     if (i >= count) return;
     outputs[i] = probe_march(inputs[i], chunks);

@@ -58,9 +58,6 @@ Words values_at(const Words& indices) {
 
 class Addresses : public testing::Test {
   protected:
-    void SetUp() override {
-        if (!test_device().limits().has_addresses) GTEST_SKIP() << "this device has no buffer addresses";
-    }
     Executor executor_{test_device(), all_shaders()};  // no poison: large buffers take long to fill
 };
 

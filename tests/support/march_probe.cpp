@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/checked_cast.h"
+#include "passes/world.h"
 #include "support/device_fixture.h"
 
 namespace voxilux::test {
@@ -16,7 +17,7 @@ struct MarchPush {
     glm::ivec3 chunks;
 };
 
-// A binding needs at least one word, also where a level of the structure has no cells.
+// A buffer has at least one word, also where a level of the structure has no cells.
 std::vector<std::uint32_t> words_or_zero(const std::vector<std::uint32_t>& words) {
     return words.empty() ? std::vector<std::uint32_t>{0} : words;
 }
@@ -39,16 +40,14 @@ std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, cons
     upload(recording, "probe.leaves", words_or_zero(march_world.leaves));
     upload(recording, "probe.rays", rays);
     recording.declare({.name = "probe.marched", .size_bytes = count * sizeof(gpu::MarchProbe)});
-    recording.dispatch({.label = "probe.march",
-                        .shader = "march",
-                        .extent = {count, 1, 1},
-                        .bindings = {{"Roots", "probe.roots"},
-                                     {"Nodes", "probe.nodes"},
-                                     {"Leaves", "probe.leaves"},
-                                     {"In", "probe.rays"},
-                                     {"Out", "probe.marched"}},
-                        .constants = {{"traversal", static_cast<std::uint32_t>(march_world.traversal)}},
-                        .push = to_bytes(MarchPush{count, march_world.chunks_size})});
+    Dispatch dispatch{.label = "probe.march",
+                      .shader = "march",
+                      .extent = {count, 1, 1},
+                      .bindings = {{"In", "probe.rays"}, {"Out", "probe.marched"}},
+                      .push = to_bytes(MarchPush{count, march_world.chunks_size})};
+    point_to_world(march_world.traversal,
+                   {.roots = "probe.roots", .nodes = "probe.nodes", .leaves = "probe.leaves"}, dispatch);
+    recording.dispatch(std::move(dispatch));
     recording.readback("probe.marched");
     const RunResult result = test_executor().run(recording);
     const std::vector<std::byte>& bytes = result.readbacks.at("probe.marched");

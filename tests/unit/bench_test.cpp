@@ -189,10 +189,10 @@ TEST(BenchRows, mismatches_and_what_does_not_fit_have_lines_of_their_own) {
     wrong.checked = 500;
     wrong.mismatches = 2;
     BenchRow large = row("large", "ao", 0.0);
-    large.reason = "its roots take 512 MiB, the device binds 128 MiB";
+    large.reason = "its roots take 4096 MiB, the device allocates 2048 MiB at once";
     const std::string table = describe(std::vector<BenchRow>{wrong, large});
     EXPECT_NE(table.find("wrong ao: 2 of 500 rays meet another voxel"), std::string::npos) << table;
-    EXPECT_NE(table.find("does not fit: its roots take 512 MiB"), std::string::npos) << table;
+    EXPECT_NE(table.find("does not fit: its roots take 4096 MiB"), std::string::npos) << table;
     EXPECT_EQ(to_json(large)["fits"], false);
     EXPECT_EQ(to_json(large)["reason"], large.reason);
     EXPECT_FALSE(to_json(large).contains("mrays_per_cpu_s"));

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "vk/device.h"
+#include "vk/physical.h"
 
 namespace voxilux {
 namespace {
@@ -55,6 +56,32 @@ TEST(PickDevice, no_usable_device_is_no_device) {
     EXPECT_EQ(code_of({}, ""), ExitCode::no_device);
     EXPECT_EQ(code_of({kMany[3]}, ""), ExitCode::no_device);
     EXPECT_EQ(code_of(kMany, "old"), ExitCode::no_device);
+}
+
+TEST(PickDevice, refusal_names_what_the_device_lacks) {
+    DeviceInfo old = kMany[3];
+    old.lacks = {"no buffer device addresses (bufferDeviceAddress): it cannot be used", "no timestamps"};
+    for (const char* selector : {"", "old"}) {
+        try {
+            (void)pick_device(std::span(&old, 1), selector);
+            FAIL() << "picked";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(old.lacks[0]), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(KnownFeatures, each_that_is_missing_is_named_alone) {
+    FeatureChain offered;
+    for (const Feature& feature : known_features())
+        *feature.member(offered) = VK_TRUE;
+    EXPECT_TRUE(missing_features(offered, true).empty() && missing_features(offered, false).empty());
+    for (const Feature& feature : known_features()) {
+        *feature.member(offered) = VK_FALSE;
+        EXPECT_EQ(missing_features(offered, feature.is_required), std::vector<std::string>{feature.lack});
+        EXPECT_TRUE(missing_features(offered, !feature.is_required).empty());
+        *feature.member(offered) = VK_TRUE;
+    }
 }
 
 }  // namespace

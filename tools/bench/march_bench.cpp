@@ -116,11 +116,9 @@ Recording MarchBench::record_march(const PlacedStructure& structure, const RayLi
     Dispatch dispatch{.label = "bench.march",
                       .shader = "bench_march",
                       .extent = {rays.count, 1, 1},
-                      .bindings = bind_structure(structure, recording),
-                      .constants = {{"traversal", static_cast<std::uint32_t>(structure.traversal)}},
+                      .bindings = {{"Rays", inputs.name}, {"BenchHits", outputs.name}},
                       .push = to_bytes(gpu::BenchMarchPush{.count = rays.count, .chunks = structure.chunks})};
-    dispatch.bindings.push_back({"Rays", inputs.name});
-    dispatch.bindings.push_back({"BenchHits", outputs.name});
+    point_to_structure(structure, recording, dispatch);
     for (std::uint32_t i = 0; i < repeats; ++i)
         recording.dispatch(dispatch);
     return recording;

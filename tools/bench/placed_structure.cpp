@@ -17,7 +17,7 @@ std::string buffer_of(Traversal traversal, const char* part) {
     return fmt::format("bench.{}.{}", name_of(traversal), part);
 }
 
-// A binding needs at least one word, also where a level of a structure has no cells.
+// A buffer has at least one word, also where a level of a structure has no cells.
 std::string declare(const std::string& name, std::uint64_t bytes, bool is_persistent, Recording& recording) {
     recording.declare(
         {.name = name, .size_bytes = std::max<std::uint64_t>(bytes, 4), .persistent = is_persistent});
@@ -61,9 +61,9 @@ std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
     const auto mib = [](std::uint64_t count) { return static_cast<double>(count) / (1 << 20); };
     for (const auto& [part, count] : {std::pair("roots", bytes.roots), std::pair("nodes", bytes.nodes),
                                       std::pair("leaves", bytes.leaves)}) {
-        if (count > limits.max_binding_bytes) {
-            return fmt::format("its {} take {:.0f} MiB, the device binds {:.0f} MiB", part, mib(count),
-                               mib(limits.max_binding_bytes));
+        if (count > limits.max_allocation_bytes) {
+            return fmt::format("its {} take {:.0f} MiB, the device allocates {:.0f} MiB at once", part,
+                               mib(count), mib(limits.max_allocation_bytes));
         }
     }
     return "";
@@ -152,9 +152,9 @@ PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Bu
     return placed;
 }
 
-std::vector<Binding> bind_structure(const PlacedStructure& structure, Recording& recording) {
+void point_to_structure(const PlacedStructure& structure, Recording& recording, Dispatch& dispatch) {
     const WorldBuffers buffers = declare_structure(structure.traversal, structure.bytes, recording);
-    return {{"Roots", buffers.roots}, {"Nodes", buffers.nodes}, {"Leaves", buffers.leaves}};
+    point_to_world(structure.traversal, buffers, dispatch);
 }
 
 }  // namespace voxilux

@@ -29,12 +29,12 @@ struct PlacedStructure {
 };
 
 // Builds a structure of the world and puts it into persistent buffers. When both builders differ in a bit:
-// InternalError. What the device cannot bind has a reason instead, found before building where the size is
+// InternalError. What the device cannot hold has a reason instead, found before building where the size is
 // certain.
 [[nodiscard]] PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Builder builder,
                                               const DeviceLimits& limits, Executor& executor);
 
-// Declares the buffers of a structure in a recording and returns what a march binds to them.
-[[nodiscard]] std::vector<Binding> bind_structure(const PlacedStructure& structure, Recording& recording);
+// Declares the buffers of a structure in a recording and lets a dispatch march through it.
+void point_to_structure(const PlacedStructure& structure, Recording& recording, Dispatch& dispatch);
 
 }  // namespace voxilux
