@@ -41,11 +41,12 @@ Json json_of(const Words& words) {
 TEST(Report, render_has_exactly_its_keys) {
     const ScratchFolder scratch;
     const Json report = json_of(small_render(scratch, {"--json", "-", "--seed", "7"}));
-    EXPECT_EQ(keys_of(report), (Keys{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
-                                     "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
-                                     "error", "forecast", "faults",
-                                     // Beyond the contract:
-                                     "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings"}));
+    EXPECT_EQ(
+        keys_of(report),
+        (Keys{"version", "command", "scene_hash", "seed", "size", "device", "wall_s", "cpu_s", "peak_rss_mib",
+              "gpu_ms", "passes", "work", "memory", "effects", "error", "forecast", "faults",
+              // Beyond the contract:
+              "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings", "traversal"}));
     EXPECT_EQ(report["command"], "render");
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
@@ -53,7 +54,8 @@ TEST(Report, render_has_exactly_its_keys) {
     EXPECT_EQ(keys_of(report["device"]), (Keys{"name", "driver", "type"}));
     EXPECT_EQ(keys_of(report["error"]), (Keys{"metric", "estimate", "low", "high", "confidence"}));
     EXPECT_EQ(keys_of(report["forecast"]), (Keys{"low_s", "high_s"}));
-    ASSERT_EQ(report["passes"].size(), 8u);
+    EXPECT_EQ(keys_of(report["traversal"]), (Keys{"name", "reason"}));
+    ASSERT_EQ(report["passes"].size(), 9u);
     for (const Json& pass : report["passes"])
         EXPECT_EQ(keys_of(pass), (Keys{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
@@ -105,7 +107,8 @@ TEST(Report, plan_promises_what_the_render_does) {
     words[0] = "plan";
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan), (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
-                                   "memory", "forecast", "rays", "notes"}));
+                                   "memory", "forecast", "rays", "notes", "traversal"}));
+    EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["scene_hash"], report["scene_hash"]);
     ASSERT_EQ(plan["passes"].size(), report["passes"].size());
     std::map<std::string, int> done;
