@@ -39,9 +39,6 @@ WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
     if (plan.world.growth.steps == 0) return buffers;
     buffers.homes = use_buffer(plan, "world.homes", recording);
     buffers.grown = use_buffer(plan, "world.grown", recording);
-    if (plan.world.growth.table_bytes == 0) return buffers;
-    buffers.table = use_buffer(plan, "world.table", recording);
-    buffers.places = use_buffer(plan, "world.places", recording);
     return buffers;
 }
 

@@ -15,22 +15,22 @@ void upload_words(const std::string& buffer, const std::vector<std::uint32_t>& w
 }
 
 std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int log2) {
-    if (log2 == gpu::root_log2(static_cast<gpu::uint>(world.traversal))) return buffers.roots;
-    return log2 == gpu::kBrickLog2 ? buffers.nodes : buffers.leaves;
+    return log2 == gpu::root_log2(static_cast<gpu::uint>(world.traversal)) ? buffers.roots : buffers.nodes;
 }
 
-// Steps alternate between the level's own buffer and the scratch; the first source is the one from which the
-// last step ends in its own buffer.
+// Steps alternate between the level's own buffer and the scratch. Their number is odd: a level that starts in
+// the scratch ends in its own buffer.
+static_assert(gpu::kGrowthSteps % 2 == 1);
+
 void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buffers, Recording& recording) {
-    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level_words(skeleton, log2).size(), "words"),
-                            .chunks = skeleton.chunks_size,
-                            .log2 = static_cast<gpu::uint>(log2)};
+    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level_words(skeleton, log2).size(), "cells"),
+                            .chunks = skeleton.chunks_size};
     WorldBuffers read = buffers;
     std::string& source = level_buffer(read, skeleton, log2);
     std::string target = buffers.grown;
-    if (level_steps(log2) % 2 == 1) std::swap(source, target);
+    std::swap(source, target);
     upload_words(source, level_words(skeleton, log2), recording);
-    for (std::uint32_t number = 0; number < level_steps(log2); ++number) {
+    for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
         const gpu::GrowthStep step = gpu::growth_step(number);
         push.axis = step.axis;
         push.bound = step.bound;
@@ -39,34 +39,12 @@ void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buf
                           .extent = {push.count, 1, 1},
                           .bindings = {{"Homes", buffers.homes}},
                           .addresses = {{"grown", target}},
+                          .constants = {{"level", static_cast<std::uint32_t>(log2)}},
                           .push = to_bytes(push)};
         point_to_world(skeleton.traversal, read, dispatch);
         recording.dispatch(std::move(dispatch));
         std::swap(source, target);
     }
-}
-
-void record_sharing(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording) {
-    const GrowthNeeds needs = growth_needs(skeleton);
-    if (needs.table_bytes == 0) return;
-    const gpu::WorldMatchPush match{static_cast<gpu::uint>(skeleton.leaves.size() / 32),
-                                    checked_cast<gpu::uint>(needs.table_bytes / 4 - 1, "slots")};
-    recording.clear(buffers.table, 0xFFFFFFFFu);
-    recording.dispatch({.label = "world.match",
-                        .shader = "world_match",
-                        .extent = {match.count, 1, 1},
-                        .bindings = {{"Table", buffers.table}, {"Places", buffers.places}},
-                        .addresses = {{"leaves", buffers.leaves}},
-                        .push = to_bytes(match)});
-    WorldBuffers above = buffers;
-    const gpu::WorldSharePush share{
-        checked_cast<gpu::uint>(level_words(skeleton, gpu::kBrickLog2).size(), "cells")};
-    recording.dispatch({.label = "world.share",
-                        .shader = "world_share",
-                        .extent = {share.count, 1, 1},
-                        .bindings = {{"Table", buffers.table}, {"Places", buffers.places}},
-                        .addresses = {{"cells", level_buffer(above, skeleton, gpu::kBrickLog2)}},
-                        .push = to_bytes(share)});
 }
 
 }  // namespace
@@ -85,14 +63,13 @@ void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers,
     if (!grows(root)) upload_words(buffers.roots, skeleton.roots, recording);
     if (root == gpu::kBrickLog2 || !grows(gpu::kBrickLog2))
         upload_words(buffers.nodes, skeleton.nodes, recording);
-    if (!grows(0)) upload_words(buffers.leaves, skeleton.leaves, recording);
+    upload_words(buffers.leaves, skeleton.leaves, recording);
     for (const int log2 : levels) {
         if (level_words(skeleton, log2).empty()) continue;
         const std::vector<glm::uvec2> homes = level_homes(skeleton, log2);
         if (!homes.empty()) recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
         record_growth(skeleton, log2, buffers, recording);
     }
-    record_sharing(skeleton, buffers, recording);
 }
 
 }  // namespace voxilux

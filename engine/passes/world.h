@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// Declared buffers that hold a world on the device. Those from `homes` on are scratch of the build, of the
+// Declared buffers that hold a world on the device. `homes` and `grown` are scratch of the build, of the
 // sizes that growth_needs says.
 struct WorldBuffers {
     std::string roots;
@@ -15,8 +15,6 @@ struct WorldBuffers {
     std::string leaves;
     std::string homes;
     std::string grown;
-    std::string table;
-    std::string places;
 };
 
 // Lets a dispatch march through a world or read it: gives it the pointers and the constant that

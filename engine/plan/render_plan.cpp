@@ -86,10 +86,7 @@ void list_passes(RenderPlan& plan) {
     const auto add = [&](bool on, const char* label, std::uint64_t count) {
         if (on && count > 0) plan.passes.push_back({label, count});
     };
-    const bool shares = plan.has(Effect::voxels) && plan.world.growth.table_bytes > 0;
     add(plan.has(Effect::voxels), "world.grow", plan.world.growth.steps);
-    add(shares, "world.match", 1);
-    add(shares, "world.share", 1);
     add(plan.has(Effect::voxels), "primary.march", slices);
     add(plan.has(Effect::spheres), "sphere.trace", slices);
     add(plan.has(Effect::ao), "ao.trace", slices);
@@ -120,9 +117,6 @@ void list_buffers(RenderPlan& plan) {
     const bool grows = plan.has(Effect::voxels) && plan.world.growth.steps > 0;
     transient(grows, "world.homes", plan.world.growth.home_bytes);
     by_address(grows, "world.grown", plan.world.growth.grown_bytes, false);
-    const bool shares = grows && plan.world.growth.table_bytes > 0;
-    transient(shares, "world.table", plan.world.growth.table_bytes);
-    transient(shares, "world.places", plan.world.growth.place_bytes);
     persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));

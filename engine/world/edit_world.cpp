@@ -172,7 +172,7 @@ class Edit {
     CellBounds regrow(int log2, CellBounds bounds) {
         CellBounds changed;
         std::vector<Growing> taken = take(log2, bounds.grown(kFarDependence));
-        for (std::uint32_t number = 0; number < level_steps(log2); ++number) {
+        for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
             const gpu::GrowthStep step = gpu::growth_step(number);
             for (Growing& one : taken)
                 one.next = gpu::grown_word(built_, *one.word, one.cell, log2, built_.chunks_size, step);

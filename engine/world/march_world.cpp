@@ -57,7 +57,6 @@ MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
     MarchWorld built = build_march_skeleton(world, traversal);
     for (const int log2 : growing_levels(traversal))
         grow_level(built, log2);
-    if (shares_leaves(traversal)) share_leaves(built);
     return built;
 }
 

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// One step of growing the boxes of one level of the world, a word per invocation. The level is read as it was before
+// One step of growing the boxes of one level of the world, a cell per invocation. The level is read as it was before
 // the step, through its own pointer, and written to `grown`.
 
 #include "lib/address.glsl"
@@ -16,6 +16,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Gr
 #include "lib/world_access.glsl"
 #include "shared/grow_distances.h"
 
+// Edge of the level's cells in voxels, as a power of two. A constant, so that no way to a level that is not asked for is
+// compiled: software devices run through branches that no invocation takes.
+layout(constant_id = 11) const uint level = 0u;
+
 layout(scalar) readonly buffer Homes {
     uvec2 homes[];
 };
@@ -25,13 +29,8 @@ void main() {
     GrownWords grown_words = VX_POINTER(GrownWords, grown);
     uint i = linear_id();
     if (i >= push.count) return;
-    int log2 = int(push.log2);
-    GrowthStep step = GrowthStep(push.axis, push.bound);
-    if (log2 == 0) {
-        grown_words.words[i] = grown_leaf_word(load_leaf(i), homes[i >> 5u], i & 31u, push.chunks, step);
-    } else {
-        uint own = log2 == root_log2(traversal) ? load_root(i) : load_node(i);
-        ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : home_cell(homes[i >> 6u], i & 63u);
-        grown_words.words[i] = grown_word(own, cell, log2, push.chunks, step);
-    }
+    int log2 = int(level);
+    uint own = log2 == root_log2(traversal) ? load_root(i) : load_node(i);
+    ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : home_cell(homes[i >> 6u], i & 63u);
+    grown_words.words[i] = grown_word(own, cell, log2, push.chunks, GrowthStep(push.axis, push.bound));
 }

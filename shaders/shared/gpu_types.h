@@ -73,22 +73,10 @@ struct FrameParams {
 
 // Push constants of world_grow.
 struct WorldGrowPush {
-    uint count;    // words of the level
+    uint count;    // cells of the level
     ivec3 chunks;  // of the world, per axis
-    uint log2;     // edge of the cells in voxels
     uint axis;
     int bound;  // longest distance of this round
-};
-
-// Push constants of world_match.
-struct WorldMatchPush {
-    uint count;      // bricks
-    uint slot_mask;  // slots of the table - 1; their number is a power of two
-};
-
-// Push constants of world_share.
-struct WorldSharePush {
-    uint count;  // cells of the level above the leaves
 };
 
 // Push constants of film_add.

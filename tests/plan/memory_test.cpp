@@ -100,7 +100,7 @@ TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
     };
     const std::uint64_t most = DeviceLimits{}.max_allocation_bytes;
     WorldFacts world{.size = glm::ivec3(4096), .root_bytes = most, .node_bytes = most, .leaf_bytes = most};
-    world.growth = {.home_bytes = 128 * kMiB, .grown_bytes = most, .table_bytes = 128 * kMiB, .steps = 1};
+    world.growth = {.home_bytes = 128 * kMiB, .grown_bytes = most, .steps = 1};
     EXPECT_EQ(refusal_of(world), "accepted");
     WorldFacts over = world;
     over.leaf_bytes += 4;
@@ -108,9 +108,9 @@ TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
               "buffer 'world.leaves' needs 2147483652 bytes but lavapipe takes 2147483648 at most; make the "
               "scene smaller");
     over = world;
-    over.growth.table_bytes += 4;
+    over.growth.home_bytes += 8;
     EXPECT_EQ(refusal_of(over),
-              "buffer 'world.table' needs 134217732 bytes but lavapipe takes 134217728 at most; make the "
+              "buffer 'world.homes' needs 134217736 bytes but lavapipe takes 134217728 at most; make the "
               "scene smaller");
 }
 

@@ -189,11 +189,11 @@ std::array<double, 2> both_means(const VoxelWorld& world, Traversal traversal) {
         return static_cast<std::uint8_t>(gpu::cell_state(cell) != gpu::kCellEmpty);
     });
     const std::vector<Extents> grown =
-        grow_aadf(grid, filled, static_cast<int>(gpu::distance_ones(gpu::kFarBits)), Beyond::empty);
+        grow_aadf(grid, filled, static_cast<int>(gpu::kDistanceOnes), Beyond::empty);
     return {
         mean_distance(filled,
                       [&](std::size_t i, std::uint32_t direction) {
-                          return gpu::distance_towards(gpu::cell_payload(cells[i]), direction, gpu::kFarBits);
+                          return gpu::distance_towards(gpu::cell_payload(cells[i]), direction);
                       }),
         mean_distance(filled, [&](std::size_t i, std::uint32_t direction) { return grown[i][direction]; })};
 }

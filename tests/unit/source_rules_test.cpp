@@ -21,8 +21,6 @@ const std::map<std::string, std::string> kReadAndWritten = {
     {"Tally", "atomic counters"},
     {"Sums", "film_add adds to what is there; each sum belongs to one invocation"},
     {"Counts", "a probe that counts its invocations with atomics"},
-    {"Table", "world_match takes the slots of a hash table with atomics"},
-    {"CellWords", "world_share changes cells in place; each belongs to one invocation"},
     {"Unused", "a probe of reflection: a block that the shader never touches"},
 };
 

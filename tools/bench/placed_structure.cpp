@@ -36,8 +36,6 @@ void build_on_device(const MarchWorld& skeleton, Executor& executor) {
     WorldBuffers buffers = declare_structure(skeleton.traversal, bytes_of(skeleton), recording);
     buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
     buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
-    buffers.table = declare("bench.table", needs.table_bytes, false, recording);
-    buffers.places = declare("bench.places", needs.place_bytes, false, recording);
     record_world_build(skeleton, buffers, recording);
     executor.run(recording);
 }
