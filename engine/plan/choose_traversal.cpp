@@ -11,9 +11,9 @@ namespace {
 // room for the picture.
 constexpr std::uint64_t kWorldBytes = 100'000'000;
 
-// Largest grid of bricks with which 'wide' is the fastest: what stays in the second-level cache of a core.
-// Above, its look-ups miss, and 'deep' with its small grid of chunks wins (engine/world/README.md).
-constexpr std::uint64_t kCachedRootBytes = std::uint64_t{4} << 20;
+// Largest grid of bricks with which 'wide' is the fastest. Above, its look-ups miss the cache, and 'deep'
+// with its small grid of chunks wins (engine/world/README.md).
+constexpr std::uint64_t kCachedRootBytes = std::uint64_t{8} << 20;
 
 bool fits(const StructureBytes& bytes, std::uint64_t allowed, const DeviceLimits& limits) {
     const std::uint64_t largest = std::max({bytes.roots, bytes.nodes, bytes.leaves});

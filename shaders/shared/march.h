@@ -31,10 +31,12 @@ VX_BEGIN
 struct MarchAxes {
     ivec3 cell;  // of the start
     ivec3 flip;
-    vec3 speed;    // |direction|, 0 where it counts as zero
-    vec3 pace;     // 1 / speed, or kNeverCrossed
-    vec3 offset;   // T(j) = (j + flip + offset) * pace
-    ivec3 toward;  // number of the direction -x +x -y +y -z +z that the ray takes on each axis
+    vec3 speed;       // |direction|, 0 where it counts as zero
+    vec3 pace;        // 1 / speed, or kNeverCrossed
+    vec3 offset;      // T(j) = (j + flip + offset) * pace
+    ivec3 toward;     // number of the direction -x +x -y +y -z +z that the ray takes on each axis
+    ivec3 far_shift;  // where its distances start in fields of kFarBits; in fields of kNearBits at twice
+                      // `toward`
 };
 
 VX_CONST(uint, kMarchFine, 0u);
@@ -79,6 +81,7 @@ VX_FN MarchAxes march_axes(Ray ray) {
              used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
     axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.flip);
     axes.toward = ivec3(1, 3, 5) + axes.flip;
+    axes.far_shift = axes.toward * int(kFarBits);
     return axes;
 }
 
@@ -115,9 +118,9 @@ VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 hi
 VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     const uint ones = (1u << found.bits) - 1u;
     const uint payload = cell_payload(found.cell);
-    const ivec3 extent = ivec3(int((payload >> (uint(axes.toward.x) * found.bits)) & ones),
-                               int((payload >> (uint(axes.toward.y) * found.bits)) & ones),
-                               int((payload >> (uint(axes.toward.z) * found.bits)) & ones));
+    const ivec3 shift = found.bits == kFarBits ? axes.far_shift : axes.toward + axes.toward;
+    const ivec3 extent = ivec3(int((payload >> uint(shift.x)) & ones), int((payload >> uint(shift.y)) & ones),
+                               int((payload >> uint(shift.z)) & ones));
     const ivec3 passed = (local ^ axes.flip) & ((1 << found.log2) - 1);
     return ((extent + 1) << found.log2) - passed;
 }

@@ -20,8 +20,8 @@ TEST(ChooseTraversal, users_choice_wins_whatever_it_takes) {
 
 TEST(ChooseTraversal, dense_bricks_serve_worlds_whose_grid_stays_in_the_cache) {
     EXPECT_EQ(choose_traversal(census_of(glm::ivec3(16), 1000), {}, 0, kDevice).traversal, Traversal::wide);
-    EXPECT_EQ(choose_traversal(census_of(glm::ivec3(25), 1000), {}, 0, kDevice).traversal, Traversal::wide);
-    EXPECT_EQ(choose_traversal(census_of(glm::ivec3(26), 1000), {}, 0, kDevice).traversal, Traversal::deep);
+    EXPECT_EQ(choose_traversal(census_of(glm::ivec3(32), 1000), {}, 0, kDevice).traversal, Traversal::wide);
+    EXPECT_EQ(choose_traversal(census_of(glm::ivec3(33), 1000), {}, 0, kDevice).traversal, Traversal::deep);
 }
 
 TEST(ChooseTraversal, budget_makes_the_structure_smaller_and_says_so) {
