@@ -17,7 +17,7 @@ constexpr std::uint64_t kCachedRootBytes = std::uint64_t{8} << 20;
 
 bool fits(const StructureBytes& bytes, std::uint64_t allowed, const DeviceLimits& limits) {
     const std::uint64_t largest = std::max({bytes.roots, bytes.nodes, bytes.leaves});
-    return largest <= limits.max_allocation_bytes && bytes.total() <= allowed;
+    return largest <= max_world_array_bytes(limits) && bytes.total() <= allowed;
 }
 
 }  // namespace

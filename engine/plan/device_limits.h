@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
+
+#include "shared/limits.h"
 
 namespace voxilux {
 
@@ -18,5 +21,10 @@ struct DeviceLimits {
 
     bool operator==(const DeviceLimits&) const = default;
 };
+
+// Most bytes of one array of a world: shaders reach it by its address, so no binding limits it.
+[[nodiscard]] inline std::uint64_t max_world_array_bytes(const DeviceLimits& limits) {
+    return std::min(limits.max_allocation_bytes, 4 * (std::uint64_t{gpu::kLastWorldWord} + 1));
+}
 
 }  // namespace voxilux

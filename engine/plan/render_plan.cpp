@@ -137,8 +137,9 @@ void list_buffers(RenderPlan& plan) {
 
 void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const DeviceLimits& limits) {
     for (const PlannedBuffer& planned : plan.buffers) {
-        std::uint64_t limit = limits.max_allocation_bytes;
-        if (!planned.by_address) limit = std::min(limit, limits.max_binding_bytes);
+        const std::uint64_t limit = planned.by_address
+                                        ? max_world_array_bytes(limits)
+                                        : std::min(limits.max_binding_bytes, limits.max_allocation_bytes);
         if (planned.bytes > limit) {
             throw Error(ExitCode::out_of_memory,
                         fmt::format("buffer '{}' needs {} bytes but {} takes {} at most; make the {} smaller",

@@ -33,14 +33,20 @@ void open_world() {
     leaf_cells = VX_POINTER(WorldWords, leaves);
 }
 
+// Lavapipe loads for one invocation after the other and moves the arithmetic of the index into that loop, unless it
+// ends in a minimum: with it a march is 3 % faster. (A bound below 2^30 words would undo that: addresses would
+// then be spilled as vectors of 64 bits, and a march takes 1.5 times as long.)
+uint bounded(uint i) {
+    return min(i, kLastWorldWord);
+}
 uint load_root(uint i) {
-    return root_cells.words[i];
+    return root_cells.words[bounded(i)];
 }
 uint load_node(uint i) {
-    return node_cells.words[i];
+    return node_cells.words[bounded(i)];
 }
 uint load_leaf(uint i) {
-    return leaf_cells.words[i];
+    return leaf_cells.words[bounded(i)];
 }
 
 #define VX_WORLD_PARAM

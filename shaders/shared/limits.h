@@ -37,6 +37,9 @@ VX_CONST(uint, kMarchSlack, 3u);
 // t_max of a ray without end; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
 
+// Last word of an array of the world that shaders read: 8 GiB.
+VX_CONST(uint, kLastWorldWord, 0x7FFFFFFEu);
+
 // Rays that reach the world later than this many voxels count as misses: beyond it two_float.h leaves its
 // domain.
 VX_CONST(float, kFarthestEntry, 1.099511627776e12f);  // 2^40

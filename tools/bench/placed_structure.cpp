@@ -57,11 +57,12 @@ StructureBytes least_bytes(const VoxelWorld& world, Traversal traversal) {
 // Why the device cannot march the structure; empty when it can.
 std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
     const auto mib = [](std::uint64_t count) { return static_cast<double>(count) / (1 << 20); };
+    const std::uint64_t most = max_world_array_bytes(limits);
     for (const auto& [part, count] : {std::pair("roots", bytes.roots), std::pair("nodes", bytes.nodes),
                                       std::pair("leaves", bytes.leaves)}) {
-        if (count > limits.max_allocation_bytes) {
+        if (count > most) {
             return fmt::format("its {} take {:.0f} MiB, the device allocates {:.0f} MiB at once", part,
-                               mib(count), mib(limits.max_allocation_bytes));
+                               mib(count), mib(most));
         }
     }
     return "";
