@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 folder=$PWD/build/mesa
-driver=$folder/root/usr/lib/$(gcc -dumpmachine)/libvulkan_lvp.so
+driver=$folder/unpacked/usr/lib/$(gcc -dumpmachine)/libvulkan_lvp.so
 manifest=$folder/lavapipe.json
 
 apt_there() {
@@ -20,7 +20,7 @@ if [ ! -e "$driver" ]; then
     echo "deb [signed-by=$keys] http://deb.debian.org/debian bookworm-backports main" > "$folder/backports.list"
     apt_there apt-get --quiet update
     (cd "$folder" && apt_there apt-get --quiet download mesa-vulkan-drivers)
-    dpkg-deb --extract "$folder"/mesa-vulkan-drivers_*.deb "$folder/root"
+    dpkg-deb --extract "$folder"/mesa-vulkan-drivers_*.deb "$folder/unpacked"
 fi
 cat > "$manifest" <<END
 {"file_format_version": "1.0.0", "ICD": {"library_path": "$driver", "api_version": "1.3.0"}}
