@@ -66,7 +66,7 @@ void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers,
     upload_words(buffers.leaves, skeleton.leaves, recording);
     for (const int log2 : levels) {
         if (level_words(skeleton, log2).empty()) continue;
-        const std::vector<glm::uvec2> homes = level_homes(skeleton, log2);
+        const std::vector<glm::ivec3> homes = level_homes(skeleton, log2);
         if (!homes.empty()) recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
         record_growth(skeleton, log2, buffers, recording);
     }

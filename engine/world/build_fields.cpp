@@ -103,7 +103,7 @@ std::uint32_t store_chunk(MarchWorld& built, BrickCells& cells, glm::ivec3 chunk
     if (built.traversal == Traversal::naadf) add_near_distances(cells);
     const auto number = checked_cast<std::uint32_t>(built.nodes.size() / 64, "mixed chunks");
     built.nodes.insert(built.nodes.end(), cells.begin(), cells.end());
-    built.node_homes.push_back(gpu::pack_home(chunk_cell));
+    built.node_homes.push_back(chunk_cell);
     return gpu::make_cell(gpu::kCellMixed, number);
 }
 

@@ -18,9 +18,9 @@ void build_skeleton(const VoxelWorld& world, MarchWorld& built);
 [[nodiscard]] std::vector<std::uint32_t>& level_words(MarchWorld& built, int log2);
 [[nodiscard]] const std::vector<std::uint32_t>& level_words(const MarchWorld& built, int log2);
 
-// Where the blocks of 64 cells of a level are (world_cell.h: pack_home); empty for chunks, which have no
+// Where the blocks of 64 cells of a level are, the cell of the parent; empty for chunks, which have no
 // blocks.
-[[nodiscard]] std::vector<glm::uvec2> level_homes(const MarchWorld& built, int log2);
+[[nodiscard]] std::vector<glm::ivec3> level_homes(const MarchWorld& built, int log2);
 
 // Grows the boxes of such a level; those of all larger cells must have grown before.
 void grow_level(MarchWorld& built, int log2);

@@ -130,7 +130,7 @@ class Edit {
         root = gpu::make_cell(gpu::kCellMixed,
                               checked_cast<std::uint32_t>(built_.nodes.size() / 64, "mixed chunks"));
         built_.nodes.insert(built_.nodes.end(), 64, content);
-        built_.node_homes.push_back(gpu::pack_home(chunk));
+        built_.node_homes.push_back(chunk);
     }
 
     // Takes them away when all have become one cell.

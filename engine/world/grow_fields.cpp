@@ -35,24 +35,24 @@ const std::vector<std::uint32_t>& level_words(const MarchWorld& built, int log2)
     return is_root(built, log2) ? built.roots : built.nodes;
 }
 
-std::vector<glm::uvec2> level_homes(const MarchWorld& built, int log2) {
+std::vector<glm::ivec3> level_homes(const MarchWorld& built, int log2) {
     if (log2 == gpu::kChunkLog2) return {};
     if (!is_root(built, log2)) return built.node_homes;
-    std::vector<glm::uvec2> homes(built.roots.size() / 64);
+    std::vector<glm::ivec3> homes(built.roots.size() / 64);
     for (std::uint32_t i = 0; i < homes.size(); ++i)
-        homes[i] = gpu::pack_home(gpu::grid_cell(i, built.chunks_size));
+        homes[i] = gpu::grid_cell(i, built.chunks_size);
     return homes;
 }
 
 void grow_level(MarchWorld& built, int log2) {
     std::vector<std::uint32_t>& words = level_words(built, log2);
-    const std::vector<glm::uvec2> homes = level_homes(built, log2);
+    const std::vector<glm::ivec3> homes = level_homes(built, log2);
     std::vector<std::uint32_t> grown = words;
     for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
         const gpu::GrowthStep step = gpu::growth_step(number);
         for (std::uint32_t i = 0; i < words.size(); ++i) {
             const glm::ivec3 cell = log2 == gpu::kChunkLog2 ? gpu::grid_cell(i, built.chunks_size)
-                                                            : gpu::home_cell(homes[i / 64], i % 64);
+                                                            : gpu::child_cell(homes[i / 64], i % 64);
             grown[i] = gpu::grown_word(built, words[i], cell, log2, built.chunks_size, step);
         }
         words.swap(grown);
@@ -65,7 +65,7 @@ GrowthNeeds growth_needs(const MarchWorld& skeleton) {
         const std::uint64_t cells = level_words(skeleton, log2).size();
         if (cells == 0) continue;
         const std::uint64_t homes = log2 == gpu::kChunkLog2 ? 1 : cells / 64;
-        needs.home_bytes = std::max(needs.home_bytes, homes * sizeof(glm::uvec2));
+        needs.home_bytes = std::max(needs.home_bytes, homes * sizeof(glm::ivec3));
         needs.grown_bytes = std::max(needs.grown_bytes, cells * sizeof(std::uint32_t));
         needs.steps += gpu::kGrowthSteps;
     }

@@ -7,14 +7,22 @@
 
 #include <glm/glm.hpp>
 
+#include "shared/world_cell.h"
 #include "world/voxel_world.h"
 
 namespace voxilux {
 
 // Structures that a ray can be marched through; shaders/shared/world_cell.h tells what each holds. All give
 // the same hits.
-enum class Traversal : std::uint8_t { dda, brick4, brick8, naadf, deep, wide };
-inline constexpr std::size_t kTraversalCount = 6;
+enum class Traversal : std::uint8_t {
+    dda = gpu::kTraversalDda,
+    brick4 = gpu::kTraversalBrick4,
+    brick8 = gpu::kTraversalBrick8,
+    naadf = gpu::kTraversalNaadf,
+    deep = gpu::kTraversalDeep,
+    wide = gpu::kTraversalWide,
+};
+inline constexpr std::size_t kTraversalCount = gpu::kTraversalCount;
 
 [[nodiscard]] std::span<const Traversal> all_traversals();
 
@@ -34,8 +42,8 @@ struct MarchWorld {
     std::vector<std::uint32_t> roots;  // dense, x fastest
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> leaves;
-    // Where the blocks of nodes are whose boxes grow (world_cell.h: pack_home).
-    std::vector<glm::uvec2> node_homes;
+    // Where the blocks of nodes are whose boxes grow in chunks.
+    std::vector<glm::ivec3> node_homes;
 
     [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }
     [[nodiscard]] std::uint64_t size_bytes() const {

@@ -21,7 +21,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Gr
 layout(constant_id = 11) const uint level = 0u;
 
 layout(scalar) readonly buffer Homes {
-    uvec2 homes[];
+    ivec3 homes[];
 };
 
 void main() {
@@ -31,6 +31,6 @@ void main() {
     if (i >= push.count) return;
     int log2 = int(level);
     uint own = log2 == root_log2(traversal) ? load_root(i) : load_node(i);
-    ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : home_cell(homes[i >> 6u], i & 63u);
+    ivec3 cell = log2 == kChunkLog2 ? grid_cell(i, push.chunks) : child_cell(homes[i >> 6u], i & 63u);
     grown_words.words[i] = grown_word(own, cell, log2, push.chunks, GrowthStep(push.axis, push.bound));
 }

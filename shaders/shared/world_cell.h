@@ -115,15 +115,8 @@ VX_FN ivec3 slot_cell(uint slot) {
     return ivec3(int(slot & 3u), int((slot >> 2u) & 3u), int(slot >> 4u));
 }
 
-// A cell packed in two words: where a block of 64 cells is, in cells of the parent's edge. Components are
-// below 2^16.
-VX_FN uvec2 pack_home(ivec3 cell) {
-    return uvec2(uint(cell.x) | (uint(cell.y) << 16u), uint(cell.z));
-}
-
-// Cell that is the child `slot` of the block at `home`, in cells of its own edge.
-VX_FN ivec3 home_cell(uvec2 home, uint slot) {
-    const ivec3 parent = ivec3(int(home.x & 0xFFFFu), int(home.x >> 16u), int(home.y));
+// Cell that is the child `slot` of the cell `parent`, in cells of its own edge.
+VX_FN ivec3 child_cell(ivec3 parent, uint slot) {
     return parent * 4 + slot_cell(slot);
 }
 

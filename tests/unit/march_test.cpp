@@ -43,6 +43,23 @@ TEST_P(EveryTraversal, visits_the_cells_of_the_plain_walk_in_every_family_and_wo
     }
 }
 
+// Longer than 2^16 chunks: places of blocks must not be cut to 16 bits.
+TEST(March, world_of_a_million_voxels_on_one_axis_is_hit_at_both_ends) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(66000, 1, 1));
+    for (int chunk = 0; chunk < 66000; chunk += 97)
+        world.set({16 * chunk + 7, 5, 5}, 1);
+    for (const Traversal traversal : {Traversal::deep, Traversal::wide}) {
+        const MarchWorld march_world = build_march_world(world, traversal);
+        for (int chunk = 97; chunk < 66000; chunk += 97) {
+            const gpu::Ray ray{
+                {16 * (chunk - 50), 5, 5}, glm::vec3(0.5f), glm::vec3(1, 0, 0), gpu::kUnbounded};
+            ASSERT_EQ(gpu::march(march_world, ray, march_world.chunks_size).cell,
+                      glm::ivec3(16 * chunk + 7, 5, 5))
+                << name_of(traversal);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(March, EveryTraversal, ::testing::ValuesIn(all_traversals()),
                          [](const auto& one) { return std::string(name_of(one.param)); });
 
