@@ -58,6 +58,43 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
     params.camera_forward = glm::vec3(basis[2]);
 }
 
+// Half an axis of the image plane, such that its product with a vector in that plane is the image coordinate.
+gpu::vec3 dual_axis(gpu::vec3 half_axis) {
+    return half_axis / glm::dot(half_axis, half_axis);
+}
+
+gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, const SampleNumber& number) {
+    const FrameState& state = number.state;
+    const gpu::FrameParams& last = state.last_camera.value_or(params);
+    const std::uint32_t swept = number.sample == 0 && state.samples_done > 0 ? swept_slots(plan) : 0;
+    const auto frame = static_cast<gpu::uint>(state.frames_done);  // wraps
+    return {.last_camera_cell = last.camera_cell,
+            .last_camera_fraction = last.camera_fraction,
+            .last_right = dual_axis(last.camera_right),
+            .last_up = dual_axis(last.camera_up),
+            .last_forward = last.camera_forward,
+            .has_last = state.last_camera ? 1u : 0u,
+            .frame = frame,
+            .pass_number = static_cast<gpu::uint>(state.samples_done),
+            .table_mask = plan.ao.slots - 1,
+            .first_swept = swept == 0 ? 0 : frame % (plan.ao.slots / swept) * swept,
+            .swept_count = swept,
+            .sample_limit = plan.settings.ao.sample_limit,
+            .cell_width = plan.settings.ao.cell_px * 2.0f * glm::length(params.camera_up) /
+                          static_cast<float>(params.height)};
+}
+
+struct NumberedParams {
+    const gpu::FrameParams& params;
+    const SampleNumber& number;
+};
+
+Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, NumberedParams now,
+                Recording& rec) {
+    if (!plan.has_ao_cells()) return record_ao_trace(plan, slice, hits, rec);
+    return record_ao_cells(plan, slice, hits, ao_params(plan, now.params, now.number), rec);
+}
+
 }  // namespace
 
 gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world) {
@@ -84,8 +121,9 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     return params;
 }
 
-void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params, std::uint32_t sample,
-                  Recording& rec) {
+void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+                  const SampleNumber& number, Recording& rec) {
+    const std::uint32_t sample = number.sample;
     const auto picture_row = static_cast<gpu::uint>(plan.first_pixel.y);
     params.first_row = picture_row + slice.first_row;
     params.row_count = slice.row_count;
@@ -96,8 +134,8 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     const Plane voxels =
         plan.has(Effect::voxels) ? record_primary_march(plan, slice, rec) : constant_miss(rec);
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, slice, voxels, rec) : voxels;
-    const Plane ao =
-        plan.has(Effect::ao) ? record_ao_trace(plan, slice, hits, rec) : constant_value(1.0f, rec);
+    const Plane ao = plan.has(Effect::ao) ? record_ao(plan, slice, hits, {params, number}, rec)
+                                          : constant_value(1.0f, rec);
     const Plane sun =
         plan.has(Effect::sun) ? record_sun_trace(plan, slice, hits, rec) : constant_value(0.0f, rec);
     const Plane color = record_shade_resolve(plan, slice, {hits, ao, sun}, rec);

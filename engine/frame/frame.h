@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "frame/frame_state.h"
 #include "passes/plane.h"
 #include "shared/gpu_types.h"
 
@@ -13,8 +14,14 @@ namespace voxilux {
 [[nodiscard]] gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene,
                                             const MarchWorld& march_world);
 
+// Which sample of which frame a recording renders.
+struct SampleNumber {
+    std::uint32_t sample = 0;  // of the frame
+    FrameState state;          // what earlier frames and samples left behind
+};
+
 // One sample of every pixel of a slice, from camera rays to the film.
-void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params, std::uint32_t sample,
-                  Recording& recording);
+void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+                  const SampleNumber& number, Recording& recording);
 
 }  // namespace voxilux

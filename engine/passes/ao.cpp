@@ -1,9 +1,169 @@
 #include "passes/ao.h"
 
+#include <algorithm>
+
+#include "shared/cell_age.h"
+
 namespace voxilux {
+namespace {
+
+// Frames in which the whole table is swept once: short beside kCellMaxAge, so a cell is given up little later
+// than it could be.
+constexpr std::uint32_t kSweepFrames = 8;
+
+std::uint32_t flag(bool on) {
+    return on ? 1u : 0u;
+}
+
+// The slots of the pixels of this sample and of the one before: two buffers that take turns.
+struct SlotPlanes {
+    std::string now;
+    std::string last;
+};
+
+SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
+    SlotPlanes planes{use_buffer(plan, "ao.slots_even", recording),
+                      use_buffer(plan, "ao.slots_odd", recording)};
+    if (params.pass_number % 2 == 1) std::swap(planes.now, planes.last);
+    return planes;
+}
+
+std::vector<Binding> table_bindings(const RenderPlan& plan, const SlotPlanes& planes, Recording& recording) {
+    return {{"Frame", use_buffer(plan, "frame", recording)},
+            {"Tally", use_buffer(plan, "tally", recording)},
+            {"AoFrame", use_buffer(plan, "ao.frame", recording)},
+            {"Keys", use_buffer(plan, "ao.keys", recording)},
+            {"Samples", use_buffer(plan, "ao.samples", recording)},
+            {"Touched", use_buffer(plan, "ao.touched", recording)},
+            {"LastSlots", planes.last},
+            {"Slots", planes.now}};
+}
+
+std::vector<Constant> table_constants(const RenderPlan& plan) {
+    const AoSettings& ao = plan.settings.ao;
+    return {{"reprojects", flag(ao.reproject)},
+            {"checkerboard", flag(ao.checkerboard)},
+            {"has_limit", flag(ao.sample_limit != 0)}};
+}
+
+void record_ao_age(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
+    recording.dispatch({.label = "ao.age",
+                        .shader = "ao_age",
+                        .extent = {params.swept_count, 1, 1},
+                        .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
+                                     {"AoFrame", use_buffer(plan, "ao.frame", recording)},
+                                     {"Keys", use_buffer(plan, "ao.keys", recording)},
+                                     {"Samples", use_buffer(plan, "ao.samples", recording)},
+                                     {"Opens", use_buffer(plan, "ao.opens", recording)},
+                                     {"Touched", use_buffer(plan, "ao.touched", recording)}}});
+}
+
+void record_ao_lookup(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
+                      Recording& recording) {
+    Dispatch dispatch{.label = "ao.lookup",
+                      .shader = "ao_lookup",
+                      .extent = pixel_extent(plan, slice),
+                      .bindings = table_bindings(plan, planes, recording),
+                      .constants = table_constants(plan)};
+    dispatch.bindings.push_back({"Hits", hits.buffer});
+    recording.dispatch(std::move(dispatch));
+}
+
+void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
+                      Recording& recording) {
+    const bool merged = plan.settings.ao.merged;
+    // Who has looked the slots up reads them; the merged pass writes them itself.
+    const std::string unused = placeholder_buffer(recording);
+    Dispatch dispatch{
+        .label = "ao.sample",
+        .shader = "ao_sample",
+        .extent = pixel_extent(plan, slice),
+        .bindings = table_bindings(plan, {merged ? planes.now : unused, planes.last}, recording),
+        .constants = surface_constants(plan)};
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Hits", hits.buffer},
+                                                       {"Spheres", spheres_buffer(plan, recording)},
+                                                       {"Opens", use_buffer(plan, "ao.opens", recording)},
+                                                       {"Located", merged ? unused : planes.now},
+                                                       {"Own", use_buffer(plan, "ao.own", recording)}});
+    dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.settings.ao.reproject)},
+                                                         {"merged", flag(merged)},
+                                                         {"by_pixel", flag(plan.settings.ao.by_pixel)}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
+}
+
+// Openness and, for the filter, its variance.
+struct Resolved {
+    std::string openness;
+    std::string variance;
+};
+
+Resolved record_ao_resolve(const RenderPlan& plan, const Slice& slice, const SlotPlanes& planes,
+                           Recording& recording) {
+    const bool filters = plan.settings.ao.filter > 0;
+    Resolved resolved{use_buffer(plan, "ao.open", recording),
+                      filters ? use_buffer(plan, "ao.variance", recording) : placeholder_buffer(recording)};
+    recording.dispatch({.label = "ao.resolve",
+                        .shader = "ao_resolve",
+                        .extent = pixel_extent(plan, slice),
+                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                                     {"Slots", planes.now},
+                                     {"Samples", use_buffer(plan, "ao.samples", recording)},
+                                     {"Opens", use_buffer(plan, "ao.opens", recording)},
+                                     {"Own", use_buffer(plan, "ao.own", recording)},
+                                     {"Ao", resolved.openness},
+                                     {"Variance", resolved.variance}},
+                        .constants = {{"wants_variance", flag(filters)}}});
+    return resolved;
+}
+
+Plane record_ao_filter(const RenderPlan& plan, const Slice& slice, const Plane& hits, Resolved resolved,
+                       Recording& recording) {
+    Resolved filtered{use_buffer(plan, "ao.filtered", recording),
+                      use_buffer(plan, "ao.filtered_variance", recording)};
+    for (std::uint32_t i = 0; i < plan.settings.ao.filter; ++i) {
+        recording.dispatch({.label = "ao.filter",
+                            .shader = "ao_filter",
+                            .extent = pixel_extent(plan, slice),
+                            .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                                         {"Hits", hits.buffer},
+                                         {"Ao", resolved.openness},
+                                         {"Variance", resolved.variance},
+                                         {"FilteredAo", filtered.openness},
+                                         {"FilteredVariance", filtered.variance}},
+                            .push = to_bytes(gpu::AoFilterPush{1 << i})});
+        std::swap(resolved, filtered);
+    }
+    return {resolved.openness};
+}
+
+void empty_table(const RenderPlan& plan, Recording& recording) {
+    for (const char* array : {"ao.keys", "ao.samples", "ao.opens"})
+        recording.clear(use_buffer(plan, array, recording));
+}
+
+}  // namespace
 
 Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
     return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open"}, hits, recording);
+}
+
+std::uint32_t swept_slots(const RenderPlan& plan) {
+    return std::max(1u, plan.ao.slots / kSweepFrames);
+}
+
+Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                      const gpu::AoParams& params, Recording& recording) {
+    VX_ASSERT_EQ(slice.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
+    recording.upload(use_buffer(plan, "ao.frame", recording), to_bytes(params));
+    if (params.pass_number == 0) empty_table(plan, recording);
+    if (params.swept_count > 0) record_ao_age(plan, params, recording);
+    const SlotPlanes planes = slot_planes(plan, params, recording);
+    if (!plan.settings.ao.merged) record_ao_lookup(plan, slice, hits, planes, recording);
+    record_ao_sample(plan, slice, hits, planes, recording);
+    const Resolved resolved = record_ao_resolve(plan, slice, planes, recording);
+    if (plan.settings.ao.filter == 0) return {resolved.openness};
+    return record_ao_filter(plan, slice, hits, resolved, recording);
 }
 
 }  // namespace voxilux

@@ -30,10 +30,14 @@ std::string use_constant(const std::string& name, std::uint64_t size_bytes, std:
 std::string use_or_placeholder(const RenderPlan& plan, bool on, const std::string& name,
                                Recording& recording) {
     if (on) return use_buffer(plan, name, recording);
-    return use_constant("constant.placeholder", sizeof(std::uint32_t), 0, recording);
+    return placeholder_buffer(recording);
 }
 
 }  // namespace
+
+std::string placeholder_buffer(Recording& recording) {
+    return use_constant("constant.placeholder", sizeof(std::uint32_t), 0, recording);
+}
 
 Plane constant_miss(Recording& recording) {
     return {use_constant("constant.miss", sizeof(gpu::Hit), 0xFFFFFFFFu, recording), 0};

@@ -45,6 +45,9 @@ struct Slice {
 // Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
 
+// A buffer of one word that no shader uses, for blocks that a variant of a shader leaves alone.
+[[nodiscard]] std::string placeholder_buffer(Recording& recording);
+
 // The materials and the spheres, or the placeholder when the plan has none.
 [[nodiscard]] std::string materials_buffer(const RenderPlan& plan, Recording& recording);
 [[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);

@@ -1,6 +1,7 @@
 #include "plan/render_plan.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "base/checked_cast.h"
@@ -38,6 +39,10 @@ void check_settings(const RenderSettings& settings) {
     if (!(settings.ao_radius > 0.0f)) refuse(fmt::format("ao_radius {} must be above 0", settings.ao_radius));
 }
 
+std::uint64_t pixels_of(const RenderSettings& settings) {
+    return static_cast<std::uint64_t>(settings.size.x) * static_cast<std::uint64_t>(settings.size.y);
+}
+
 void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
     const glm::ivec2 size = plan.settings.size;
     plan.image_size = size;
@@ -59,7 +64,8 @@ void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint64_t rows =
         std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
-    plan.band_rows = static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
+    plan.band_rows =
+        plan.has_ao_cells() ? height : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
     plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
     plan.slice_rows = std::min(plan.band_rows, limits.max_groups[1]);  // groups may be one row high
 }
@@ -81,6 +87,19 @@ std::uint64_t slices_of_a_sample(const RenderPlan& plan) {
     return std::uint64_t{plan.band_count - 1} * cut(plan.band_rows) + cut(last_rows);
 }
 
+using AddPass = std::function<void(bool, const char*, std::uint64_t)>;
+
+void list_ao_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass& add) {
+    const AoSettings& ao = plan.settings.ao;
+    const bool cells = plan.has_ao_cells();
+    add(plan.has(Effect::ao) && !cells, "ao.trace", slices);
+    add(cells, "ao.age", 1);
+    add(cells && !ao.merged, "ao.lookup", slices);
+    add(cells, "ao.sample", slices);
+    add(cells, "ao.resolve", slices);
+    add(cells, "ao.filter", slices * ao.filter);
+}
+
 void list_passes(RenderPlan& plan) {
     const std::uint64_t slices = slices_of_a_sample(plan) * plan.settings.spp;
     const auto add = [&](bool on, const char* label, std::uint64_t count) {
@@ -89,12 +108,33 @@ void list_passes(RenderPlan& plan) {
     add(plan.has(Effect::voxels), "world.grow", plan.world.growth.steps);
     add(plan.has(Effect::voxels), "primary.march", slices);
     add(plan.has(Effect::spheres), "sphere.trace", slices);
-    add(plan.has(Effect::ao), "ao.trace", slices);
+    list_ao_passes(plan, slices, add);
     add(plan.has(Effect::sun), "sun.trace", slices);
     add(true, "shade.resolve", slices);
     add(plan.has(Effect::aov), "aov.surface", slices);
     add(plan.has(Effect::aov), "aov.position", slices_of_a_sample(plan));
     add(true, "film.add", slices * (film_planes(plan).size() - 1));
+}
+
+void list_ao_buffers(RenderPlan& plan) {
+    const auto list = [&](const char* name, std::uint64_t bytes, bool is_persistent) {
+        plan.buffers.push_back({name, bytes, is_persistent});
+    };
+    const std::uint64_t pixels = plan.slice_pixels();
+    if (plan.has(Effect::ao)) list("ao.open", pixels * sizeof(float), false);
+    if (!plan.has_ao_cells()) return;
+    list("ao.frame", sizeof(gpu::AoParams), false);
+    list("ao.keys", std::uint64_t{plan.ao.slots} * 8, true);
+    list("ao.samples", std::uint64_t{plan.ao.slots} * 8, true);
+    list("ao.opens", std::uint64_t{plan.ao.slots} * 8, true);
+    list("ao.touched", std::uint64_t{plan.ao.slots} * 4, true);
+    list("ao.slots_even", pixels * sizeof(gpu::uint), true);
+    list("ao.slots_odd", pixels * sizeof(gpu::uint), true);
+    list("ao.own", pixels * sizeof(float), false);
+    if (plan.settings.ao.filter == 0) return;
+    list("ao.variance", pixels * sizeof(float), false);
+    list("ao.filtered", pixels * sizeof(float), false);
+    list("ao.filtered_variance", pixels * sizeof(float), false);
 }
 
 void list_buffers(RenderPlan& plan) {
@@ -121,7 +161,7 @@ void list_buffers(RenderPlan& plan) {
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));
     transient(plan.has(Effect::spheres), "sphere.hits", pixels * sizeof(gpu::Hit));
-    transient(plan.has(Effect::ao), "ao.open", pixels * sizeof(float));
+    list_ao_buffers(plan);
     transient(plan.has(Effect::sun), "sun.lit", pixels * sizeof(float));
     transient(true, "shade.color", pixels * sizeof(gpu::vec3));
     transient(plan.has(Effect::aov), "aov.albedo", pixels * sizeof(gpu::vec3));
@@ -213,6 +253,10 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.material_count =
         checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
+    plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
+                                      .world_size = world.size,
+                                      .pixels = pixels_of(plan.settings),
+                                      .frames = request.frames});
     split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);
@@ -240,6 +284,9 @@ std::string describe(const RenderPlan& plan) {
     for (const EffectState& state : plan.effects)
         text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off",
                             state.reason);
+    if (plan.has(Effect::ao)) {
+        text += fmt::format("occlusion {:<10} {}\n", plan.ao.uses_cells() ? "hash" : "brute", plan.ao.reason);
+    }
     for (const PlannedPass& pass : plan.passes)
         text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
     for (const PlannedBuffer& planned : plan.buffers)

@@ -7,6 +7,7 @@
 
 #include "plan/device_limits.h"
 #include "plan/effects.h"
+#include "plan/plan_ao.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
 #include "world/build_fields.h"
@@ -68,6 +69,7 @@ struct RenderPlan {
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
     EffectStates effects;
+    AoPlan ao;  // of no meaning when the effect is off
     WorldFacts world;
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
@@ -82,6 +84,7 @@ struct RenderPlan {
     bool operator==(const RenderPlan&) const = default;
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
@@ -96,6 +99,7 @@ struct PlanRequest {
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
+    std::uint32_t frames = 1;               // that will be rendered
 };
 
 // Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming

@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/ao_settings.h"
+
 namespace voxilux {
 
 // Scene space: right handed, z up, one unit is one voxel, and a cell c covers [c, c+1) on each axis. It is
@@ -120,6 +122,7 @@ struct RenderSettings {
     float ao_radius = 32.0f;    // voxels
     std::uint32_t seed = 0;
     Sequence sequence = Sequence::sobol;
+    AoSettings ao;
 
     bool operator==(const RenderSettings&) const = default;
 };

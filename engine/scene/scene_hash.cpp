@@ -130,6 +130,18 @@ void add_light(Hasher& hasher, const Sun& sun, const Sky& sky) {
     hasher.add(sky.radiance);
 }
 
+void add_ao(Hasher& hasher, const AoSettings& ao) {
+    hasher.add(ao.method);
+    hasher.add(ao.cell_px);
+    hasher.add(ao.reproject);
+    hasher.add(ao.merged);
+    hasher.add(ao.checkerboard);
+    hasher.add(ao.by_pixel);
+    hasher.add(ao.filter);
+    hasher.add(ao.sample_limit);
+    hasher.add(ao.slots);
+}
+
 void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderSettings& settings) {
     hasher.add(camera.has_value());
     const Camera view = camera.value_or(Camera{});
@@ -143,6 +155,7 @@ void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderS
     hasher.add(settings.ao_radius);
     hasher.add(settings.seed);
     hasher.add(settings.sequence);
+    add_ao(hasher, settings.ao);
 }
 
 }  // namespace

@@ -96,9 +96,10 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         merge(root, tree);
     }
     const TomlSection sections(root, "the scene",
-                               {"render", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
+                               {"render", "ao", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     read_render(in);
+    read_ao(in);
     read_sun(in);
     read_sky(in);
     read_materials(in);

@@ -23,6 +23,7 @@ struct TomlScene {
 // Each reads one kind of section into the scene, in this order, and refuses what is wrong with
 // Error(input_refused).
 void read_render(TomlScene& in);
+void read_ao(TomlScene& in);
 void read_sun(TomlScene& in);
 void read_sky(TomlScene& in);
 void read_materials(TomlScene& in);

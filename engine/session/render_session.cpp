@@ -59,6 +59,7 @@ class RenderRun {
             });
             if (!whole) return;
             statistics_.samples = sample_ + 1;
+            state_.finish_sample(params_);
             if (reached_error_target()) return;
         }
     }
@@ -96,7 +97,7 @@ class RenderRun {
 
     double render_slice(const Slice& slice) {
         Recording recording;
-        record_frame(plan_, slice, params_, sample_, recording);
+        record_frame(plan_, slice, params_, {sample_, state_}, recording);
         recording.readback("tally");
         const RunResult result = executor_.run(recording);
         const auto first = row_samples_.begin() + slice.first_row;
@@ -168,6 +169,7 @@ class RenderRun {
     RenderStatistics statistics_;
     std::optional<double> last_error_;
     std::uint32_t sample_ = 0;
+    FrameState state_;
 };
 
 void measure_process(RenderStatistics& statistics) {

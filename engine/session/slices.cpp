@@ -23,12 +23,18 @@ SliceGovernor::SliceGovernor(const RenderPlan& plan, bool is_cpu)
       target_ms_(is_cpu ? kCpuTargetMs : kGpuTargetMs) {
     const std::uint64_t rays_per_pixel = 2 + (plan.has(Effect::ao) ? plan.settings.ao_rays : 0);
     const std::uint64_t rays_per_row = rays_per_pixel * static_cast<std::uint64_t>(plan.settings.size.x);
+    // With occlusion in a hash every pass runs over the whole picture: pixels far apart add to one cell.
+    keeps_whole_ = plan.has_ao_cells();
+    if (keeps_whole_) {
+        rows_ = height_;
+        return;
+    }
     rows_ = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(kFirstSliceRays / rays_per_row, 1, std::uint64_t{most_rows_}));
 }
 
 void SliceGovernor::adapt(std::uint32_t rows_done, double max_ms) {
-    if (max_ms <= 0.0) return;
+    if (keeps_whole_ || max_ms <= 0.0) return;
     const double ideal = static_cast<double>(rows_done) * target_ms_ / max_ms;
     const double grown = std::min(ideal, kMaxGrowth * static_cast<double>(rows_));
     const auto wanted = static_cast<std::uint32_t>(std::clamp(grown, 1.0, static_cast<double>(most_rows_)));

@@ -31,6 +31,7 @@ class SliceGovernor {
     std::uint32_t most_rows_;
     std::uint32_t rows_;
     double target_ms_;
+    bool keeps_whole_ = false;
 };
 
 }  // namespace voxilux

@@ -71,6 +71,28 @@ struct FrameParams {
     uint sphere_count;
 };
 
+// What the passes of the ambient occlusion hash share beside FrameParams: one sample of one frame.
+struct AoParams {
+    ivec3 last_camera_cell;  // of the sample before, for the reprojection
+    vec3 last_camera_fraction;
+    vec3 last_right;    // half the image plane's width at distance 1, divided by its squared length
+    vec3 last_up;       // half its height, likewise
+    vec3 last_forward;  // unit
+    uint has_last;      // 0: there was no sample before
+    uint frame;         // number of the frame, which may wrap
+    uint pass_number;   // samples taken since the table was empty, which may wrap
+    uint table_mask;    // slots of the table less one
+    uint first_swept;   // the slots that this frame sweeps
+    uint swept_count;
+    uint sample_limit;  // cells with as many samples take no more; 0: no limit
+    float cell_width;   // wanted width of a cell in voxels at distance 1
+};
+
+// Push constants of ao_filter.
+struct AoFilterPush {
+    int step;  // pixels between the taps
+};
+
 // Push constants of world_grow.
 struct WorldGrowPush {
     uint count;    // cells of the level

@@ -51,6 +51,23 @@ VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 VX_CONST(float, kMissDepth, 1.0e10f);
 VX_CONST(float, kInversePi, 0.318309886f);
 
+// Ambient occlusion in a hash. Levels of cells: the largest is a whole face of a voxel, so that no cell
+// reaches across a wall, the smallest 1/16 of its edge, what the bits of a key leave.
+VX_CONST(uint, kAoLevels, 5u);
+// Parts of a face over all levels: (4^kAoLevels - 1) / 3.
+VX_CONST(uint, kAoFaceParts, 341u);
+// Worlds that keys can tell the voxels of: edges up to here, voxels.
+VX_CONST(int, kAoMaxEdge, 131072);
+// Slots from its home on that may hold a cell. With a third of the slots taken, a cell finds them all taken
+// by others about once in 10^6 times.
+VX_CONST(uint, kCellProbes, 32u);
+// Frames after which a cell that nobody sees is given up. Longer than a touch may be late (kCellTouchPeriod).
+VX_CONST(uint, kCellMaxAge, 32u);
+VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
+// Standard deviations beyond which two openness values are taken to differ. SVGF (Schied et al. 2017,
+// section 4.4) uses 4 for luminance.
+VX_CONST(float, kAoFilterSigmas, 4.0f);
+
 VX_END
 
 #endif

@@ -11,19 +11,31 @@ VX_CONST(uint, kFaultRayUnsound, 0u);      // a ray that is not finite or has no
 VX_CONST(uint, kFaultMarchExhausted, 1u);  // a march that met its step limit
 VX_CONST(uint, kFaultFilmClamped, 2u);     // a sample above kFilmMaxValue
 VX_CONST(uint, kFaultFilmNonFinite, 3u);   // a sample that is NaN or infinite; it counts as zero
-VX_CONST(uint, kFaultCount, 4u);
+VX_CONST(uint, kFaultAoTableFull, 4u);     // hits that found no slot for their cell: they used their own rays
+VX_CONST(uint, kFaultCount, 5u);
 
-VX_CONST(uint, kWorkHits, 4u);     // camera rays that hit something
-VX_CONST(uint, kWorkAoRays, 5u);   // occlusion rays marched
-VX_CONST(uint, kWorkSunRays, 6u);  // shadow rays marched
-VX_CONST(uint, kTallyCount, 7u);
+VX_CONST(uint, kWorkHits, 5u);     // camera rays that hit something
+VX_CONST(uint, kWorkAoRays, 6u);   // occlusion rays marched
+VX_CONST(uint, kWorkSunRays, 7u);  // shadow rays marched
+// Of the ambient occlusion hash:
+VX_CONST(uint, kWorkAoReused, 8u);    // hits whose cell was found by reprojection
+VX_CONST(uint, kWorkAoSearches, 9u);  // hits whose cell was searched in the table
+VX_CONST(uint, kWorkAoProbes, 10u);   // keys looked at in those searches
+VX_CONST(uint, kWorkAoClaimed, 11u);  // cells entered
+VX_CONST(uint, kWorkAoEvicted, 12u);  // cells given up
+VX_CONST(uint, kWorkAoDropped, 13u);  // samples that were in them; saturates at 2^32 - 1 for each cell
+VX_CONST(uint, kWorkAoOwnRays, 14u);  // occlusion rays that no cell took
+VX_CONST(uint, kWorkAoAtomics, 15u);  // atomic operations on the table
+VX_CONST(uint, kTallyCount, 16u);
 
 VX_END
 
 #ifdef __cplusplus
 namespace voxilux::gpu {
 inline constexpr const char* kTallyNames[kTallyCount] = {
-    "ray_unsound", "march_exhausted", "film_clamped", "film_non_finite", "hits", "ao_rays", "sun_rays"};
+    "ray_unsound", "march_exhausted", "film_clamped", "film_non_finite", "ao_table_full", "hits",
+    "ao_rays",     "sun_rays",        "ao_reused",    "ao_searches",     "ao_probes",     "ao_claimed",
+    "ao_evicted",  "ao_dropped",      "ao_own_rays",  "ao_atomics"};
 }
 #endif
 

@@ -77,7 +77,7 @@ RecordedRender record_render(const Scene& scene, const PreparedScene& prepared) 
                               .first_row = row,
                               .row_count = std::min(plan.slice_rows, band_end - row)};
             Recording recording;
-            record_frame(plan, slice, params, sample, recording);
+            record_frame(plan, slice, params, {sample, {}}, recording);
             add(render, std::move(recording));
             row += slice.row_count;
         }

@@ -42,8 +42,8 @@ FrameRig::FrameRig(const Scene& scene, Executor& executor, std::optional<Travers
 
 FramePlanes FrameRig::render(std::uint32_t sample) {
     Recording recording;
-    record_frame(prepared_.plan, slice_of(prepared_.plan, 0, prepared_.plan.band_rows), params_, sample,
-                 recording);
+    record_frame(prepared_.plan, slice_of(prepared_.plan, 0, prepared_.plan.band_rows), params_,
+                 {sample, state_}, recording);
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
     for (const std::string& buffer : {hits, std::string("ao.open"), std::string("sun.lit"),
                                       std::string("shade.color"), std::string("tally")}) {
@@ -63,7 +63,8 @@ void FrameRig::render_slices(std::uint32_t sample, std::uint32_t rows) {
     const auto height = static_cast<std::uint32_t>(prepared_.plan.settings.size.y);
     for (std::uint32_t row = 0; row < height; row += rows) {
         Recording recording;
-        record_frame(prepared_.plan, slice_of(prepared_.plan, row, rows), params_, sample, recording);
+        record_frame(prepared_.plan, slice_of(prepared_.plan, row, rows), params_, {sample, state_},
+                     recording);
         executor_.run(recording);
     }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/frame_state.h"
 #include "plan/render_plan.h"
 #include "session/render_session.h"
 #include "shared/gpu_types.h"
@@ -49,6 +50,7 @@ class FrameRig {
     Executor& executor_;
     PreparedScene prepared_;
     gpu::FrameParams params_;
+    FrameState state_;
 };
 
 // The first sample of a scene on test_executor(). Fails the test when a fault was counted.

@@ -18,7 +18,7 @@ DeviceLimits limits_for(const std::string& selector) {
 std::string describe_first_frame(const PreparedScene& prepared, const Scene& scene) {
     Recording recording;
     const Slice slice{.row_count = prepared.plan.slice_rows};
-    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.march_world), 0,
+    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.march_world), {},
                  recording);
     return describe(recording);
 }

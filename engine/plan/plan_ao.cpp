@@ -1,0 +1,62 @@
+#include "plan/plan_ao.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "shared/limits.h"
+
+namespace voxilux {
+namespace {
+
+// Pixels that one film band may have with the hash: every pass then runs over the whole picture before the
+// next one starts, so that no pixel reads sums that others still add to.
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;
+constexpr std::uint32_t kFewestSlots = 1u << 12;
+
+// Why the hash cannot serve, or nothing.
+std::string hindrance(const AoNeeds& needs) {
+    if (!needs.has_voxels) return "the scene has no voxels to share samples on";
+    if (std::max({needs.world_size.x, needs.world_size.y, needs.world_size.z}) > gpu::kAoMaxEdge)
+        return fmt::format("the world is longer than {} voxels", gpu::kAoMaxEdge);
+    if (needs.pixels > kMostPixels) return fmt::format("the picture has over {} pixels", kMostPixels);
+    return {};
+}
+
+void check_options(const AoSettings& ao) {
+    if (ao.merged && (ao.checkerboard || ao.sample_limit != 0))
+        throw Error(
+            ExitCode::input_refused,
+            "[ao] 'merged' excludes 'checkerboard' and 'sample_limit': they must know the cell before the "
+            "samples are taken");
+    if (ao.slots != 0 && !std::has_single_bit(ao.slots))
+        throw Error(ExitCode::input_refused, fmt::format("[ao] 'slots' {} is not a power of two", ao.slots));
+}
+
+// One slot for each pixel: cells are several pixels wide, and the rest is room for those that were seen
+// before.
+std::uint32_t slots_for(const AoSettings& ao, std::uint64_t pixels) {
+    if (ao.slots != 0) return ao.slots;
+    return std::max(kFewestSlots, static_cast<std::uint32_t>(std::bit_ceil(pixels)));
+}
+
+}  // namespace
+
+AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
+    const AoSettings& ao = settings.ao;
+    check_options(ao);
+    if (ao.method == AoMethod::brute) return {AoMethod::brute, "asked for"};
+    const std::string hindered = hindrance(needs);
+    if (ao.method == AoMethod::hash) {
+        if (!hindered.empty())
+            throw Error(ExitCode::input_refused,
+                        fmt::format("occlusion in a hash is asked for, but {}; use brute force", hindered));
+        return {AoMethod::hash, "asked for", slots_for(ao, needs.pixels)};
+    }
+    if (needs.frames <= 1) return {AoMethod::brute, "a single picture is traced pixel by pixel"};
+    if (!hindered.empty()) return {AoMethod::brute, hindered};
+    return {AoMethod::hash, fmt::format("{} frames share samples", needs.frames),
+            slots_for(ao, needs.pixels)};
+}
+
+}  // namespace voxilux

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scene/ao_settings.h"
+#include "scene/scene.h"
+
+namespace voxilux {
+
+// Which way occlusion goes and how large its table is.
+struct AoPlan {
+    AoMethod method = AoMethod::brute;  // never automatic
+    std::string reason;                 // one clause, shown to the user
+    std::uint32_t slots = 0;            // of the table; 0 without one
+
+    bool operator==(const AoPlan&) const = default;
+    [[nodiscard]] bool uses_cells() const { return method == AoMethod::hash; }
+};
+
+// What the choice depends on beside the settings.
+struct AoNeeds {
+    bool has_voxels = false;
+    glm::ivec3 world_size{0};  // cells
+    std::uint64_t pixels = 0;  // of the picture
+    std::uint32_t frames = 1;  // that will be rendered
+};
+
+// The hash for frame ranges, brute force for single pictures, unless the settings name one. Throws
+// Error(input_refused) when the hash is asked for and cannot serve: no voxels, a world too long for its keys,
+// a picture that needs more than one film band; and for options that exclude each other.
+[[nodiscard]] AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs);
+
+}  // namespace voxilux

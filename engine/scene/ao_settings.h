@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+namespace voxilux {
+
+// How ambient occlusion is found: `brute` traces rays for each pixel alone, `hash` shares them in cells of
+// the surface that outlive a frame. Automatic leaves it to the plan.
+enum class AoMethod : std::uint8_t { automatic, brute, hash };
+
+// Settings of the hash; shaders/shared/ao_cell.h says what a cell is.
+struct AoSettings {
+    AoMethod method = AoMethod::automatic;
+    float cell_px = 10.0f;  // width of a cell that is wished for, pixels; cells are between half of it and it
+    bool reproject = true;  // look for a cell where the sample before saw it, before searching the table
+    bool merged = false;    // search and trace in one pass
+    bool checkerboard = false;       // every other pixel takes samples
+    bool by_pixel = false;           // rays start at the pixel's hit and follow the pixel's own sequence
+    std::uint32_t filter = 0;        // iterations of the a-trous filter, 0 to 4
+    std::uint32_t sample_limit = 0;  // cells with as many samples take no more; 0: no limit
+    std::uint32_t slots = 0;         // of the table, a power of two; 0: the plan chooses
+
+    bool operator==(const AoSettings&) const = default;
+};
+
+}  // namespace voxilux

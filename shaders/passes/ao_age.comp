@@ -1,0 +1,44 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Empties the slots of cells that nobody has seen for kCellMaxAge frames, in the part of the table that is this frame's
+// turn. No other pass runs meanwhile, so nobody can claim a slot that is being emptied.
+
+#include "lib/address.glsl"
+
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+#include "lib/tally_access.glsl"
+
+#include "shared/cell_age.h"
+
+layout(scalar) readonly buffer AoFrame {
+    AoParams ao_frame;
+};
+layout(scalar) buffer Keys {
+    uint64_t keys[];
+};
+layout(scalar) buffer Samples {
+    uint64_t samples[];
+};
+layout(scalar) writeonly buffer Opens {
+    uint64_t opens[];
+};
+layout(scalar) readonly buffer Touched {
+    uint touched[];
+};
+
+void main() {
+    uint i = linear_id();
+    if (i >= ao_frame.swept_count) return;
+    uint slot = ao_frame.first_swept + i;
+    if (keys[slot] == uint64_t(0) || !is_stale(touched[slot], ao_frame.frame)) return;
+    uvec2 dropped = unpack32(samples[slot]);
+    count(kWorkAoEvicted, 1u);
+    count(kWorkAoDropped, dropped.y == 0u ? dropped.x : 0xFFFFFFFFu);
+    keys[slot] = uint64_t(0);
+    samples[slot] = uint64_t(0);
+    opens[slot] = uint64_t(0);
+}

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// The slot of the occlusion cell of each hit.
+
+#include "lib/address.glsl"
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+#include "lib/tally_access.glsl"
+
+#include "lib/ao_cells.glsl"
+
+layout(scalar) readonly buffer Hits {
+    Hit hits[];
+};
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    Hit hit = hits[pixel.index];
+    uint slot = kNoSlot;
+    if (hit.face < kFaceInside) slot = locate(hit);
+    if (slot != kNoSlot && rests(pixel, slot)) slot |= kSlotRests;
+    slots[pixel.index] = slot;
+}

@@ -1,0 +1,51 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Openness of each hit: that of its cell, or of its own rays where it has none.
+
+#include "lib/address.glsl"
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+
+#include "shared/ao_filter.h"
+#include "shared/cell_age.h"
+
+layout(constant_id = 25) const uint wants_variance = 0u;
+
+layout(scalar) readonly buffer Slots {
+    uint slots[];
+};
+layout(scalar) readonly buffer Samples {
+    uint64_t samples[];
+};
+layout(scalar) readonly buffer Opens {
+    uint64_t opens[];
+};
+layout(scalar) readonly buffer Own {
+    float own_openness[];
+};
+layout(scalar) writeonly buffer Ao {
+    float ao[];
+};
+layout(scalar) writeonly buffer Variance {
+    float variance[];
+};
+
+void main() {
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    uint slot = slots[pixel.index];
+    float openness = own_openness[pixel.index];
+    float taken = float(frame.ao_rays);
+    if (slot != kNoSlot) {
+        slot &= ~kSlotRests;
+        taken = float(samples[slot]);
+        openness = float(opens[slot]) / taken;
+    }
+    ao[pixel.index] = openness;
+    if (wants_variance != 0u) variance[pixel.index] = openness_variance(openness, taken);
+}

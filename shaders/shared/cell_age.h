@@ -1,0 +1,28 @@
+// Slots of a table of cells (cell_table.h): their numbers, and when they are emptied.
+#ifndef VX_CELL_AGE_H
+#define VX_CELL_AGE_H
+
+#include "hash.h"
+#include "limits.h"
+#include "portable.h"
+
+VX_BEGIN
+
+VX_CONST(uint, kNoSlot, 0xFFFFFFFFu);
+// Set in the slot of a pixel that takes no samples for the cell now. Slots themselves are below.
+VX_CONST(uint, kSlotRests, 0x80000000u);
+
+// Whether a slot last touched in frame `touched` is to be emptied in frame `now`. Frame numbers may wrap.
+VX_FN bool is_stale(uint touched, uint now) {
+    return now - touched > kCellMaxAge;
+}
+
+// Whether a frame renews the touch of a key: each key has its turn once in kCellTouchPeriod frames, so that
+// few slots are written in any of them.
+VX_FN bool is_touch_due(uvec2 key, uint frame) {
+    return ((hash4(key.x, key.y, 0x746F7563u, 0u) ^ frame) & (kCellTouchPeriod - 1u)) == 0u;  // "touc"
+}
+
+VX_END
+
+#endif

@@ -1,0 +1,70 @@
+// A hash table of cells that many threads fill at once: open addressing with linear probing, at most
+// kCellProbes slots from a cell's home on.
+//
+// Within a pass slots only go from empty to taken, and each is taken by one 64-bit compare-and-swap of its
+// whole key. A thread first searches every slot that may hold its key, so what an earlier pass left behind an
+// emptied slot is found, and only then takes the first slot that is empty. All threads with one key walk the
+// same slots in the same order, and none of those they pass can become empty: the first to take one is met by
+// all others. So no key is in the table twice. Slots are emptied in passes of their own (cell_age.h).
+//
+// The including side provides, of its table:
+//   uvec2 table_key(slot)         the key in a slot; may be old by some writes, but a written key stays
+//   uvec2 table_claim(slot, key)  compares the key in a slot with 0 and swaps; returns what was there
+// and defines VX_TABLE_PARAM and VX_TABLE_ARG.
+#ifndef VX_CELL_TABLE_H
+#define VX_CELL_TABLE_H
+
+#include "cell_age.h"
+#include "hash.h"
+#include "limits.h"
+#include "portable.h"
+
+VX_BEGIN
+
+struct FoundSlot {
+    uint slot;    // kNoSlot when every slot that may hold the key has another one
+    uint probes;  // keys looked at
+    bool claimed;
+};
+
+// Where the search for a key starts. `mask` is the number of slots, a power of two, less one.
+VX_FN uint home_slot(uvec2 key, uint mask) {
+    return hash4(key.x, key.y, 0x686F6D65u, 0u) & mask;  // "home"
+}
+
+// The slot of a key, taken for it if the table has none.
+VX_FN FoundSlot find_or_claim(VX_TABLE_PARAM uvec2 key, uint mask) {
+    const uint home = home_slot(key, mask);
+    const uint most = min(kCellProbes - 1u, mask) + 1u;
+    FoundSlot found;
+    found.slot = kNoSlot;
+    found.claimed = false;
+    for (found.probes = 1u; found.probes <= most; ++found.probes) {
+        const uint slot = (home + found.probes - 1u) & mask;
+        const uvec2 there = table_key(VX_TABLE_ARG slot);
+        if (there.x == key.x && there.y == key.y) {
+            found.slot = slot;
+            return found;
+        }
+    }
+    found.probes = most;
+    for (uint i = 0u; i < most; ++i) {
+        const uint slot = (home + i) & mask;
+        const uvec2 seen = table_key(VX_TABLE_ARG slot);
+        found.probes += 1u;
+        const bool is_whole = seen.x != 0u && seen.y != 0u;
+        if (is_whole && (seen.x != key.x || seen.y != key.y)) continue;
+        const uvec2 there = table_claim(VX_TABLE_ARG slot, key);
+        const bool was_empty = there.x == 0u && there.y == 0u;
+        if (was_empty || (there.x == key.x && there.y == key.y)) {
+            found.slot = slot;
+            found.claimed = was_empty;
+            return found;
+        }
+    }
+    return found;
+}
+
+VX_END
+
+#endif
