@@ -11,7 +11,7 @@
 
 VX_BEGIN
 
-// Variance of a share `openness` of `taken` rays, above 0: binomial, with the share shrunk by Laplace's rule
+// Variance of a share `openness` of `taken` rays: binomial, with the share shrunk by Laplace's rule
 // of succession, so that a share of 0 or 1 of few rays is not taken for certain.
 VX_FN float openness_variance(float openness, float taken) {
     const float share = (openness * taken + 1.0f) / (taken + 2.0f);
@@ -31,8 +31,9 @@ VX_FN float plane_weight(float height, float footprint) {
     return max(0.0f, 1.0f - abs(height) / footprint);
 }
 
-// Weight of a tap whose value differs by `difference` from a centre of variance `variance` > 0.
+// Weight of a tap whose value differs by `difference` from a centre of variance `variance` >= 0.
 VX_FN float value_weight(float difference, float variance) {
+    if (difference == 0.0f) return 1.0f;  // also where so many samples agree that the variance rounds to 0
     return max(0.0f, 1.0f - abs(difference) / (kAoFilterSigmas * sqrt(variance)));
 }
 

@@ -58,8 +58,8 @@ VX_CONST(uint, kAoLevels, 5u);
 VX_CONST(uint, kAoFaceParts, 341u);
 // Worlds that keys can tell the voxels of: edges up to here, voxels.
 VX_CONST(int, kAoMaxEdge, 131072);
-// Slots from its home on that may hold a cell. With a third of the slots taken, a cell finds them all taken
-// by others about once in 10^6 times.
+// Slots from its home on that may hold a cell. With two fifths of the slots taken, a cell finds them all
+// taken by others about once in 10^6 times, with a third of them less than once in 10^7.
 VX_CONST(uint, kCellProbes, 32u);
 // Frames after which a cell that nobody sees is given up. Longer than a touch may be late (kCellTouchPeriod).
 VX_CONST(uint, kCellMaxAge, 32u);

@@ -20,6 +20,12 @@ using test::SourceFile;
 const std::map<std::string, std::string> kReadAndWritten = {
     {"Tally", "atomic counters"},
     {"Sums", "film_add adds to what is there; each sum belongs to one invocation"},
+    {"Keys", "slots are claimed by atomics in one pass and emptied in another"},
+    {"Samples",
+     "each sample takes its number by an atomic, and the pass that empties slots reads what was in them"},
+    {"Opens", "atomic counters"},
+    {"Touched",
+     "every writer of a frame writes the number of the frame; the pass that empties slots reads it"},
     {"Counts", "a probe that counts its invocations with atomics"},
     {"Unused", "a probe of reflection: a block that the shader never touches"},
 };

@@ -1,0 +1,185 @@
+// Cells over many frames: where every sample is, and when cells are given up.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "support/cell_table_model.h"
+
+namespace voxilux {
+namespace {
+
+using gpu::FoundSlot;
+using gpu::kNoSlot;
+using test::CellTable;
+using test::TestRandom;
+using IsDue = bool (*)(gpu::uvec2 key, std::uint32_t frame);
+
+// The cells of a run of frames as the passes keep them.
+class Ledger {
+  public:
+    Ledger(std::size_t slots, std::uint32_t first_frame, IsDue is_due = gpu::is_touch_due)
+        : frame(first_frame), table_(slots), samples_(slots, 0), touched_(slots, 0), is_due_(is_due) {}
+
+    // One frame in which every key is seen and takes some samples.
+    void run_frame(const std::vector<std::uint64_t>& keys, std::uint32_t each) {
+        sweep();
+        table_.begin_pass();
+        for (const std::uint64_t key : keys)
+            take(key, each);
+        ++frame;
+    }
+
+    // Samples that the slots' own counts miss or have too many, slot by slot.
+    [[nodiscard]] std::uint64_t misplaced() const {
+        std::uint64_t sum = 0;
+        for (std::size_t slot = 0; slot < samples_.size(); ++slot) {
+            const auto found = expected_.find(table_.keys[slot]);
+            const std::uint64_t expected = found == expected_.end() ? 0 : found->second;
+            sum += std::max(expected, samples_[slot]) - std::min(expected, samples_[slot]);
+        }
+        return sum;
+    }
+    [[nodiscard]] std::uint64_t in_cells() const {
+        return std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0});
+    }
+
+    // Moves a sample from one cell to another.
+    void misplace_a_sample() {
+        const auto taken_from = std::ranges::find_if(samples_, [](std::uint64_t count) { return count > 0; });
+        --*taken_from;
+        ++*std::find_if(taken_from + 1, samples_.end(), [](std::uint64_t count) { return count > 0; });
+    }
+
+    std::uint32_t frame;
+    std::uint64_t taken = 0;
+    std::uint64_t dropped = 0;
+    std::uint64_t own = 0;
+    int evicted = 0;
+
+  private:
+    // An eighth of the table in each frame.
+    void sweep() {
+        const auto slots = static_cast<std::uint32_t>(samples_.size());
+        const std::uint32_t count = std::max(1u, slots / 8);
+        const std::uint32_t first = frame % (slots / count) * count;
+        for (std::uint32_t slot = first; slot < first + count; ++slot) {
+            if (table_.keys[slot] == 0 || !gpu::is_stale(touched_[slot], frame)) continue;
+            dropped += samples_[slot];
+            ++evicted;
+            expected_.erase(table_.keys[slot]);
+            table_.keys[slot] = 0;
+            samples_[slot] = 0;
+        }
+    }
+
+    void take(std::uint64_t bits, std::uint32_t count) {
+        const gpu::uvec2 key = test::key_words(bits);
+        const FoundSlot found = gpu::find_or_claim(table_, key, table_.mask());
+        taken += count;
+        if (found.slot == kNoSlot) {
+            own += count;
+            return;
+        }
+        if (found.claimed || is_due_(key, frame)) touched_[found.slot] = frame;
+        samples_[found.slot] += count;
+        expected_[bits] += count;
+    }
+
+    CellTable table_;
+    std::vector<std::uint64_t> samples_;
+    std::vector<std::uint32_t> touched_;
+    std::map<std::uint64_t, std::uint64_t> expected_;  // of each key since it was entered
+    IsDue is_due_;
+};
+
+std::uint64_t key_number(std::uint64_t i) {
+    return TestRandom(i).bits64() | 0x8000000080000000u;
+}
+
+// The keys that a camera sees which passes by: in each frame 3 new ones come, and 3 old ones go.
+std::vector<std::uint64_t> keys_in_view(std::uint64_t frame) {
+    std::vector<std::uint64_t> keys;
+    for (std::uint64_t i = 0; i < 60; ++i)
+        keys.push_back(key_number((3 * frame + i) % 700));
+    return keys;
+}
+
+TEST(CellLedger, samples_in_cells_and_given_up_and_own_are_all_that_were_taken) {
+    for (const std::size_t slots : {1u, 2u, 16u, 64u, 256u, 4096u}) {
+        for (const std::uint32_t first : {0u, 0xFFFFFF80u}) {
+            Ledger ledger(slots, first);
+            for (std::uint64_t i = 0; i < 300; ++i) {
+                ledger.run_frame(keys_in_view(i), 1 + static_cast<std::uint32_t>(i % 5));
+                ASSERT_EQ(ledger.in_cells() + ledger.dropped + ledger.own, ledger.taken) << slots << " " << i;
+                ASSERT_EQ(ledger.misplaced(), 0u) << slots << " " << i;
+            }
+            EXPECT_GT(ledger.evicted, slots == 1 ? 3 : 10) << slots;
+            EXPECT_EQ(ledger.own > 0, slots < 200) << slots;
+        }
+    }
+}
+
+TEST(CellLedger, comparison_rejects_a_sample_in_another_cell) {
+    Ledger ledger(64, 0);
+    ledger.run_frame({key_number(1), key_number(2)}, 3);
+    EXPECT_EQ(ledger.misplaced(), 0u);
+    ledger.misplace_a_sample();
+    EXPECT_EQ(ledger.in_cells(), ledger.taken) << "the sum alone does not tell";
+    EXPECT_EQ(ledger.misplaced(), 2u);
+}
+
+// How many of the keys, seen in every frame, were given up all the same.
+int evicted_in_sight(std::uint32_t first_frame, IsDue is_due) {
+    Ledger ledger(4096, first_frame, is_due);
+    std::vector<std::uint64_t> keys;
+    for (std::uint64_t i = 0; i < 500; ++i)
+        keys.push_back(key_number(i));
+    for (int i = 0; i < 200; ++i)
+        ledger.run_frame(keys, 1);
+    return ledger.evicted;
+}
+
+TEST(HardCase, hole16_cell_in_sight_is_never_given_up) {
+    EXPECT_EQ(evicted_in_sight(0, gpu::is_touch_due), 0);
+    EXPECT_EQ(evicted_in_sight(0xFFFFFFF0u, gpu::is_touch_due), 0) << "frame numbers wrap";
+}
+
+TEST(HardCase, hole16_comparison_rejects_touches_rarer_than_the_greatest_age) {
+    const IsDue rare = [](gpu::uvec2 key, std::uint32_t frame) {
+        return ((gpu::hash4(key.x, key.y, 1u, 0u) ^ frame) & 63u) == 0u;
+    };
+    EXPECT_GT(evicted_in_sight(0, rare), 100);
+}
+
+TEST(CellAge, touch_of_every_key_is_due_once_in_its_period) {
+    TestRandom random(8);
+    std::map<std::uint32_t, int> turns;
+    for (int i = 0; i < 8000; ++i) {
+        const gpu::uvec2 key = test::key_words(key_number(random.bits64()));
+        const std::uint32_t first = i % 2 == 0 ? random.bits32() : 0xFFFFFFFCu;  // wraps inside
+        std::uint32_t due = 0;
+        for (std::uint32_t n = 0; n < gpu::kCellTouchPeriod; ++n) {
+            if (!gpu::is_touch_due(key, first + n)) continue;
+            ++due;
+            if (i % 2 == 1) ++turns[n];
+        }
+        ASSERT_EQ(due, 1u);
+    }
+    for (const auto& [turn, count] : turns)
+        EXPECT_NEAR(count, 500, 110) << "5 standard deviations: keys take turns evenly, turn " << turn;
+}
+
+TEST(CellAge, age_counts_across_the_wrap_of_frame_numbers) {
+    for (const std::uint32_t touched : {0u, 1000u, 0xFFFFFFFFu, 0xFFFFFFE0u, 0x7FFFFFFFu, 0x80000000u}) {
+        EXPECT_FALSE(gpu::is_stale(touched, touched));
+        EXPECT_FALSE(gpu::is_stale(touched, touched + gpu::kCellMaxAge));
+        EXPECT_TRUE(gpu::is_stale(touched, touched + gpu::kCellMaxAge + 1));
+        EXPECT_TRUE(gpu::is_stale(touched, touched + 0x80000000u));
+    }
+}
+
+}  // namespace
+}  // namespace voxilux
