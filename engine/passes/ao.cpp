@@ -156,7 +156,7 @@ Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& h
                       const gpu::AoParams& params, Recording& recording) {
     VX_ASSERT_EQ(slice.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
     recording.upload(use_buffer(plan, "ao.frame", recording), to_bytes(params));
-    if (params.pass_number == 0) empty_table(plan, recording);
+    if (params.has_last == 0) empty_table(plan, recording);
     if (params.swept_count > 0) record_ao_age(plan, params, recording);
     const SlotPlanes planes = slot_planes(plan, params, recording);
     if (!plan.settings.ao.merged) record_ao_lookup(plan, slice, hits, planes, recording);

@@ -10,7 +10,7 @@ namespace voxilux {
 [[nodiscard]] Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                     Recording& recording);
 
-// The same, shared in the cells of a hash. The slice is the whole picture. When `params.pass_number` is 0 the
+// The same, shared in the cells of a hash. The slice is the whole picture. When `params.has_last` is 0 the
 // table is emptied first; when `params.swept_count` is not 0, cells that nobody has seen for long are given
 // up.
 [[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,

@@ -78,7 +78,7 @@ struct AoParams {
     vec3 last_right;    // half the image plane's width at distance 1, divided by its squared length
     vec3 last_up;       // half its height, likewise
     vec3 last_forward;  // unit
-    uint has_last;      // 0: there was no sample before
+    uint has_last;      // 0: there was no sample before, and the table is emptied
     uint frame;         // number of the frame, which may wrap
     uint pass_number;   // samples taken since the table was empty, which may wrap
     uint table_mask;    // slots of the table less one
