@@ -206,6 +206,15 @@ TEST(SceneHash, every_field_changes_the_hash) {
         [](Scene& s) { s.settings.ao_radius = 1.0f; },
         [](Scene& s) { s.settings.seed = 1; },
         [](Scene& s) { s.settings.sequence = Sequence::white; },
+        [](Scene& s) { s.settings.ao.method = AoMethod::hash; },
+        [](Scene& s) { s.settings.ao.cell_px = 5.0f; },
+        [](Scene& s) { s.settings.ao.reproject = false; },
+        [](Scene& s) { s.settings.ao.merged = true; },
+        [](Scene& s) { s.settings.ao.checkerboard = true; },
+        [](Scene& s) { s.settings.ao.by_pixel = true; },
+        [](Scene& s) { s.settings.ao.filter = 1; },
+        [](Scene& s) { s.settings.ao.sample_limit = 1; },
+        [](Scene& s) { s.settings.ao.slots = 1; },
     };
     std::set<std::uint64_t> hashes{scene_hash(small_scene())};
     for (std::size_t i = 0; i < std::size(changes); ++i) {
@@ -217,7 +226,7 @@ TEST(SceneHash, every_field_changes_the_hash) {
 
 // Moving an element from one list to the next must not give the same bytes.
 TEST(SceneHash, value_is_stable) {
-    EXPECT_EQ(scene_hash(Scene{}), 0xb083d22f9353aa58u) << std::hex << scene_hash(Scene{});
+    EXPECT_EQ(scene_hash(Scene{}), 0x3fd8d4afe8440327u) << std::hex << scene_hash(Scene{});
 }
 
 }  // namespace
