@@ -25,7 +25,7 @@ struct Use {
 void add_shader_uses(const Dispatch& dispatch, const BarrierContext& context, std::vector<Use>& uses) {
     const ProgramInfo& program = context.program(dispatch.shader);
     for (const Binding& binding : dispatch.bindings) {
-        const StorageBlock* block = program.find_block(binding.block);
+        const BufferBlock* block = program.find_block(binding.block);
         if (block == nullptr) continue;
         uses.push_back({binding.buffer, Stage::compute, block->readable, block->writable});
     }

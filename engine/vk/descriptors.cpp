@@ -1,6 +1,7 @@
 #include "vk/descriptors.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "base/checked_cast.h"
@@ -11,12 +12,13 @@ namespace {
 
 void grow(const DeviceState& device, Descriptors& descriptors) {
     descriptors.pool.reset();
-    const VkDescriptorPoolSize size{.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                    .descriptorCount = std::max(1u, descriptors.max_buffers)};
+    const std::uint32_t count = std::max(1u, descriptors.max_buffers);
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = descriptors.max_sets,
-                                          .poolSizeCount = 1,
-                                          .pPoolSizes = &size};
+                                          .poolSizeCount = sizes.size(),
+                                          .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
     vk_check(vkCreateDescriptorPool(device.handle, &info, nullptr, &pool), "create the descriptor pool");
     descriptors.pool = {device.handle, pool};
@@ -66,18 +68,18 @@ VkDescriptorSet create_set(const DeviceState& device, const Descriptors& descrip
              fmt::format("allocate the descriptor set of '{}'", dispatch.dispatch->label));
     set_debug_name(device, VK_OBJECT_TYPE_DESCRIPTOR_SET, to_bits(set), dispatch.dispatch->label);
 
-    const std::vector<StorageBlock>& blocks = dispatch.program->info.blocks;
+    const std::vector<BufferBlock>& blocks = dispatch.program->info.blocks;
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(blocks.size());  // the writes point into it
     std::vector<VkWriteDescriptorSet> writes;
-    for (const StorageBlock& block : blocks) {
+    for (const BufferBlock& block : blocks) {
         const auto bound = std::ranges::find(dispatch.dispatch->bindings, block.name, &Binding::block);
         infos.push_back(buffer_info(device, dispatch.program->name, block.name, buffers.at(bound->buffer)));
         writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                           .dstSet = set,
                           .dstBinding = block.binding,
                           .descriptorCount = 1,
-                          .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                          .descriptorType = descriptor_type(block),
                           .pBufferInfo = &infos.back()});
     }
     vkUpdateDescriptorSets(device.handle, checked_cast<std::uint32_t>(writes.size(), "bindings"),

@@ -7,6 +7,7 @@
 #include "vk/buffer_store.h"
 #include "vk/device_state.h"
 #include "vk/handle.h"
+#include "vk/program.h"
 #include "vk/program_store.h"
 
 namespace voxilux {

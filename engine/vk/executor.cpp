@@ -28,8 +28,8 @@ struct StageFlags {
 StageFlags flags_of(Stage stage) {
     switch (stage) {
         case Stage::compute:
-            return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
-                    VK_ACCESS_SHADER_WRITE_BIT};
+            return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                    VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT, VK_ACCESS_SHADER_WRITE_BIT};
         case Stage::indirect:
             return {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_ACCESS_INDIRECT_COMMAND_READ_BIT, 0};
         case Stage::transfer:

@@ -38,9 +38,9 @@ UniqueShaderModule create_module(const DeviceState& device, const EmbeddedShader
 
 UniqueSetLayout create_set_layout(const DeviceState& device, const Program& program) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const StorageBlock& block : program.info.blocks) {
+    for (const BufferBlock& block : program.info.blocks) {
         bindings.push_back({.binding = block.binding,
-                            .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                            .descriptorType = descriptor_type(block),
                             .descriptorCount = 1,
                             .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT});
     }
@@ -90,6 +90,10 @@ void check_addresses(const Program& program, const Dispatch& dispatch) {
 }
 
 }  // namespace
+
+VkDescriptorType descriptor_type(const BufferBlock& block) {
+    return block.is_uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
 
 Program create_program(const DeviceState& device, const EmbeddedShader& shader) {
     Program program{.name = std::string(shader.name), .info = reflect(shader.spirv)};
@@ -177,7 +181,7 @@ void check_fits(const Program& program, const Dispatch& dispatch) {
             refuse(program.name,
                    fmt::format("has no block '{}' to bind '{}' to", binding.block, binding.buffer));
     }
-    for (const StorageBlock& block : program.info.blocks) {
+    for (const BufferBlock& block : program.info.blocks) {
         const auto bound = std::ranges::count(dispatch.bindings, block.name, &Binding::block);
         if (bound != 1) refuse(program.name, fmt::format("block '{}' is bound {} times", block.name, bound));
     }

@@ -25,6 +25,9 @@ struct Program {
     std::map<std::vector<std::uint32_t>, UniquePipeline> pipelines;
 };
 
+// What a block is bound as.
+[[nodiscard]] VkDescriptorType descriptor_type(const BufferBlock& block);
+
 // Reflects the shader and makes its layouts. Throws InternalError when the device lacks a capability it
 // needs.
 [[nodiscard]] Program create_program(const DeviceState& device, const EmbeddedShader& shader);

@@ -117,29 +117,35 @@ Access access_of(const Module& module, std::uint32_t struct_id) {
     return access;
 }
 
-StorageBlock block_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
+BufferBlock block_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
     const std::uint32_t struct_id = pointee(module, variable);
     const Type& type = module.type(struct_id);
-    if (type.kind != Type::structure) spirv::fail("a storage buffer is not a block (an array of blocks?)");
+    if (type.kind != Type::structure) spirv::fail("a buffer is not a block (an array of blocks?)");
     const spirv::VariableFacts facts = module.variable_facts(variable_id);
     const Access access = access_of(module, struct_id);
-    if (!facts.binding) spirv::fail("a storage buffer has no binding");
-    StorageBlock block{.name = module.name(struct_id),
-                       .set = facts.set.value_or(0),
-                       .binding = *facts.binding,
-                       .readable = !facts.non_readable && access.readable,
-                       .writable = !facts.non_writable && access.writable};
-    if (block.name.empty()) spirv::fail("a storage block has no name");
+    if (!facts.binding) spirv::fail("a buffer has no binding");
+    BufferBlock block{.name = module.name(struct_id),
+                      .set = facts.set.value_or(0),
+                      .binding = *facts.binding,
+                      .readable = !facts.non_readable && access.readable,
+                      .writable = !facts.non_writable && access.writable};
+    if (variable.storage == spirv::StorageClass::uniform) {
+        if (!module.is_block(struct_id))
+            spirv::fail("a uniform block is not one (a storage buffer of SPIR-V 1.2?)");
+        block.is_uniform = true;
+        block.writable = false;
+    }
+    if (block.name.empty()) spirv::fail("a block has no name");
     return block;
 }
 
-void check_blocks(const std::vector<StorageBlock>& blocks) {
+void check_blocks(const std::vector<BufferBlock>& blocks) {
     std::set<std::string> names;
     std::set<std::uint32_t> bindings;
-    for (const StorageBlock& block : blocks) {
-        if (block.set != 0) spirv::fail("a storage block is not in set 0");
-        if (!names.insert(block.name).second) spirv::fail("two storage blocks share a name");
-        if (!bindings.insert(block.binding).second) spirv::fail("two storage blocks share a binding");
+    for (const BufferBlock& block : blocks) {
+        if (block.set != 0) spirv::fail("a block is not in set 0");
+        if (!names.insert(block.name).second) spirv::fail("two blocks share a name");
+        if (!bindings.insert(block.binding).second) spirv::fail("two blocks share a binding");
     }
 }
 
@@ -179,7 +185,8 @@ void add_variables(const Module& module, ProgramInfo& info) {
     for (const auto& [id, variable] : module.variables) {
         // Blocks that are declared but not used have no binding of their own and need no buffer.
         if (!module.used_variables.contains(id)) continue;
-        if (variable.storage == spirv::StorageClass::storage_buffer) {
+        if (variable.storage == spirv::StorageClass::storage_buffer ||
+            variable.storage == spirv::StorageClass::uniform) {
             info.blocks.push_back(block_of(module, id, variable));
         } else if (variable.storage == spirv::StorageClass::push_constant) {
             const std::uint32_t struct_id = pointee(module, variable);
@@ -187,10 +194,10 @@ void add_variables(const Module& module, ProgramInfo& info) {
             info.push_bytes = end_of_struct(module, struct_id, 0);
             add_addresses(module, struct_id, info);
         } else if (spirv::is_descriptor(variable.storage)) {
-            spirv::fail("a resource is not a storage buffer");
+            spirv::fail("a resource is not a buffer");
         }
     }
-    std::ranges::sort(info.blocks, {}, &StorageBlock::binding);
+    std::ranges::sort(info.blocks, {}, &BufferBlock::binding);
     check_blocks(info.blocks);
     check_pointers(module);
 }
@@ -230,7 +237,7 @@ const Row* find_named(const std::vector<Row>& rows, std::string_view name) {
 const AddressMember* ProgramInfo::find_address(std::string_view name) const {
     return find_named(addresses, name);
 }
-const StorageBlock* ProgramInfo::find_block(std::string_view name) const {
+const BufferBlock* ProgramInfo::find_block(std::string_view name) const {
     return find_named(blocks, name);
 }
 const SpecConstant* ProgramInfo::find_constant(std::string_view name) const {

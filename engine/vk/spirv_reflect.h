@@ -10,14 +10,14 @@
 
 namespace voxilux {
 
-// A storage buffer of a shader. `name` is the block's name: "Hits" of `readonly buffer Hits { Hit hits[];
-// };`.
-struct StorageBlock {
+// A buffer of a shader. `name` is the block's name: "Hits" of `readonly buffer Hits { Hit hits[]; };`.
+struct BufferBlock {
     std::string name;
     std::uint32_t set = 0;
     std::uint32_t binding = 0;
     bool readable = true;
     bool writable = true;
+    bool is_uniform = false;  // a uniform block: small, and the same words for all invocations
 };
 
 // A pointer in the push struct to a buffer that the shader reaches by address. Pointers are the first
@@ -59,7 +59,7 @@ struct LocalSizeAxis {
 
 // What a compute shader's SPIR-V says of itself.
 struct ProgramInfo {
-    std::vector<StorageBlock> blocks;  // those the shader uses, by binding
+    std::vector<BufferBlock> blocks;  // those the shader uses, by binding
     std::array<LocalSizeAxis, 3> local_size;
     std::uint32_t push_bytes = 0;  // of the push struct, its pointers included
     std::vector<StructMember> push_members;
@@ -69,14 +69,14 @@ struct ProgramInfo {
     std::vector<std::uint32_t> capabilities;  // numbers of SPIR-V capabilities
 
     // Null when there is none of that name.
-    [[nodiscard]] const StorageBlock* find_block(std::string_view name) const;
+    [[nodiscard]] const BufferBlock* find_block(std::string_view name) const;
     [[nodiscard]] const AddressMember* find_address(std::string_view name) const;
     [[nodiscard]] const SpecConstant* find_constant(std::string_view name) const;
     [[nodiscard]] const StructInfo* find_struct(std::string_view name) const;
 };
 
-// Reads a module with one compute entry point and storage buffers as its only resources, bound or reached by
-// pointers of the push struct (SPIR-V 1.6 specification, sections 2.3 and 3). Throws InternalError that says
+// Reads a module with one compute entry point and buffers as its only resources, bound or reached by pointers
+// of the push struct (SPIR-V 1.6 specification, sections 2.3 and 3). Throws InternalError that says
 // what is wrong with it: shaders are ours.
 [[nodiscard]] ProgramInfo reflect(std::span<const std::uint32_t> spirv);
 

@@ -10,7 +10,7 @@ layout(constant_id = 20) const uint reprojects = 1u;
 layout(constant_id = 21) const uint checkerboard = 0u;
 layout(constant_id = 22) const uint has_limit = 0u;
 
-layout(scalar) readonly buffer AoFrame {
+layout(scalar) uniform AoFrame {
     AoParams ao_frame;
 };
 layout(scalar) buffer Keys {
@@ -45,61 +45,35 @@ AoCell cell_of(Hit hit) {
     return ao_cell(hit.cell, hit.face, hit.fraction, ao_level(hit.t * ao_frame.cell_width));
 }
 
-// The slot that a pixel of the sample before had, if it is that of `key`.
-uint last_slot(ivec2 column_row, uvec2 key) {
-    bool inside = column_row.x >= 0 && column_row.x < int(frame.column_count) && column_row.y >= 0 &&
-                  column_row.y < int(frame.row_count);
-    if (!inside) return kNoSlot;
-    uint slot = last_slots[uint(column_row.y) * frame.column_count + uint(column_row.x)];
-    if (slot == kNoSlot) return kNoSlot;
-    slot &= ~kSlotRests;
-    uvec2 there = table_key(slot);
-    return there.x == key.x && there.y == key.y ? slot : kNoSlot;
-}
-
-// Where the sample before saw the point of a hit: its pixel, and the three next to it on the nearer sides, because its
-// rays went through other points of their pixels. The whole key is compared, so a slot is the right one or none.
-uint reproject(Hit hit, uvec2 key) {
-    if (ao_frame.has_last == 0u) return kNoSlot;
+// The slot that the sample before had where it saw the point of a hit; kNoSlot when it did not see it. It is a guess:
+// whoever uses it compares the whole key.
+uint reproject(Hit hit) {
     vec3 to_hit = vec3(hit.cell - ao_frame.last_camera_cell) + (hit.fraction - ao_frame.last_camera_fraction);
     float depth = dot(to_hit, ao_frame.last_forward);
-    if (!(depth > 0.0)) return kNoSlot;
     vec2 image = vec2(dot(to_hit, ao_frame.last_right), -dot(to_hit, ao_frame.last_up)) / depth;
     vec2 place = (0.5 * image + 0.5) * vec2(frame.width, frame.height) - vec2(frame.first_column, frame.first_row);
-    if (!(place.x > -1.0 && place.y > -1.0 && place.x < float(frame.column_count) + 1.0 &&
-          place.y < float(frame.row_count) + 1.0))
-        return kNoSlot;
-    ivec2 pixel = ivec2(floor(place));
-    vec2 inside = place - floor(place);
-    ivec2 nearer = ivec2(inside.x < 0.5 ? -1 : 1, inside.y < 0.5 ? -1 : 1);
-    for (int i = 0; i < 4; ++i) {
-        uint slot = last_slot(pixel + ivec2((i & 1) * nearer.x, (i >> 1) * nearer.y), key);
-        if (slot != kNoSlot) return slot;
-    }
-    return kNoSlot;
+    bool seen = ao_frame.has_last != 0u && depth > 0.0 && place.x >= 0.0 && place.y >= 0.0 &&
+                place.x < float(frame.column_count) && place.y < float(frame.row_count);
+    if (!seen) return kNoSlot;
+    uint slot = last_slots[uint(place.y) * frame.column_count + uint(place.x)];
+    return slot == kNoSlot ? kNoSlot : slot & ~kSlotRests;
 }
 
 // The slot of a hit's cell, by reprojection or by a search, entered and touched as needed; kNoSlot when the table has
 // no room.
 uint locate(Hit hit) {
     uvec2 key = ao_cell_key(cell_of(hit));
-    uint slot = kNoSlot;
-    if (reprojects != 0u) slot = reproject(hit, key);
-    bool reused = slot != kNoSlot;
-    bool is_new = false;
-    count(kWorkAoReused, reused ? 1u : 0u);
-    if (!reused) {
-        FoundSlot found = find_or_claim(key, ao_frame.table_mask);
-        slot = found.slot;
-        is_new = found.claimed;
-        count(kWorkAoSearches, 1u);
-        count(kWorkAoProbes, found.probes);
-        count(kWorkAoClaimed, is_new ? 1u : 0u);
-        count(kFaultAoTableFull, slot == kNoSlot ? 1u : 0u);
-    }
+    uint guess = kNoSlot;
+    if (reprojects != 0u) guess = reproject(hit);
+    FoundSlot found = find_or_claim(key, ao_frame.table_mask, guess);
+    count(kWorkAoProbes, found.probes);
+    count(kWorkAoSearches, found.probes > 0u ? 1u : 0u);
+    count(kWorkAoClaimed, found.claimed ? 1u : 0u);
+    count(kFaultAoTableFull, found.slot == kNoSlot ? 1u : 0u);
     // All writers of a frame write the same number.
-    if (slot != kNoSlot && (is_new || is_touch_due(key, ao_frame.frame))) touched[slot] = ao_frame.frame;
-    return slot;
+    if (found.slot != kNoSlot && (found.claimed || is_touch_due(key, ao_frame.frame)))
+        touched[found.slot] = ao_frame.frame;
+    return found.slot;
 }
 
 // Whether a pixel leaves a cell alone this time: on the other colour of the checkerboard, or when the cell has had

@@ -4,7 +4,7 @@
 
 #include "shared/gpu_types.h"
 
-layout(scalar) readonly buffer Frame {
+layout(scalar) uniform Frame {
     FrameParams frame;
 };
 

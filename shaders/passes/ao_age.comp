@@ -14,7 +14,7 @@
 
 #include "shared/cell_age.h"
 
-layout(scalar) readonly buffer AoFrame {
+layout(scalar) uniform AoFrame {
     AoParams ao_frame;
 };
 layout(scalar) buffer Keys {

@@ -32,31 +32,41 @@ layout(scalar) writeonly buffer Own {
     float own_openness[];
 };
 
-uint trace_for_cell(AoCell cell, uvec2 key, uvec2 first) {
-    uint open = 0u;
-    for (uint i = 0u; i < frame.ao_rays; ++i) {
-        SampleKey sample_of_cell = sample_key(ao_cell_stream(key), ray_number(first, i), frame.seed);
-        vec3 direction = cosine_on_face(cell.face, sample_2d(frame.sequence, sample_of_cell, kPairOcclusion));
-        vec3 start = ao_cell_point(cell, sample_2d(frame.sequence, sample_of_cell, kPairPixel));
-        Ray ray = leave_surface(cell.voxel, cell.face, start, direction, frame.ao_radius);
-        open += is_occluded(ray, kNoSphere) ? 0u : 1u;
-    }
-    return open;
+// The sequence that a hit's next samples come from: its cell's or its pixel's.
+struct Stream {
+    uint stream;
+    uvec2 first;  // number of the next sample
+    bool of_cell;
+};
+
+Stream stream_of(Pixel pixel, AoCell cell, uint slot, bool takes) {
+    Stream from;
+    from.of_cell = by_pixel == 0u && slot != kNoSlot;
+    uvec2 taken = uvec2(0u);
+    if (takes && slot != kNoSlot) taken = unpack32(atomicAdd(samples[slot], uint64_t(frame.ao_rays)));
+    from.first = from.of_cell ? taken : first_ray(ao_frame.pass_number, frame.ao_rays);
+    from.stream = from.of_cell ? ao_cell_stream(ao_cell_key(cell)) : pixel.y * frame.width + pixel.x;
+    return from;
 }
 
-void sample_cell(Pixel pixel, Hit hit, uint slot) {
-    uvec2 first = unpack32(atomicAdd(samples[slot], uint64_t(frame.ao_rays)));
+// Rays of a hit that meet nothing. There is one call of the march for all kinds of hits: software devices run every
+// branch for all invocations.
+uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
+    uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
     uint open = 0u;
-    if (by_pixel != 0u) {
-        float share = trace_openness(pixel, hit, first_ray(ao_frame.pass_number, frame.ao_rays));
-        open = uint(share * float(frame.ao_rays) + 0.5);
-    } else {
-        AoCell cell = cell_of(hit);
-        open = trace_for_cell(cell, ao_cell_key(cell), first);
+    for (uint i = 0u; i < rays; ++i) {
+        SampleKey key = sample_key(from.stream, ray_number(from.first, i), frame.seed);
+        vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
+        Hit start = hit;
+        if (by_pixel == 0u) {
+            vec3 point = ao_cell_point(cell, sample_2d(frame.sequence, key, kPairPixel));
+            start.fraction = from.of_cell ? point : hit.fraction;
+        }
+        vec3 direction = has_spheres != 0u && hit.face == kFaceSphere ? cosine_about(surface_normal(hit), u)
+                                                                      : cosine_on_face(hit.face, u);
+        open += is_occluded(ray_from(start, direction, frame.ao_radius), own) ? 0u : 1u;
     }
-    if (open > 0u) atomicAdd(opens[slot], uint64_t(open));
-    count(kWorkAoRays, frame.ao_rays);
-    count(kWorkAoAtomics, open > 0u ? 2u : 1u);
+    return open;
 }
 
 void main() {
@@ -67,13 +77,13 @@ void main() {
     uint slot = kNoSlot;
     if (hit.face < kFaceInside) slot = merged != 0u ? locate(hit) : located[pixel.index];
     if (merged != 0u) slots[pixel.index] = slot;
-    float openness = hit.face == kFaceInside ? 0.0 : 1.0;
-    if (slot != kNoSlot) {
-        if ((slot & kSlotRests) == 0u) sample_cell(pixel, hit, slot);
-    } else if (is_surface(hit) && hit.face != kFaceInside) {
-        openness = trace_openness(pixel, hit, first_ray(ao_frame.pass_number, frame.ao_rays));
-        count(kWorkAoRays, frame.ao_rays);
-        count(kWorkAoOwnRays, frame.ao_rays);
-    }
-    own_openness[pixel.index] = openness;
+    bool is_lit = is_surface(hit) && hit.face != kFaceInside;
+    bool takes = is_lit && (slot == kNoSlot || (slot & kSlotRests) == 0u);
+    AoCell cell = cell_of(hit);
+    Stream from = stream_of(pixel, cell, slot, takes);
+    uint open = count_open(hit, cell, from, takes ? frame.ao_rays : 0u);
+    if (takes && slot != kNoSlot) atomicAdd(opens[slot], uint64_t(open));
+    count(kWorkAoRays, takes ? frame.ao_rays : 0u);
+    count(kWorkAoOwnRays, takes && slot == kNoSlot ? frame.ao_rays : 0u);
+    own_openness[pixel.index] = is_lit ? float(open) / float(frame.ao_rays) : (hit.face == kFaceInside ? 0.0 : 1.0);
 }

@@ -40,12 +40,11 @@ VX_FN vec3 off_face(uint face, vec2 place) {
 }
 
 // Level of cells whose wanted width is `width` voxels: the largest not wider, within the stated bounds. The
-// comparisons are exact; no logarithm rounds.
+// comparisons are exact; no logarithm rounds. (One for each of the kAoLevels - 1 borders: a loop would cost
+// software devices more.)
 VX_FN uint ao_level(float width) {
-    uint level = 0u;
-    for (float edge = 1.0f; level + 1u < kAoLevels && edge > width; edge *= 0.5f)
-        level += 1u;
-    return level;
+    return (width < 1.0f ? 1u : 0u) + (width < 0.5f ? 1u : 0u) + (width < 0.25f ? 1u : 0u) +
+           (width < 0.125f ? 1u : 0u);
 }
 
 // The cell around a point of a face: `fraction` in [0,1]^3 of the voxel. Exact: it scales by a power of two.

@@ -23,7 +23,7 @@ VX_BEGIN
 
 struct FoundSlot {
     uint slot;    // kNoSlot when every slot that may hold the key has another one
-    uint probes;  // keys looked at
+    uint probes;  // keys looked at in the search; 0 when the guess was right
     bool claimed;
 };
 
@@ -32,17 +32,25 @@ VX_FN uint home_slot(uvec2 key, uint mask) {
     return hash4(key.x, key.y, 0x686F6D65u, 0u) & mask;  // "home"
 }
 
-// The slot of a key, taken for it if the table has none.
-VX_FN FoundSlot find_or_claim(VX_TABLE_PARAM uvec2 key, uint mask) {
+// Whether a slot holds a key.
+VX_FN bool holds_key(VX_TABLE_PARAM uint slot, uvec2 key) {
+    const uvec2 there = table_key(VX_TABLE_ARG slot);
+    return there.x == key.x && there.y == key.y;
+}
+
+// The slot of a key, taken for it if the table has none. `guess` is a slot of the table that may be it, or
+// kNoSlot.
+VX_FN FoundSlot find_or_claim(VX_TABLE_PARAM uvec2 key, uint mask, uint guess) {
     const uint home = home_slot(key, mask);
     const uint most = min(kCellProbes - 1u, mask) + 1u;
     FoundSlot found;
     found.slot = kNoSlot;
     found.claimed = false;
-    for (found.probes = 1u; found.probes <= most; ++found.probes) {
-        const uint slot = (home + found.probes - 1u) & mask;
-        const uvec2 there = table_key(VX_TABLE_ARG slot);
-        if (there.x == key.x && there.y == key.y) {
+    // The guess is looked at as number 0, so that a right one costs one look and a wrong one no loop of its
+    // own.
+    for (found.probes = guess == kNoSlot ? 1u : 0u; found.probes <= most; ++found.probes) {
+        const uint slot = found.probes == 0u ? guess : (home + found.probes - 1u) & mask;
+        if (holds_key(VX_TABLE_ARG slot, key)) {
             found.slot = slot;
             return found;
         }

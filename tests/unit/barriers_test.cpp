@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-ProgramInfo with_blocks(std::vector<StorageBlock> blocks) {
+ProgramInfo with_blocks(std::vector<BufferBlock> blocks) {
     ProgramInfo info;
     info.blocks = std::move(blocks);
     return info;

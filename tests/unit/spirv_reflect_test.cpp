@@ -205,8 +205,8 @@ TEST(Reflect, type_that_holds_itself_is_refused) {
 TEST(Reflect, compiled_probe_shows_blocks_constants_and_push) {
     const ProgramInfo info = reflect(probe("add_constant").spirv);
     ASSERT_EQ(info.blocks.size(), 2u);  // Unused is not there
-    const StorageBlock* in = info.find_block("In");
-    const StorageBlock* out = info.find_block("Out");
+    const BufferBlock* in = info.find_block("In");
+    const BufferBlock* out = info.find_block("Out");
     ASSERT_TRUE(in != nullptr && out != nullptr);
     EXPECT_TRUE(in->readable && !in->writable);
     EXPECT_TRUE(out->writable && !out->readable);
