@@ -25,7 +25,7 @@ VX_CONST(uint, kWorkAoClaimed, 11u);  // cells entered
 VX_CONST(uint, kWorkAoEvicted, 12u);  // cells given up
 VX_CONST(uint, kWorkAoDropped, 13u);  // samples that were in them; saturates at 2^32 - 1 for each cell
 VX_CONST(uint, kWorkAoOwnRays, 14u);  // occlusion rays that no cell took
-VX_CONST(uint, kWorkAoAtomics, 15u);  // atomic operations on the table
+VX_CONST(uint, kWorkAoSwaps, 15u);  // compare-and-swaps of keys
 VX_CONST(uint, kTallyCount, 16u);
 
 VX_END
@@ -35,7 +35,7 @@ namespace voxilux::gpu {
 inline constexpr const char* kTallyNames[kTallyCount] = {
     "ray_unsound", "march_exhausted", "film_clamped", "film_non_finite", "ao_table_full", "hits",
     "ao_rays",     "sun_rays",        "ao_reused",    "ao_searches",     "ao_probes",     "ao_claimed",
-    "ao_evicted",  "ao_dropped",      "ao_own_rays",  "ao_atomics"};
+    "ao_evicted",  "ao_dropped",      "ao_own_rays",  "ao_swaps"};
 }
 #endif
 

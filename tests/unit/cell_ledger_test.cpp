@@ -77,7 +77,7 @@ class Ledger {
 
     void take(std::uint64_t bits, std::uint32_t count) {
         const gpu::uvec2 key = test::key_words(bits);
-        const FoundSlot found = gpu::find_or_claim(table_, key, table_.mask());
+        const FoundSlot found = gpu::find_or_claim(table_, key, table_.mask(), gpu::kNoSlot);
         taken += count;
         if (found.slot == kNoSlot) {
             own += count;

@@ -40,6 +40,11 @@ Keys colliding_keys(TestRandom& random, std::size_t count, std::uint32_t mask) {
     return keys;
 }
 
+// The search without a guess.
+FoundSlot find_or_claim(CellTable& table, glm::uvec2 key, gpu::uint mask) {
+    return gpu::find_or_claim(table, key, mask, gpu::kNoSlot);
+}
+
 struct Searched {
     std::uint64_t key = 0;
     FoundSlot found{};
@@ -117,7 +122,7 @@ Searches search_in_threads(CellTable& table, const Keys& keys, std::size_t threa
     std::vector<Searches> found(thread_count);
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < thread_count; ++i)
-        threads.emplace_back([&, i] { found[i] = search_all(table, orders[i], gpu::find_or_claim); });
+        threads.emplace_back([&, i] { found[i] = search_all(table, orders[i], find_or_claim); });
     Searches all;
     for (std::size_t i = 0; i < thread_count; ++i) {
         threads[i].join();
@@ -216,7 +221,7 @@ Faults interrupted_faults(Search search, std::size_t slots, double late_reads) {
 TEST(CellTable, search_interrupted_at_any_access_never_doubles_or_mistakes_a_key) {
     for (const std::size_t slots : {1u, 2u, 16u, 64u, 4096u}) {
         for (const double late : {0.0, 0.3}) {
-            const Faults faults = interrupted_faults(gpu::find_or_claim, slots, late);
+            const Faults faults = interrupted_faults(find_or_claim, slots, late);
             EXPECT_EQ(faults.all(), 0) << faults << ": " << slots << " slots, " << late << " late";
         }
     }
@@ -285,14 +290,14 @@ TEST(HardCase, hole04_key_behind_an_emptied_slot_is_found_and_not_doubled) {
     for (std::uint32_t emptied = 0; emptied < 31; ++emptied) {
         CellTable table(64);
         const Keys keys = colliding_keys(random, 32, table.mask());
-        const Searches first = search_all(table, keys, gpu::find_or_claim);
+        const Searches first = search_all(table, keys, find_or_claim);
         table.keys[first[emptied].found.slot] = 0;
         for (std::uint32_t i = emptied + 1; i < 32; ++i) {
-            const FoundSlot found = gpu::find_or_claim(table, test::key_words(keys[i]), table.mask());
+            const FoundSlot found = find_or_claim(table, test::key_words(keys[i]), table.mask());
             EXPECT_EQ(found.slot, first[i].found.slot);
             EXPECT_FALSE(found.claimed);
         }
-        const FoundSlot back = gpu::find_or_claim(table, test::key_words(keys[emptied]), table.mask());
+        const FoundSlot back = find_or_claim(table, test::key_words(keys[emptied]), table.mask());
         EXPECT_EQ(back.slot, first[emptied].found.slot);
         EXPECT_TRUE(back.claimed);
     }
@@ -304,7 +309,7 @@ TEST(HardCase, row19_full_table_refuses_after_a_bounded_search) {
         CellTable table(slots);
         const std::size_t most = std::min<std::size_t>(slots, gpu::kCellProbes);
         const Searches searches =
-            search_all(table, colliding_keys(random, most + 5, table.mask()), gpu::find_or_claim);
+            search_all(table, colliding_keys(random, most + 5, table.mask()), find_or_claim);
         for (std::size_t i = 0; i < searches.size(); ++i) {
             EXPECT_EQ(searches[i].found.slot == kNoSlot, i >= most) << slots;
             EXPECT_LE(searches[i].found.probes, 2 * most);
@@ -320,7 +325,7 @@ double share_of_full_runs(double load, int tables) {
         TestRandom random(static_cast<std::uint64_t>(i));
         CellTable table(kSlots);
         for (int n = static_cast<int>(load * double{kSlots}); n > 0; --n)
-            (void)gpu::find_or_claim(table, test::key_words(random_key(random)), table.mask());
+            (void)find_or_claim(table, test::key_words(random_key(random)), table.mask());
         std::size_t run = 0;
         for (const std::uint64_t key : table.keys) {
             run = key != 0 ? run + 1 : 0;
@@ -336,6 +341,21 @@ TEST(CellTable, cell_is_refused_about_once_in_a_million_at_a_load_of_two_fifths)
     RecordProperty("in_a_million", std::to_string(share * 1e6));
     EXPECT_LT(share, 1e-5);
     EXPECT_GT(share_of_full_runs(0.5, 1), 1e-5) << "a load of a half is worse by far";
+}
+
+TEST(CellTable, right_guess_needs_no_probe_and_a_wrong_one_changes_nothing) {
+    TestRandom random(23);
+    CellTable table(64);
+    const std::uint64_t key = random_key(random);
+    const std::uint64_t other = random_key(random);
+    const gpu::uint slot = find_or_claim(table, test::key_words(key), table.mask()).slot;
+    const gpu::uint elsewhere = find_or_claim(table, test::key_words(other), table.mask()).slot;
+    for (const gpu::uint guess : {slot, elsewhere, (slot + 1) % 64}) {
+        const FoundSlot found = gpu::find_or_claim(table, test::key_words(key), table.mask(), guess);
+        EXPECT_EQ(found.slot, slot);
+        EXPECT_FALSE(found.claimed);
+        EXPECT_EQ(found.probes == 0, guess == slot);
+    }
 }
 
 }  // namespace
