@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/ao_settings.h"
+#include "scene/vox_file.h"
 
 namespace voxilux {
 
@@ -78,6 +79,8 @@ struct Instance {
     std::uint32_t model = 0;
     Rotation rotation;
     glm::ivec3 translation{0};
+
+    bool operator==(const Instance&) const = default;
 };
 
 // The scene cell of voxel `v` of a model of `size` under `instance`.
@@ -127,7 +130,53 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
-// All that a picture depends on, as plain data.
+// A stop of the camera on its path.
+struct CameraKey {
+    std::int64_t frame = 0;
+    Camera camera;
+    std::optional<glm::dvec3> look_at;  // the point that gave the camera its direction
+};
+
+// How the camera goes from key to key, see camera_on_path.
+enum class CameraPath : std::uint8_t { smooth, linear };
+
+// The camera goes round the vertical line through the middle of the scene's box, counter-clockwise seen from
+// above; sun and sky stay. Frame 1 shows the angle `start_deg`, frame `frames` + 1 is frame 1 again.
+struct Turntable {
+    std::int64_t frames = 0;  // of a turn, >= 1
+    double degrees = 360.0;   // of a turn; negative goes clockwise
+    double start_deg = 0.0;
+};
+
+// An animated .vox file in the scene.
+struct AnimatedVox {
+    VoxFile graph;                      // nodes, layers and the sizes of its models: no voxels, no materials
+    std::vector<std::uint32_t> models;  // Scene::models of each of its models, or kNoModel
+};
+inline constexpr std::uint32_t kNoModel = 0xFFFFFFFF;  // a model without a voxel
+
+// Where an animated file stands, and its part of Scene::instances.
+struct VoxPlacement {
+    std::size_t file = 0;  // in Animation::files
+    Rotation rotation;
+    glm::ivec3 translation{0};
+    std::size_t first_instance = 0;
+    std::size_t instance_count = 0;
+};
+
+// What changes from frame to frame. The camera has keys or a turntable, or neither.
+struct Animation {
+    std::vector<CameraKey> camera_keys;  // none, or at least two with rising frames
+    CameraPath camera_path = CameraPath::smooth;
+    std::optional<Turntable> turntable;
+    std::vector<AnimatedVox> files;
+    std::vector<VoxPlacement> placements;  // in the order of Scene::instances
+
+    [[nodiscard]] bool is_still() const { return camera_keys.empty() && !turntable && placements.empty(); }
+};
+
+// All that a picture depends on, as plain data. An animated one is the still scene of the frame that it was
+// loaded for; scene_at_frame gives the others.
 struct Scene {
     std::vector<Material> materials;
     std::vector<VoxelModel> models;
@@ -137,6 +186,7 @@ struct Scene {
     Sky sky;
     std::optional<Camera> camera;  // absent: default_camera() frames the scene
     RenderSettings settings;
+    Animation animation;
     std::vector<std::string> warnings;  // what was dropped or repaired while loading, one line each
 };
 

@@ -57,7 +57,7 @@ Box instance_bounds(const Instance& instance, const VoxelModel& model, const Box
     return box;
 }
 
-Box sphere_bounds(const Sphere& sphere) {
+Box bounds_of(const Sphere& sphere) {
     Box box;
     for (int axis = 0; axis < 3; ++axis) {
         box.lo[axis] = checked_coordinate(std::floor(sphere.centre[axis] - sphere.radius), "sphere");
@@ -74,25 +74,33 @@ Box united(const Box& a, const Box& b) {
     return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
 }
 
-Box voxel_bounds(const Scene& scene) {
+Box voxel_bounds(std::span<const VoxelModel> models, std::span<const Instance> instances) {
     std::vector<Box> local;
-    local.reserve(scene.models.size());
-    for (const VoxelModel& model : scene.models)
+    local.reserve(models.size());
+    for (const VoxelModel& model : models)
         local.push_back(model_bounds(model));
     Box box;
-    for (const Instance& instance : scene.instances) {
-        VX_ASSERT(instance.model < scene.models.size());
+    for (const Instance& instance : instances) {
+        VX_ASSERT(instance.model < models.size());
         if (local[instance.model].empty()) continue;
-        box = united(box, instance_bounds(instance, scene.models[instance.model], local[instance.model]));
+        box = united(box, instance_bounds(instance, models[instance.model], local[instance.model]));
     }
     return box;
 }
 
-Box scene_bounds(const Scene& scene) {
-    Box box = voxel_bounds(scene);
-    for (const Sphere& sphere : scene.spheres)
-        box = united(box, sphere_bounds(sphere));
+Box voxel_bounds(const Scene& scene) {
+    return voxel_bounds(scene.models, scene.instances);
+}
+
+Box sphere_bounds(std::span<const Sphere> spheres) {
+    Box box;
+    for (const Sphere& sphere : spheres)
+        box = united(box, bounds_of(sphere));
     return box;
+}
+
+Box scene_bounds(const Scene& scene) {
+    return united(voxel_bounds(scene), sphere_bounds(scene.spheres));
 }
 
 }  // namespace voxilux

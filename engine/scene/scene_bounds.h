@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
@@ -27,6 +29,10 @@ struct Box {
 // The smallest box around the filled cells of all instances, empty when there are none.
 // Throws Error(input_refused) when one lies beyond kMaxCoordinate.
 [[nodiscard]] Box voxel_bounds(const Scene& scene);
+[[nodiscard]] Box voxel_bounds(std::span<const VoxelModel> models, std::span<const Instance> instances);
+
+// The box of all spheres, rounded outwards to whole cells. Throws as voxel_bounds does.
+[[nodiscard]] Box sphere_bounds(std::span<const Sphere> spheres);
 
 // As voxel_bounds, with the spheres (rounded outwards to whole cells).
 [[nodiscard]] Box scene_bounds(const Scene& scene);

@@ -12,9 +12,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "base/assert.h"
 #include "scene/angles.h"
+#include "scene/animation.h"
 
 namespace voxilux {
 namespace {
@@ -53,27 +56,53 @@ struct Slack {
     }
 };
 
-}  // namespace
-
-Camera framing_camera(const Box& box, View view, double aspect, double fov_y_deg) {
-    VX_ASSERT(aspect > 0.0 && fov_y_deg > 0.0 && fov_y_deg < 180.0);
+Camera looking_along(View view, double fov_y_deg) {
     const YawPitch direction = direction_of(view);
-    Camera camera{.yaw_deg = direction.yaw_deg, .pitch_deg = direction.pitch_deg, .fov_y_deg = fov_y_deg};
+    return {.yaw_deg = direction.yaw_deg, .pitch_deg = direction.pitch_deg, .fov_y_deg = fov_y_deg};
+}
+
+// Corners of the polygon that stands for a circle around it: the camera is at most 0.2 % too far away.
+constexpr int kCircleCorners = 48;
+
+// The corners of a box relative to its centre, so that a box far from the origin loses no bits.
+std::vector<glm::dvec3> corners_of(const Box& box) {
+    const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
+    std::vector<glm::dvec3> corners;
+    for (int corner = 0; corner < 8; ++corner)
+        corners.push_back(half * glm::dvec3((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1));
+    return corners;
+}
+
+// The same of the upright cylinder around a box: what the box covers when it turns.
+std::vector<glm::dvec3> corners_of_turning(const Box& box) {
+    const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
+    const double radius = glm::length(glm::dvec2(half)) / cos_deg(180.0 / kCircleCorners);
+    std::vector<glm::dvec3> corners;
+    for (int i = 0; i < kCircleCorners; ++i) {
+        const glm::dvec3 side = direction_from_deg(360.0 * i / kCircleCorners, 0.0);
+        for (const double z : {-half.z, half.z})
+            corners.emplace_back(radius * side.x, radius * side.y, z);
+    }
+    return corners;
+}
+
+Camera camera_around(const Box& box, std::span<const glm::dvec3> corners, const Camera& looking,
+                     double aspect) {
+    VX_ASSERT(aspect > 0.0 && looking.fov_y_deg > 0.0 && looking.fov_y_deg < 180.0);
+    Camera camera = looking;
     const glm::dmat3 basis = camera_basis(camera);
     if (box.empty()) {
         camera.position = -kEmptySceneDistance * basis[2];
         return camera;
     }
-    const double tan_y = (1.0 - kFrameMargin) * sin_deg(fov_y_deg / 2.0) / cos_deg(fov_y_deg / 2.0);
+    const double half_angle_deg = looking.fov_y_deg / 2.0;
+    const double tan_y = (1.0 - kFrameMargin) * sin_deg(half_angle_deg) / cos_deg(half_angle_deg);
     const double tan_x = aspect * tan_y;
-    // Relative to the centre, so that a box far from the origin loses no bits.
     const glm::dvec3 centre = 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
-    const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
     Slack across, upright;
     double nearest = std::numeric_limits<double>::infinity();
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 sign((corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1);
-        const glm::dvec3 p = sign * half * basis;  // its coordinates along right, up, forward
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 p = corner * basis;  // its coordinates along right, up, forward
         across.hold(p.x, p.z, tan_x);
         upright.hold(p.y, p.z, tan_y);
         nearest = std::min(nearest, p.z);
@@ -85,13 +114,27 @@ Camera framing_camera(const Box& box, View view, double aspect, double fov_y_deg
     return camera;
 }
 
+}  // namespace
+
+Camera framing_camera(const Box& box, View view, double aspect, double fov_y_deg) {
+    return camera_around(box, corners_of(box), looking_along(view, fov_y_deg), aspect);
+}
+
+Camera framing_camera(const Scene& scene, View view, double fov_y_deg) {
+    const Box box = bounds_of_frames(scene);
+    const double aspect =
+        static_cast<double>(scene.settings.size.x) / static_cast<double>(scene.settings.size.y);
+    if (!scene.animation.turntable) return framing_camera(box, view, aspect, fov_y_deg);
+    return camera_around(box, corners_of_turning(box), looking_along(view, fov_y_deg), aspect);
+}
+
 Camera default_camera(const Box& box, double aspect) {
     return framing_camera(box, View::three_quarter, aspect);
 }
 
 Camera camera_of(const Scene& scene) {
     if (scene.camera) return *scene.camera;
-    return default_camera(scene_bounds(scene), double(scene.settings.size.x) / double(scene.settings.size.y));
+    return framing_camera(scene, View::three_quarter);
 }
 
 glm::dmat3 camera_basis(const Camera& camera) {

@@ -29,10 +29,14 @@ inline constexpr double kFrameClearance = 0.125;
 [[nodiscard]] Camera framing_camera(const Box& box, View view, double aspect,
                                     double fov_y_deg = kDefaultFovYDeg);
 
+// The framing camera of a scene and its picture size: around bounds_of_frames; on a turntable, around all
+// that they cover in a turn.
+[[nodiscard]] Camera framing_camera(const Scene& scene, View view, double fov_y_deg = kDefaultFovYDeg);
+
 // The view of a scene that names none: three-quarter from above, the front and the right side in sight.
 [[nodiscard]] Camera default_camera(const Box& box, double aspect);
 
-// The scene's own camera, or the default one for its picture size.
+// The scene's own camera, or the default one, framing_camera from the three-quarter view.
 [[nodiscard]] Camera camera_of(const Scene& scene);
 
 // Columns right, up, forward: orthonormal, right x up = -forward, right is horizontal. Straight up and down

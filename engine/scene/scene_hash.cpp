@@ -11,6 +11,7 @@
 #include <xxhash.h>
 
 #include "base/assert.h"
+#include "scene/vox_write.h"
 
 namespace voxilux {
 namespace {
@@ -100,14 +101,18 @@ void add_models(Hasher& hasher, const std::vector<VoxelModel>& models) {
     }
 }
 
+void add_rotation(Hasher& hasher, const Rotation& rotation) {
+    for (const std::uint8_t axis : rotation.axis)
+        hasher.add(axis);
+    for (const std::int8_t sign : rotation.sign)
+        hasher.add(sign);
+}
+
 void add_instances(Hasher& hasher, const std::vector<Instance>& instances) {
     hasher.add(std::uint64_t{instances.size()});
     for (const Instance& instance : instances) {
         hasher.add(instance.model);
-        for (const std::uint8_t axis : instance.rotation.axis)
-            hasher.add(axis);
-        for (const std::int8_t sign : instance.rotation.sign)
-            hasher.add(sign);
+        add_rotation(hasher, instance.rotation);
         hasher.add(instance.translation);
     }
 }
@@ -142,13 +147,16 @@ void add_ao(Hasher& hasher, const AoSettings& ao) {
     hasher.add(ao.slots);
 }
 
+void add_camera(Hasher& hasher, const Camera& camera) {
+    hasher.add(camera.position);
+    hasher.add(camera.yaw_deg);
+    hasher.add(camera.pitch_deg);
+    hasher.add(camera.fov_y_deg);
+}
+
 void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderSettings& settings) {
     hasher.add(camera.has_value());
-    const Camera view = camera.value_or(Camera{});
-    hasher.add(view.position);
-    hasher.add(view.yaw_deg);
-    hasher.add(view.pitch_deg);
-    hasher.add(view.fov_y_deg);
+    add_camera(hasher, camera.value_or(Camera{}));
     hasher.add(settings.size);
     hasher.add(settings.spp);
     hasher.add(settings.ao_rays);
@@ -156,6 +164,45 @@ void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderS
     hasher.add(settings.seed);
     hasher.add(settings.sequence);
     add_ao(hasher, settings.ao);
+}
+
+void add_camera_motion(Hasher& hasher, const Animation& animation) {
+    hasher.add(std::uint64_t{animation.camera_keys.size()});
+    hasher.add(animation.camera_path);
+    for (const CameraKey& key : animation.camera_keys) {
+        hasher.add(key.frame);
+        add_camera(hasher, key.camera);
+        hasher.add(key.look_at.has_value());
+        hasher.add(key.look_at.value_or(glm::dvec3(0.0)));
+    }
+    const Turntable turntable = animation.turntable.value_or(Turntable{});
+    hasher.add(turntable.frames);  // 0 when there is none
+    hasher.add(turntable.degrees);
+    hasher.add(turntable.start_deg);
+}
+
+void add_animated_files(Hasher& hasher, const Animation& animation) {
+    hasher.add(std::uint64_t{animation.files.size()});
+    for (const AnimatedVox& file : animation.files) {
+        const std::vector<std::byte> graph = write_vox(file.graph);
+        hasher.add(std::uint64_t{graph.size()});
+        for (const std::byte byte : graph)
+            hasher.add(std::to_integer<std::uint8_t>(byte));
+        hasher.add(std::uint64_t{file.models.size()});
+        for (const std::uint32_t model : file.models)
+            hasher.add(model);
+    }
+}
+
+void add_placements(Hasher& hasher, const std::vector<VoxPlacement>& placements) {
+    hasher.add(std::uint64_t{placements.size()});
+    for (const VoxPlacement& placement : placements) {
+        hasher.add(std::uint64_t{placement.file});
+        add_rotation(hasher, placement.rotation);
+        hasher.add(placement.translation);
+        hasher.add(std::uint64_t{placement.first_instance});
+        hasher.add(std::uint64_t{placement.instance_count});
+    }
 }
 
 }  // namespace
@@ -168,6 +215,11 @@ std::uint64_t scene_hash(const Scene& scene) {
     add_spheres(hasher, scene.spheres);
     add_light(hasher, scene.sun, scene.sky);
     add_view(hasher, scene.camera, scene.settings);
+    if (!scene.animation.is_still()) {
+        add_camera_motion(hasher, scene.animation);
+        add_animated_files(hasher, scene.animation);
+        add_placements(hasher, scene.animation.placements);
+    }
     return hasher.digest();
 }
 

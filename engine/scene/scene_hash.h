@@ -7,7 +7,7 @@
 namespace voxilux {
 
 // XXH3-64 of a little-endian serialisation of everything a picture depends on: the same on every machine, and
-// the same for scenes that differ only in names and warnings.
+// the same for scenes that differ only in names and warnings. An animated scene's covers all of its frames.
 [[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
 
 }  // namespace voxilux

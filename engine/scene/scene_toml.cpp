@@ -150,7 +150,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file, cons
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
     const std::string extension = lower_extension(file);
     if (extension == ".vox") {
-        Scene scene = scene_from_vox(load_vox(file), {.frame = options.frame});
+        Scene scene;
+        place_vox(scene, add_vox(scene, load_vox(file), options.frame), Rotation{}, glm::ivec3(0));
         toml::table root;
         read_tree(root, file, options, scene);
         return scene;

@@ -13,7 +13,7 @@ struct LoadOptions {
     // "key=value" with a dotted key, as the -D option gives them: "sun.elevation=10", "sphere.0.radius=3".
     // The value is TOML, or else a text. Applied in order before anything is read.
     std::vector<std::string> overrides;
-    int frame = 0;  // of the .vox files that name none
+    int frame = 0;  // that the instances of animated .vox files show; scene_at_frame gives the others
 };
 
 // The scene of a .toml file (scenes/README.md describes it) or of a .vox file with our sun and sky.

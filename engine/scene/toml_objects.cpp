@@ -16,6 +16,7 @@
 #include "scene/toml_materials.h"
 #include "scene/toml_scene.h"
 #include "scene/toml_section.h"
+#include "scene/vox_animation.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"
 #include "scene/voxel_grid.h"
@@ -23,7 +24,6 @@
 namespace voxilux {
 namespace {
 
-constexpr int kMaxFrame = 1'000'000;
 constexpr int kMaxTranslation = static_cast<int>(kVoxMaxTranslation);
 
 // In the order of kSurfaces.
@@ -96,22 +96,27 @@ Rotation read_rotation(const TomlSection& section) {
     return rotation;
 }
 
-// The visible instances of each file and frame that has been added to the scene: a model that is placed often
-// is read and kept once.
-using AddedFiles = std::map<std::pair<std::filesystem::path, int>, std::vector<Instance>>;
+// What has been added to the scene of each file, at a frame of its own or (none) moving with the scene: a
+// model that is placed often is read and kept once.
+using AddedFiles = std::map<std::pair<std::filesystem::path, std::optional<std::int64_t>>, AddedVox>;
+
+AddedVox add_file(TomlScene& in, const std::filesystem::path& path, std::optional<std::int64_t> frame) {
+    const VoxFile file = load_vox(path);
+    if (frame) return {.instances = add_vox_models(in.scene, file, static_cast<int>(*frame))};
+    return add_vox(in.scene, file, in.frame);
+}
 
 void read_model(TomlScene& in, const toml::table& table, AddedFiles& added) {
     const TomlSection section(table, "[[model]]", {"file", "translate", "rotate", "mirror", "frame"});
     const std::filesystem::path path = in.folder / section.require(section.text("file"), "file");
     const auto translate = section.integers3("translate", -kMaxTranslation, kMaxTranslation);
     const Rotation rotation = read_rotation(section);
-    const int frame = static_cast<int>(section.integer("frame", 0, kMaxFrame).value_or(in.frame));
+    const auto frame = section.integer("frame", 0, kMaxFrame);
     try {
         auto known = added.find({path, frame});
         if (known == added.end())
-            known =
-                added.emplace(std::pair(path, frame), add_vox_models(in.scene, load_vox(path), frame)).first;
-        place_instances(in.scene, known->second, rotation, translate.value_or(glm::ivec3(0)));
+            known = added.emplace(std::pair(path, frame), add_file(in, path, frame)).first;
+        place_vox(in.scene, known->second, rotation, translate.value_or(glm::ivec3(0)));
     } catch (const Error& error) {
         if (error.code() != ExitCode::input_refused) throw;
         section.refuse("file", fmt::format("cannot be used: {}", error.what()));

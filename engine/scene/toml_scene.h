@@ -11,6 +11,9 @@
 
 namespace voxilux {
 
+// Degrees of an angle: ten turns, for the sake of animations.
+inline constexpr double kMaxTurn = 3600.0;
+
 // What the sections of a scene file share while they are read.
 struct TomlScene {
     const toml::table& root;

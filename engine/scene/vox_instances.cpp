@@ -33,7 +33,7 @@ std::vector<std::int32_t> hidden_layers(const VoxFile& file) {
     return ids;
 }
 
-Result<Pose> pose_of(const VoxTransform& transform, const std::vector<std::int32_t>& hidden, int frame) {
+Result<Pose> pose_of(const VoxTransform& transform, const std::vector<std::int32_t>& hidden, std::int64_t frame) {
     Pose pose{.hidden = std::binary_search(hidden.begin(), hidden.end(), transform.layer),
               .layer = transform.layer};
     if (transform.frames.empty()) return pose;
@@ -52,7 +52,7 @@ Result<Pose> pose_of(const VoxTransform& transform, const std::vector<std::int32
     return pose;
 }
 
-Result<Pose> pose_of(const VoxShape& shape, std::size_t models, int frame) {
+Result<Pose> pose_of(const VoxShape& shape, std::size_t models, std::int64_t frame) {
     Pose pose;
     if (shape.models.empty()) return pose;
     std::vector<std::int64_t> frames;
@@ -71,7 +71,7 @@ Result<Pose> pose_of(const VoxShape& shape, std::size_t models, int frame) {
 
 // The pose of each node of the graph, indexed by its position: so that a node that is reached on many paths
 // has its attributes read once.
-Result<std::vector<Pose>> measure_poses(const VoxFile& file, const VoxGraph& graph, int frame) {
+Result<std::vector<Pose>> measure_poses(const VoxFile& file, const VoxGraph& graph, std::int64_t frame) {
     const std::vector<std::int32_t> hidden = hidden_layers(file);
     std::vector<Pose> poses(file.nodes.size());
     for (const std::uint32_t position : graph.order) {
@@ -173,7 +173,7 @@ std::vector<VoxInstance> corner_instances(const VoxFile& file) {
     return instances;
 }
 
-Result<std::vector<VoxInstance>> vox_instances(const VoxFile& file, int frame) {
+Result<std::vector<VoxInstance>> vox_instances(const VoxFile& file, std::int64_t frame) {
     if (!has_graph(file)) {
         std::vector<VoxInstance> all = corner_instances(file);
         if (!file.pack || all.empty()) return all;

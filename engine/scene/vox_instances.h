@@ -21,7 +21,7 @@ struct VoxInstance {
 // its number to the next; with _loop, numbers past the last key start again at the first. Without a graph
 // every model stands at the origin's corner, and the models of a PACK file are shown one per frame. Fails as
 // build_graph and parse_key do.
-[[nodiscard]] Result<std::vector<VoxInstance>> vox_instances(const VoxFile& file, int frame = 0);
+[[nodiscard]] Result<std::vector<VoxInstance>> vox_instances(const VoxFile& file, std::int64_t frame = 0);
 
 // Without a graph: one instance of every model, its low corner at the origin.
 [[nodiscard]] std::vector<VoxInstance> corner_instances(const VoxFile& file);

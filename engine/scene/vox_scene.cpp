@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "base/checked_cast.h"
+#include "scene/vox_animation.h"
 #include "scene/vox_cells.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_material.h"
@@ -13,7 +15,6 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kAbsent = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kMaxMaterials =
     std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;  // Voxel::material
 constexpr std::size_t kMaxNameBytes = 64;  // a file may give one huge name to many models
@@ -24,11 +25,11 @@ class MaterialTable {
   public:
     MaterialTable(Scene& scene, const VoxFile& file)
         : scene_(scene), looks_(vox_materials(file, scene.warnings)) {
-        slots_.fill(kAbsent);
+        slots_.fill(kNoModel);
     }
 
     std::uint16_t slot(std::uint8_t index) {
-        if (slots_[index] == kAbsent) slots_[index] = add(looks_[index]);
+        if (slots_[index] == kNoModel) slots_[index] = add(looks_[index]);
         return static_cast<std::uint16_t>(slots_[index]);
     }
 
@@ -80,7 +81,7 @@ class ModelTable {
     std::uint32_t add(const VoxInstance& instance) {
         const VoxModel& model = file_.models[instance.model];
         const auto filled = filled_voxels(model, cells_);
-        if (filled.empty()) return kAbsent;
+        if (filled.empty()) return kNoModel;
         scene_.models.push_back({.name = model_name(file_, instance),
                                  .size = model.size,
                                  .voxels = scene_voxels(filled, materials_)});
@@ -98,18 +99,16 @@ bool is_in_range(glm::i64vec3 t) {
     return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
 }
 
-}  // namespace
-
-std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int frame) {
-    const auto placed = vox_instances(file, frame).value_or_throw(ExitCode::input_refused);
-    scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
-    ModelTable table(scene, file);
+// What the file places, as instances of the scene's models: `model_of` gives the model that one shows.
+std::vector<Instance> shown_instances(const std::vector<VoxInstance>& placed,
+                                      const std::function<std::uint32_t(const VoxInstance&)>& model_of,
+                                      const std::function<std::size_t(std::uint32_t)>& voxel_count) {
     std::vector<Instance> instances;
     std::uint64_t voxels = 0;
     for (const VoxInstance& instance : placed) {
-        const std::uint32_t model = instance.hidden ? kAbsent : table.slot(instance);
-        if (model == kAbsent) continue;
-        voxels += scene.models[model].voxels.size();
+        const std::uint32_t model = instance.hidden ? kNoModel : model_of(instance);
+        if (model == kNoModel) continue;
+        voxels += voxel_count(model);
         if (voxels > kVoxMaxInstancedVoxels) {
             throw Error(ExitCode::input_refused,
                         fmt::format("the visible instances have more than {} voxels together",
@@ -120,11 +119,46 @@ std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int fram
     return instances;
 }
 
+}  // namespace
+
+std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int frame) {
+    const auto placed = vox_instances(file, frame).value_or_throw(ExitCode::input_refused);
+    scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
+    ModelTable table(scene, file);
+    return shown_instances(
+        placed, [&](const VoxInstance& instance) { return table.slot(instance); },
+        [&](std::uint32_t model) { return scene.models[model].voxels.size(); });
+}
+
+AnimatedVox add_animated_vox(Scene& scene, const VoxFile& file) {
+    scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
+    ModelTable table(scene, file);
+    AnimatedVox added{.graph = graph_of(file)};
+    for (std::size_t i = 0; i < file.models.size(); ++i)
+        added.models.push_back(table.slot({.model = checked_cast<std::uint32_t>(i, "model")}));
+    return added;
+}
+
+std::vector<Instance> visible_instances(std::span<const VoxelModel> models, const AnimatedVox& file,
+                                        std::int64_t frame) {
+    const auto placed = vox_instances(file.graph, frame).value_or_throw(ExitCode::input_refused);
+    return shown_instances(
+        placed, [&](const VoxInstance& instance) { return file.models[instance.model]; },
+        [&](std::uint32_t model) { return models[model].voxels.size(); });
+}
+
+AddedVox add_vox(Scene& scene, const VoxFile& file, std::int64_t frame) {
+    if (!is_animated(file)) return {.instances = add_vox_models(scene, file, 0)};
+    scene.animation.files.push_back(add_animated_vox(scene, file));
+    return {.instances = visible_instances(scene.models, scene.animation.files.back(), frame),
+            .animated = scene.animation.files.size() - 1};
+}
+
 // An instance maps q = v + 1/2 - pivot to the cell floor(R_i q) + t_i. R_i q has half-integer components, so
 // the centre of that cell is R_i q + t_i, and the outer map sends it to R R_i q + R t_i + t: again an
 // instance.
-void place_instances(Scene& scene, std::span<const Instance> instances, const Rotation& rotation,
-                     glm::ivec3 translation) {
+void place_instances(std::vector<Instance>& into, std::span<const Instance> instances,
+                     const Rotation& rotation, glm::ivec3 translation) {
     for (const Instance& inner : instances) {
         const glm::i64vec3 t = glm::i64vec3(rotation.apply(inner.translation)) + glm::i64vec3(translation);
         if (!is_in_range(t)) {
@@ -132,13 +166,24 @@ void place_instances(Scene& scene, std::span<const Instance> instances, const Ro
                         fmt::format("an instance at {} {} {} is beyond {} voxels from the origin", t.x, t.y,
                                     t.z, kVoxMaxTranslation));
         }
-        scene.instances.push_back({inner.model, rotation.after(inner.rotation), glm::ivec3(t)});
+        into.push_back({inner.model, rotation.after(inner.rotation), glm::ivec3(t)});
     }
+}
+
+void place_vox(Scene& scene, const AddedVox& added, const Rotation& rotation, glm::ivec3 translation) {
+    const std::size_t first = scene.instances.size();
+    place_instances(scene.instances, added.instances, rotation, translation);
+    if (!added.animated) return;
+    scene.animation.placements.push_back({.file = *added.animated,
+                                          .rotation = rotation,
+                                          .translation = translation,
+                                          .first_instance = first,
+                                          .instance_count = added.instances.size()});
 }
 
 void append_vox(Scene& scene, const VoxFile& file, int frame, const Rotation& rotation,
                 glm::ivec3 translation) {
-    place_instances(scene, add_vox_models(scene, file, frame), rotation, translation);
+    place_instances(scene.instances, add_vox_models(scene, file, frame), rotation, translation);
 }
 
 Scene scene_from_vox(const VoxFile& file, VoxSceneOptions options) {
