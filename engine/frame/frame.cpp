@@ -131,8 +131,9 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     params.sample_index = sample;
     record_frame_upload(plan, params, rec);
 
-    const Plane voxels =
-        plan.has(Effect::voxels) ? record_primary_march(plan, slice, rec) : constant_miss(rec);
+    const Plane voxels = plan.has(Effect::voxels)
+                             ? record_primary_march(plan, slice, record_primary_beam(plan, slice, rec), rec)
+                             : constant_miss(rec);
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, slice, voxels, rec) : voxels;
     const Plane ao = plan.has(Effect::ao) ? record_ao(plan, slice, hits, {params, number}, rec)
                                           : constant_value(1.0f, rec);

@@ -1,14 +1,30 @@
 #include "passes/primary.h"
 
+#include "shared/gpu_types.h"
+
 namespace voxilux {
 
-Plane record_primary_march(const RenderPlan& plan, const Slice& slice, Recording& recording) {
+std::string record_primary_beam(const RenderPlan& plan, const Slice& slice, Recording& recording) {
+    const std::string starts = use_buffer(plan, "primary.starts", recording);
+    const gpu::uint columns = gpu::beam_count(static_cast<gpu::uint>(plan.settings.size.x));
+    Dispatch dispatch{.label = "primary.beam",
+                      .shader = "primary_beam",
+                      .extent = {columns * gpu::beam_count(slice.row_count), 1, 1},
+                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)}, {"Starts", starts}}};
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
+    return starts;
+}
+
+Plane record_primary_march(const RenderPlan& plan, const Slice& slice, const std::string& starts,
+                           Recording& recording) {
     const Plane hits{use_buffer(plan, "primary.hits", recording)};
     Dispatch dispatch{.label = "primary.march",
                       .shader = "primary_march",
                       .extent = pixel_extent(plan, slice),
                       .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                    {"Tally", use_buffer(plan, "tally", recording)},
+                                   {"Starts", starts},
                                    {"Hits", hits.buffer}}};
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));

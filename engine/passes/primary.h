@@ -4,7 +4,12 @@
 
 namespace voxilux {
 
+// A buffer with the time at which the camera rays of each tile may start (shaders/shared/beam.h).
+[[nodiscard]] std::string record_primary_beam(const RenderPlan& plan, const Slice& slice,
+                                              Recording& recording);
+
 // First voxel along each camera ray.
-[[nodiscard]] Plane record_primary_march(const RenderPlan& plan, const Slice& slice, Recording& recording);
+[[nodiscard]] Plane record_primary_march(const RenderPlan& plan, const Slice& slice,
+                                         const std::string& starts, Recording& recording);
 
 }  // namespace voxilux

@@ -106,6 +106,7 @@ void list_passes(RenderPlan& plan) {
         if (on && count > 0) plan.passes.push_back({label, count});
     };
     add(plan.has(Effect::voxels), "world.grow", plan.world.growth.steps);
+    add(plan.has(Effect::voxels), "primary.beam", slices);
     add(plan.has(Effect::voxels), "primary.march", slices);
     add(plan.has(Effect::spheres), "sphere.trace", slices);
     list_ao_passes(plan, slices, add);
@@ -159,6 +160,7 @@ void list_buffers(RenderPlan& plan) {
     by_address(grows, "world.grown", plan.world.growth.grown_bytes, false);
     persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
+    transient(plan.has(Effect::voxels), "primary.starts", plan.slice_tiles() * sizeof(float));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));
     transient(plan.has(Effect::spheres), "sphere.hits", pixels * sizeof(gpu::Hit));
     list_ao_buffers(plan);

@@ -10,6 +10,7 @@
 #include "plan/plan_ao.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
+#include "shared/gpu_types.h"
 #include "world/build_fields.h"
 #include "world/march_world.h"
 
@@ -88,6 +89,10 @@ struct RenderPlan {
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
+    }
+    [[nodiscard]] std::uint64_t slice_tiles() const {
+        return std::uint64_t{gpu::beam_count(slice_rows)} *
+               gpu::beam_count(static_cast<gpu::uint>(settings.size.x));
     }
     [[nodiscard]] std::uint64_t band_pixels() const {
         return std::uint64_t{band_rows} * static_cast<std::uint64_t>(settings.size.x);

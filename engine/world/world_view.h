@@ -1,7 +1,7 @@
 #pragma once
 
-// The C++ side of shaders/shared/march.h and grow_distances.h: they read a MarchWorld where the shader reads
-// its buffers.
+// The C++ side of shaders/shared/march.h, beam.h and grow_distances.h: they read a MarchWorld where the
+// shader reads its buffers.
 
 #include "world/march_world.h"
 
@@ -22,6 +22,7 @@ inline std::uint32_t load_leaf(const MarchWorld& march_world, std::uint32_t i) {
 #define VX_WORLD_PARAM const ::voxilux::MarchWorld &march_world,
 #define VX_WORLD_ARG march_world,
 #define VX_TRAVERSAL static_cast<::voxilux::gpu::uint>(march_world.traversal)
+#include "shared/beam.h"
 #include "shared/grow_distances.h"
 #include "shared/march.h"
 #undef VX_WORLD_PARAM

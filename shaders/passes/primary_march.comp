@@ -12,11 +12,22 @@
 #include "lib/frame_access.glsl"
 #include "lib/tally_access.glsl"
 #include "lib/world_access.glsl"
+#include "shared/beam.h"
 #include "shared/camera.h"
 
+layout(scalar) readonly buffer Starts {
+    float starts[];
+};
 layout(scalar) writeonly buffer Hits {
     Hit hits[];
 };
+
+// Of the tile that the pixel is in.
+float start_of(Pixel pixel) {
+    uint column = (pixel.x - frame.first_column) / kBeamPixels;
+    uint row = (pixel.y - frame.first_row) / kBeamPixels;
+    return starts[row * beam_count(frame.column_count) + column];
+}
 
 Hit no_hit() {
     Hit hit;
@@ -36,7 +47,7 @@ void main() {
     Hit hit = no_hit();
     WorldEntry entry = enter_world(camera_ray(frame, pixel.x, pixel.y), frame.chunks << kChunkLog2);
     if (entry.enters) {
-        MarchHit found = march(entry.ray, frame.chunks);
+        MarchHit found = march_from(entry.ray, frame.chunks, start_of(pixel) - entry.t);
         count(kFaultRayUnsound, found.fault == kMarchUnsound ? 1u : 0u);
         count(kFaultMarchExhausted, found.fault == kMarchExhausted ? 1u : 0u);
         if (found.face != kFaceMiss) {

@@ -30,6 +30,14 @@ struct Hit {
     uint sphere;    // index into Spheres when face is kFaceSphere
 };
 
+// Camera rays start a tile at a time (beam.h): one float for each tile of a slice, row by row.
+VX_CONST(uint, kBeamPixels, 8u);  // edge of a tile
+
+// Tiles that cover a row or a column of `pixels`.
+VX_FN uint beam_count(uint pixels) {
+    return (pixels + kBeamPixels - 1u) / kBeamPixels;
+}
+
 // How light leaves a surface, as the passes read it.
 struct SurfaceMaterial {
     vec3 albedo;    // linear, [0,1]

@@ -34,8 +34,27 @@ VX_CONST(float, kNeverCrossed, 1.0e30f);
 VX_CONST(float, kPlaneMargin, 0.015625f);
 // Steps of a march beyond the number of planes of the world: entering, leaving, and the border box.
 VX_CONST(uint, kMarchSlack, 3u);
+// Planes that a ray may have crossed where its march starts: more than a world has.
+VX_CONST(int, kMostPlanes, 1 << 24);
 // t_max of a ray without end; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
+
+// Beams (beam.h). Error of directions, positions and times relative to the distance: 2^-18, tens of times the
+// roundings of 2^-24 that they are made of.
+VX_CONST(float, kBeamError, 3.814697265625e-6f);
+// Factor of a beam's spread: the rounding of a point of the picture, relative to a tile of it, stays far
+// below.
+VX_CONST(float, kBeamMargin, 1.001f);
+// Voxels between a beam and the faces of its box: the rounding of a fraction of a cell, and room.
+VX_CONST(float, kBeamPad, 0.015625f);
+// A direction that is further from the axis than this may lie between corners of the tile that are nearer.
+VX_CONST(float, kWidestBeam, 1.0f);
+// A beam that gains less than this many voxels in a step ends.
+VX_CONST(float, kBeamGain, 1.0f);
+// Steps of a beam. Ending early only means a later hit.
+VX_CONST(uint, kBeamSteps, 64u);
+// Voxels to where empty space beyond the world ends for a beam: beyond every world and camera.
+VX_CONST(float, kBeamEnd, 1.073741824e9f);  // 2^30
 
 // Last word of an array of the world that shaders read: 8 GiB.
 VX_CONST(uint, kLastWorldWord, 0x7FFFFFFEu);

@@ -125,13 +125,8 @@ VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     return ((extent + 1) << found.log2) - passed;
 }
 
-// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and
-// an empty interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at
-// least one plane, so a sound world never meets the step limit.
-VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
-    const MarchAxes axes = march_axes(ray);
-    const ivec3 size = chunks << kChunkLog2;
-    const uint limit = uint(size.x + size.y + size.z) + kMarchSlack;
+// The ray at its start, before the first step.
+VX_FN MarchHit march_nothing(Ray ray) {
     MarchHit hit;
     hit.cell = ray.cell;
     hit.face = kFaceMiss;
@@ -140,8 +135,22 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     hit.crossed = ivec3(0);
     hit.steps = 0u;
     hit.fault = is_sound(ray) ? kMarchFine : kMarchUnsound;
-    if (hit.fault != kMarchFine || !(ray.t_max > 0.0f)) return hit;
+    return hit;
+}
+
+// The hit of march() for a ray that is known to meet no solid cell before the time `start`: it steps from
+// there.
+VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
+    const MarchAxes axes = march_axes(ray);
+    const ivec3 size = chunks << kChunkLog2;
+    const uint limit = uint(size.x + size.y + size.z) + kMarchSlack;
+    MarchHit hit = march_nothing(ray);
+    if (hit.fault != kMarchFine || !(max(start, 0.0f) < ray.t_max)) return hit;
     int axis = -1;
+    if (start > 0.0f) {
+        hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMostPlanes));
+        hit.cell = axes.cell + (hit.crossed ^ axes.flip) - axes.flip;
+    }
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
         if (is_outside(hit.cell, size)) return hit;
         const MarchCell found = find_cell(VX_WORLD_ARG hit.cell, chunks);
@@ -162,6 +171,13 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     }
     hit.fault = kMarchExhausted;
     return hit;
+}
+
+// First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and
+// an empty interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at
+// least one plane, so a sound world never meets the step limit.
+VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
+    return march_from(VX_WORLD_ARG ray, chunks, 0.0f);
 }
 
 // Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face. What is subtracted is

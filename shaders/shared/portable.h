@@ -35,6 +35,7 @@ using uint = std::uint32_t;
 using glm::abs;
 using glm::clamp;
 using glm::cross;
+using glm::distance;
 using glm::dot;
 using glm::floor;
 using glm::max;

@@ -1,0 +1,26 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Where the camera rays of each tile of the slice may start.
+
+#include "lib/address.glsl"
+#include "lib/invocation.glsl"
+
+#include "lib/frame_access.glsl"
+#include "lib/world_access.glsl"
+#include "shared/beam.h"
+
+layout(scalar) writeonly buffer Starts {
+    float starts[];
+};
+
+void main() {
+    open_world();
+    uint i = linear_id();
+    uint columns = beam_count(frame.column_count);
+    if (i >= columns * beam_count(frame.row_count)) return;
+    uint x = frame.first_column + i % columns * kBeamPixels;
+    uint y = frame.first_row + i / columns * kBeamPixels;
+    starts[i] = beam_start(tile_beam(frame, x, y), frame.chunks);
+}
