@@ -21,6 +21,14 @@ bool has_ending(const fs::path& file, std::string_view ending) {
     return own == ending;
 }
 
+fs::path numbered(const fs::path& file, std::int64_t frame, std::int64_t last) {
+    const std::size_t digits = std::max<std::size_t>(4, std::to_string(last).size());
+    fs::path name = file.stem();
+    name += fmt::format(".{:0{}}", frame, digits);
+    name += file.extension();
+    return file.parent_path() / name;
+}
+
 void check_writable(const fs::path& file) {
     if (file.empty() || file == "-") return;
     const auto refuse = [&](const std::string& why) {

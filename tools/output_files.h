@@ -2,6 +2,7 @@
 
 // Where results go.
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +11,10 @@ namespace voxilux {
 
 // Whether the file's ending is `ending` (".exr") in small or capital letters.
 [[nodiscard]] bool has_ending(const std::filesystem::path& file, std::string_view ending);
+
+// The name of a frame's file: "a/b.exr" gives "a/b.0007.exr". At least four digits, as many as `last` has.
+[[nodiscard]] std::filesystem::path numbered(const std::filesystem::path& file, std::int64_t frame,
+                                             std::int64_t last);
 
 // Throws Error(cannot_write) for a file that could not be written later: a folder of that name, a folder that
 // is absent or may not be written into. Nothing for "" and "-". Finding out before the work is kinder than

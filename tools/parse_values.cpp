@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "parse_box.h"
 #include "scene/nearest_name.h"
+#include "scene/vox_animation.h"
 
 namespace voxilux {
 namespace {
@@ -61,6 +62,33 @@ PixelWindow parse_window(std::string_view flag, std::string_view text) {
     if (!box) refuse(fmt::format("{}: '{}' is not X0,Y0,X1,Y1 in pixels", flag, text));
     const auto [x0, y0, x1, y1] = *box;
     return {{x0, y0}, {x1, y1}};
+}
+
+FrameList parse_frames(std::string_view text) {
+    FrameList frames{.is_sequence = true};
+    std::string_view rest = text;
+    // A whole number after `before`; false when the text goes on in another way.
+    const auto read = [&](char before, std::int64_t& value) {
+        if (before != '\0') {
+            if (!rest.starts_with(before)) return false;
+            rest.remove_prefix(1);
+        }
+        const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+        if (error != std::errc() || rest.starts_with('-')) return false;
+        rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+        return true;
+    };
+    const bool has_first = read('\0', frames.first);
+    frames.last = frames.first;
+    const bool is_range = has_first && !rest.empty();
+    if (!has_first || (is_range && !read('-', frames.last)) || (!rest.empty() && !read('x', frames.step)) ||
+        !rest.empty())
+        refuse(fmt::format("--frames: '{}' is not FIRST-LAST or FIRST-LASTxSTEP, such as 1-120 or 1-120x5",
+                           text));
+    if (frames.last < frames.first || frames.step < 1 || frames.last > kMaxFrame)
+        refuse(fmt::format("--frames: '{}' must go upwards, by a step of 1 or more, to {} at most", text,
+                           kMaxFrame));
+    return frames;
 }
 
 double parse_duration(std::string_view text) {

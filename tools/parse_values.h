@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "frame_list.h"
 #include "plan/effects.h"
 #include "plan/render_plan.h"
 #include "scene/scene.h"
@@ -23,6 +24,9 @@ namespace voxilux {
 
 // "90s", "2m", "1h30m", "1.5h" or plain seconds, in seconds.
 [[nodiscard]] double parse_duration(std::string_view text);
+
+// "1-120", "1-120x5" (every fifth) or "7": whole numbers from 0 to kMaxFrame, the first not above the last.
+[[nodiscard]] FrameList parse_frames(std::string_view text);
 
 // "1%" or "0.01", as a share above 0.
 [[nodiscard]] double parse_error_target(std::string_view text);

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/error.h"
 #include "parse_values.h"
-#include "scene/scene_bounds.h"
+#include "scene/animation.h"
 #include "scene/scene_camera.h"
 #include "scene/scene_toml.h"
 
@@ -30,9 +31,15 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
     command.add_option("--crop", options.crop, "render columns X0 to X1-1 and rows Y0 to Y1-1 only")
         ->type_name("X0,Y0,X1,Y1")
         ->group(kScene);
-    command.add_option("--frame", options.frame, "frame of an animated .vox file, from 0")
+    command.add_option("--frame", options.frame, "one picture, of this frame of an animated scene")
         ->check([](const std::string& text) { return text.starts_with("-") ? "is not 0 or above" : ""; })
         ->type_name("N")
+        ->group(kScene);
+    command
+        .add_option("--frames", options.frames,
+                    "a picture for each frame from A to B, every Sth: x.png gives x.0001.png, ...")
+        ->type_name("A-B[xS]")
+        ->excludes("--frame")
         ->group(kScene);
     command.add_option("--effect", options.effects, "override the plan: on, off or auto; may repeat")
         ->type_name("NAME=STATE")
@@ -75,7 +82,7 @@ Scene load_scene_with(const SceneOptions& options) {
     if (options.camera) view = parse_view(*options.camera);
     if (options.sequence) sequence = parse_sequence(*options.sequence);
 
-    Scene scene = load_scene(options.input, {.overrides = options.overrides, .frame = options.frame});
+    Scene scene = load_scene(options.input, {.overrides = options.overrides});
     RenderSettings& settings = scene.settings;
     settings.size = size.value_or(settings.size);
     settings.spp = options.spp.value_or(settings.spp);
@@ -85,10 +92,31 @@ Scene load_scene_with(const SceneOptions& options) {
     settings.sequence = sequence.value_or(settings.sequence);
     if (view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
-        const double aspect = static_cast<double>(settings.size.x) / static_cast<double>(settings.size.y);
-        scene.camera = framing_camera(scene_bounds(scene), *view, aspect, fov_y_deg);
+        scene.camera = framing_camera(scene, *view, fov_y_deg);
+        scene.animation.camera_keys.clear();
     }
     return scene;
+}
+
+FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
+    const std::optional<FrameRange> all = frames_of(scene);
+    if (!options.frames) {
+        const std::int64_t frame = options.frame.value_or(all.value_or(FrameRange{}).first);
+        return {.first = frame, .last = frame};
+    }
+    const FrameList frames = parse_frames(*options.frames);
+    if (!all)
+        throw Error(ExitCode::usage,
+                    "--frames: the scene is still; it needs [[camera.key]], [camera.turntable] "
+                    "or an animated .vox file");
+    return frames;
+}
+
+void print_frame_note(const SceneOptions& options, const Scene& scene) {
+    const std::optional<FrameRange> all = frames_of(scene);
+    if (!all || options.frame || options.frames) return;
+    fmt::print(stderr, "note: this is frame {0} of an animation; --frames {0}-{1} renders all {2}\n",
+               all->first, all->last, all->last - all->first + 1);
 }
 
 PlanRequest plan_request(const SceneOptions& options) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frame_list.h"
 #include "plan/render_plan.h"
 #include "scene/scene.h"
 
@@ -24,7 +25,8 @@ struct SceneOptions {
     std::optional<std::string> sequence;
     std::vector<std::string> effects;    // NAME=on|off|auto
     std::vector<std::string> overrides;  // -D key=value
-    int frame = 0;
+    std::optional<std::int64_t> frame;   // one picture
+    std::optional<std::string> frames;   // a picture for each
     std::optional<std::string> crop;
     std::optional<std::string> traversal;
     std::uint64_t memory_budget_mib = 0;
@@ -35,6 +37,13 @@ void add_scene_flags(CLI::App& command, SceneOptions& options);
 // The scene with the flags applied. Throws Error(usage) for a flag that cannot be read, Error(input_refused)
 // for a file.
 [[nodiscard]] Scene load_scene_with(const SceneOptions& options);
+
+// The frames to render. Without a flag, the first frame of an animated scene. Throws Error(usage) for
+// --frames that cannot be read, and on a still scene.
+[[nodiscard]] FrameList frames_to_render(const SceneOptions& options, const Scene& scene);
+
+// When an animated scene gives one picture only, because no flag names its frames: says so on standard error.
+void print_frame_note(const SceneOptions& options, const Scene& scene);
 
 // What the flags ask of the plan; the caller knows which channels its outputs hold.
 [[nodiscard]] PlanRequest plan_request(const SceneOptions& options);

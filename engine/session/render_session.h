@@ -11,8 +11,11 @@
 #include "film/error_estimate.h"
 #include "film/film.h"
 #include "film/image.h"
+#include "frame/frame_state.h"
 #include "plan/render_plan.h"
+#include "scene/animation.h"
 #include "scene/scene.h"
+#include "session/prepared_scene.h"
 #include "vk/device.h"
 #include "vk/executor.h"
 
@@ -22,7 +25,7 @@ struct RenderOptions {
     PlanRequest plan;
     DeviceRequest device;
     ExecutorOptions executor;
-    std::optional<double> time_limit_s;  // a whole first sample is finished all the same
+    std::optional<double> time_limit_s;  // of render_scene; a whole first sample is finished all the same
     std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
     const std::atomic<bool>* interrupted = nullptr;
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
@@ -36,6 +39,8 @@ struct Progress {
     double remaining_s = 0.0;  // at the pace so far
     std::uint32_t sample = 0;
     std::optional<double> error;  // last estimate
+    std::uint32_t frame = 0;      // which of `frames`, from 1; 0 when there is but one picture
+    std::uint32_t frames = 0;
 };
 
 enum class StopReason : std::uint8_t { finished, error_target, time_limit, interrupted };
@@ -68,19 +73,46 @@ struct RenderOutcome {
     RenderStatistics statistics;
 };
 
-// Renders a scene: world, plan, recordings, film. Always returns a whole picture; a pixel that no sample
-// reached (only after an interruption) is black with sampleCount 0.
-[[nodiscard]] RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
-                                         const std::function<void(const Progress&)>& on_progress = {});
+// Renders one frame of a scene after the other. The device, its pipelines and buffers are kept from frame to
+// frame, and the world as long as its voxels are the same.
+class RenderSession {
+  public:
+    // Opens the device. Throws Error(no_device).
+    RenderSession(Scene scene, RenderOptions options);
+    RenderSession(const RenderSession&) = delete;
+    RenderSession& operator=(const RenderSession&) = delete;
+    ~RenderSession();
 
-// The world of the scene as the march needs it, and the facts and the plan that follow. No device is used.
-struct PreparedScene {
-    SceneFacts facts;
-    MarchWorld march_world;
-    RenderPlan plan;
+    // The picture of `frame`: with brute-force occlusion the one that a session for this frame alone gives.
+    // Always a whole picture; a pixel that no sample reached (only after an interruption) is black with
+    // sampleCount 0. Times count from RenderOptions::started for the first frame, from the call for the
+    // others.
+    [[nodiscard]] RenderOutcome render(std::int64_t frame, std::optional<double> time_limit_s,
+                                       const std::function<void(const Progress&)>& on_progress = {});
+
+    // The still scene of the frame rendered last.
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+
+    // Gives the buffers and pipelines back; returns what the layers say of that. No frame may follow.
+    [[nodiscard]] std::vector<std::string> end();
+
+  private:
+    [[nodiscard]] bool update_world(const Scene& scene);
+    [[nodiscard]] std::vector<std::string> new_messages();
+
+    RenderOptions options_;
+    FramePlayer player_;
+    Device device_;
+    std::optional<Executor> executor_;
+    std::optional<PreparedScene> prepared_;  // of the world on the device
+    FrameState state_;
+    const Scene* scene_ = nullptr;
+    std::size_t messages_told_ = 0;
+    bool has_started_ = false;
 };
 
-[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request,
-                                          const DeviceLimits& limits);
+// The picture of a scene, of an animated one that of its first frame.
+[[nodiscard]] RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
+                                         const std::function<void(const Progress&)>& on_progress = {});
 
 }  // namespace voxilux

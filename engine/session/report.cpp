@@ -1,5 +1,6 @@
 #include "session/report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/scene_hash.h"
@@ -76,6 +77,47 @@ Json planned_memory_json(const RenderPlan& plan) {
     return rows;
 }
 
+Json passes_json(const std::vector<PassTime>& passes) {
+    Json rows = Json::array();
+    for (const PassTime& pass : passes)
+        rows.push_back(
+            {{"label", pass.label}, {"count", pass.count}, {"ms", pass.ms}, {"max_ms", pass.max_ms}});
+    return rows;
+}
+
+void add_passes(std::vector<PassTime>& total, const std::vector<PassTime>& passes) {
+    for (const PassTime& pass : passes) {
+        auto known = std::ranges::find(total, pass.label, &PassTime::label);
+        if (known == total.end()) known = total.insert(known, PassTime{pass.label});
+        known->count += pass.count;
+        known->ms += pass.ms;
+        known->max_ms = std::max(known->max_ms, pass.max_ms);
+    }
+}
+
+void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
+    total.wall_s += frame.wall_s;
+    total.cpu_s = frame.cpu_s;  // of the process so far
+    total.peak_rss_mib = frame.peak_rss_mib;
+    total.load_s += frame.load_s;
+    total.gpu_ms += frame.gpu_ms;
+    add_passes(total.passes, frame.passes);
+    for (const auto& [name, count] : frame.work)
+        total.work[name] += count;
+    for (const auto& [name, count] : frame.faults)
+        total.faults[name] += count;
+    total.memory = frame.memory;
+    total.pipelines = frame.pipelines;
+    total.samples = std::min(total.samples, frame.samples);
+    if (!(frame.error.high <= total.error.high)) total.error = frame.error;
+    total.stop = std::max(total.stop, frame.stop);  // the reasons are in order of their weight
+    for (const std::string& warning : frame.warnings) {
+        if (std::ranges::find(total.warnings, warning) == total.warnings.end())
+            total.warnings.push_back(warning);
+    }
+    total.validation.insert(total.validation.end(), frame.validation.begin(), frame.validation.end());
+}
+
 // Null where there are no voxels to march through.
 Json traversal_json(const RenderPlan& plan) {
     if (!plan.has(Effect::voxels)) return nullptr;
@@ -99,10 +141,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["first_pixel_s"] = statistics.first_pixel_s;
     json["peak_rss_mib"] = statistics.peak_rss_mib;
     json["gpu_ms"] = statistics.gpu_ms;
-    json["passes"] = Json::array();
-    for (const PassTime& pass : statistics.passes)
-        json["passes"].push_back(
-            {{"label", pass.label}, {"count", pass.count}, {"ms", pass.ms}, {"max_ms", pass.max_ms}});
+    json["passes"] = passes_json(statistics.passes);
     json["work"] = statistics.work;
     json["memory"] = Json::array();
     for (const MemoryRow& row : statistics.memory)
@@ -113,6 +152,34 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["faults"] = statistics.faults;
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
+    return json;
+}
+
+void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std::string>& files,
+               const RenderOutcome& outcome) {
+    const RenderStatistics& statistics = outcome.statistics;
+    if (report.frames.empty()) {
+        report.total.plan = outcome.plan;
+        report.total.statistics = statistics;
+    } else {
+        add_statistics(report.total.statistics, statistics);
+    }
+    report.frames.push_back({{"frame", frame},
+                             {"files", files},
+                             {"samples", statistics.samples},
+                             {"stopped", name_of(statistics.stop)},
+                             {"wall_s", statistics.wall_s},
+                             {"gpu_ms", statistics.gpu_ms},
+                             {"passes", passes_json(statistics.passes)},
+                             {"work", statistics.work},
+                             {"error", error_json(statistics.error)},
+                             {"faults", statistics.faults}});
+}
+
+Json sequence_json(const Scene& scene, std::uint64_t scene_hash, const SequenceReport& report) {
+    Json json = report_json(scene, report.total);
+    json["scene_hash"] = fmt::format("{:016x}", scene_hash);
+    json["frames"] = report.frames;
     return json;
 }
 

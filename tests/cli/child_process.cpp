@@ -92,6 +92,13 @@ std::string ChildProcess::wait_for_error_line() {
     return ending_.err.substr(0, ending_.err.find('\n'));
 }
 
+bool ChildProcess::wait_for_error(const std::string& text) {
+    while (ending_.err.find(text) == std::string::npos) {
+        if (!read_some(err_, ending_.err)) return false;
+    }
+    return true;
+}
+
 void ChildProcess::send(int signal) {
     ::kill(pid_, signal);
 }

@@ -36,6 +36,9 @@ class ChildProcess {
     // Waits until standard error holds a whole line, and returns it; empty when it ended without one.
     std::string wait_for_error_line();
 
+    // Waits until standard error holds `text`; false when it ended without it.
+    [[nodiscard]] bool wait_for_error(const std::string& text);
+
     void send(int signal);
 
     // Waits for the end.

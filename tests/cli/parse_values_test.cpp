@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "output_files.h"
 #include "render/progress_line.h"
 
 namespace voxilux {
@@ -65,6 +66,36 @@ TEST(ParseDuration, anything_else_is_refused) {
                   fmt::format("--time-limit: '{}' is not a time such as 90s, 2m or 1h30m", text));
 }
 
+TEST(ParseFrames, range_has_a_step_of_one_unless_it_says) {
+    EXPECT_EQ(parse_frames("1-120"), (FrameList{.first = 1, .last = 120, .is_sequence = true}));
+    EXPECT_EQ(parse_frames("0-10x3"), (FrameList{.first = 0, .last = 10, .step = 3, .is_sequence = true}));
+    EXPECT_EQ(parse_frames("7"), (FrameList{.first = 7, .last = 7, .is_sequence = true}));
+    EXPECT_EQ(parse_frames("5-5x9"), (FrameList{.first = 5, .last = 5, .step = 9, .is_sequence = true}));
+    EXPECT_EQ(parse_frames("0-10x3").count(), 4);
+    EXPECT_EQ(parse_frames("0-10x3").at(3), 9);
+    EXPECT_EQ(parse_frames("0-9x3").count(), 4);
+    EXPECT_EQ(parse_frames("0-1000000").count(), 1000001);
+}
+
+TEST(ParseFrames, anything_else_is_refused) {
+    for (const char* text : {"", "-", "1-", "-3", "-1-3", "1--3", "1-3x", "1-3x-1", "x2", "1x2x3", "1-2-3",
+                             "1 - 3", "1,3", "a-b", "1-3X2", "1.5-3", "+1-3", "99999999999999999999-3"})
+        EXPECT_EQ(refusal([&] { (void)parse_frames(text); }),
+                  fmt::format("--frames: '{}' is not FIRST-LAST or FIRST-LASTxSTEP, such as 1-120 or 1-120x5",
+                              text));
+    for (const char* text : {"3-1", "1-3x0", "1-1000001"})
+        EXPECT_EQ(
+            refusal([&] { (void)parse_frames(text); }),
+            fmt::format("--frames: '{}' must go upwards, by a step of 1 or more, to 1000000 at most", text));
+}
+
+TEST(NumberedFile, number_goes_before_the_ending) {
+    EXPECT_EQ(numbered("a.exr", 7, 24), "a.0007.exr");
+    EXPECT_EQ(numbered("x/y.z/a.b.png", 0, 0), "x/y.z/a.b.0000.png");
+    EXPECT_EQ(numbered("a.PNG", 7, 123456), "a.000007.PNG");
+    EXPECT_EQ(numbered("/a.exr", 12345, 12345), "/a.12345.exr");
+}
+
 TEST(ParseErrorTarget, percent_and_share_mean_the_same) {
     EXPECT_DOUBLE_EQ(parse_error_target("1%"), 0.01);
     EXPECT_DOUBLE_EQ(parse_error_target("0.01"), 0.01);
@@ -117,6 +148,15 @@ TEST(ProgressText, numbers_read_as_people_write_them) {
     EXPECT_EQ(
         progress_text({.done = 0.0, .remaining_s = std::numeric_limits<double>::infinity(), .sample = 1}),
         "  0.0 %  sample 1  0 s, about ? left");
+}
+
+TEST(ProgressText, frame_range_counts_frames) {
+    EXPECT_EQ(
+        progress_text(
+            {.done = 0.42, .elapsed_s = 12.3, .remaining_s = 17.0, .sample = 7, .frame = 3, .frames = 12}),
+        "frame 3 of 12 42.0 %  sample 7  12 s, about 17 s left");
+    EXPECT_EQ(progress_json({.done = 0.5, .sample = 2, .frame = 3, .frames = 12}),
+              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"frame":3,"frames":12})");
 }
 
 TEST(ProgressText, json_is_one_line_with_its_keys) {

@@ -79,6 +79,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"error", with({"--error", "0"}), "--error: '0' is not a share above 0"},
         Refused{"progress", with({"--progress", "loud"}), "--progress: 'loud' is not auto, never or json"},
         Refused{"frame", with({"--frame", "-1"}), "--frame: is not 0 or above"},
+        Refused{"frames_backwards", with({"--frames", "3-1"}), "--frames: '3-1' must go upwards"},
+        Refused{"frames_no_range", with({"--frames", "1..3"}), "--frames: '1..3' is not FIRST-LAST"},
+        Refused{"frames_of_a_still", with({"--frames", "1-3"}), "--frames: the scene is still"},
+        Refused{"frame_and_frames", with({"--frame", "1", "--frames", "1-3"}), "--frame"},
         Refused{"exposure", with({"--exposure", "nan"}), "--exposure: nan is not a number of stops"},
         Refused{"tone", with({"--tone", "warm"}), "--tone: 'warm' is not filmic or plain"},
         Refused{"group_size", with({"--group-size", "8"}), "--group-size: '8' is not"},
@@ -107,8 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Flags of effects and tools that do not exist yet must not be taken silently.
 INSTANTIATE_TEST_SUITE_P(
     later, UsageError,
-    testing::Values(Refused{"frames", with({"--frames", "1-3"}), "no flag --frames"},
-                    Refused{"shard", with({"--shard", "1/2"}), "no flag --shard"},
+    testing::Values(Refused{"shard", with({"--shard", "1/2"}), "no flag --shard"},
                     Refused{"resume", with({"--resume"}), "no flag --resume"},
                     Refused{"iterations", with({"--iterations", "3"}), "no flag --iterations"},
                     Refused{"photons", with({"--photons", "3"}), "no flag --photons"},

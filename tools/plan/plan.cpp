@@ -1,5 +1,7 @@
 #include "plan/plan.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "frame/frame.h"
 #include "output_files.h"
@@ -23,6 +25,10 @@ std::string describe_first_frame(const PreparedScene& prepared, const Scene& sce
     return describe(recording);
 }
 
+nlohmann::ordered_json frames_json(const FrameList& frames) {
+    return {{"count", frames.count()}, {"first", frames.first}, {"last", frames.last}, {"step", frames.step}};
+}
+
 }  // namespace
 
 CLI::App* add_plan(CLI::App& app, RenderCommand& command) {
@@ -35,11 +41,19 @@ CLI::App* add_plan(CLI::App& app, RenderCommand& command) {
 int run_plan(const RenderCommand& command) {
     const PlanRequest request = request_of(command, output_files(command));
     check_writable(command.json);
-    const Scene scene = scene_to_render(command);
+    Scene animated = scene_to_render(command);
+    const FrameList frames = frames_to_render(command.scene, animated);
+    if (!command.quiet) print_frame_note(command.scene, animated);
+    FramePlayer player(std::move(animated));
+    const Scene& scene = player.show(frames.first);
     const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device));
-    write_json(command.json, plan_json(scene, prepared.plan));
+    nlohmann::ordered_json json = plan_json(scene, prepared.plan);
+    if (frames.is_sequence) json["frames"] = frames_json(frames);
+    write_json(command.json, json);
     if (command.quiet || command.json == "-") return 0;
     fmt::print("{}", describe(prepared.plan));
+    if (frames.is_sequence)
+        fmt::print("frames    {}, this is the plan of frame {}\n", frames.count(), frames.first);
     if (command.verbose) fmt::print("{}", describe_first_frame(prepared, scene));
     return 0;
 }

@@ -34,8 +34,9 @@ std::string duration_text(double seconds) {
 
 std::string progress_text(const Progress& progress) {
     std::string text =
-        fmt::format("{:5.1f} %  sample {}  {}, about {} left", 100.0 * progress.done, progress.sample,
-                    duration_text(progress.elapsed_s), duration_text(progress.remaining_s));
+        progress.frames == 0 ? "" : fmt::format("frame {} of {}", progress.frame, progress.frames);
+    text += fmt::format("{:5.1f} %  sample {}  {}, about {} left", 100.0 * progress.done, progress.sample,
+                        duration_text(progress.elapsed_s), duration_text(progress.remaining_s));
     if (progress.error) text += fmt::format("  error {:.2g} %", 100.0 * *progress.error);
     return text;
 }
@@ -45,6 +46,10 @@ std::string progress_json(const Progress& progress) {
                                    {"sample", progress.sample},
                                    {"elapsed_s", progress.elapsed_s},
                                    {"remaining_s", progress.remaining_s}};
+    if (progress.frames != 0) {
+        json["frame"] = progress.frame;
+        json["frames"] = progress.frames;
+    }
     if (progress.error) json["error"] = *progress.error;
     return json.dump();
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "plan/render_plan.h"
+#include "scene/facts.h"
+#include "scene/scene.h"
+#include "world/march_world.h"
+
+namespace voxilux {
+
+// The world of the scene as the march needs it, and the facts and the plan that follow. No device is used.
+struct PreparedScene {
+    SceneFacts facts;
+    MarchWorld march_world;
+    RenderPlan plan;
+};
+
+[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request,
+                                          const DeviceLimits& limits);
+
+}  // namespace voxilux

@@ -1,0 +1,105 @@
+#include "render/render_frames.h"
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+#include "output_files.h"
+#include "render/render_output.h"
+#include "session/report.h"
+
+namespace voxilux {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::optional<double> share_of_time(const RenderJob& job, std::int64_t index) {
+    if (!job.options.time_limit_s) return std::nullopt;
+    const double left = *job.options.time_limit_s - seconds_since(job.options.started);
+    return std::max(left, 0.0) / static_cast<double>(job.frames.count() - index);
+}
+
+// The progress of a frame as that of the whole range.
+std::function<void(const Progress&)> progress_of_range(const RenderJob& job, std::int64_t index) {
+    const auto show = job.progress.callback();
+    if (!show) return {};
+    const auto count = static_cast<double>(job.frames.count());
+    return [=, started = job.options.started](Progress progress) {
+        progress.frame = static_cast<std::uint32_t>(index + 1);
+        progress.frames = static_cast<std::uint32_t>(count);
+        progress.done = (static_cast<double>(index) + progress.done) / count;
+        progress.elapsed_s = seconds_since(started);
+        progress.remaining_s = progress.elapsed_s * (1.0 - progress.done) / progress.done;
+        show(progress);
+    };
+}
+
+void print_frame(const RenderCommand& command, std::int64_t frame, const std::vector<std::string>& files,
+                 const RenderStatistics& statistics) {
+    if (command.quiet || command.json == "-") return;
+    fmt::print("frame     {:<6} {:.2f} s, {} samples, error {:.3g}  {}\n", frame, statistics.wall_s,
+               statistics.samples, statistics.error.estimate, fmt::join(files, " "));
+    std::fflush(stdout);  // whoever waits for a frame reads it now
+}
+
+void print_end(const RenderCommand& command, const SequenceReport& report, std::size_t missed) {
+    if (!command.quiet && missed != 0)
+        fmt::print(stderr, "warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
+                   report.frames.size(), *command.error);
+    if (!command.quiet && command.json != "-") fmt::print("{}", describe(report.total));
+}
+
+// Says how to go on from an interrupted frame.
+void print_interruption(const FrameList& frames, std::int64_t index) {
+    fmt::print(stderr,
+               "voxilux: interrupted in frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
+               frames.at(index), index, frames.count(), frames.at(index), frames.last,
+               frames.step == 1 ? "" : fmt::format("x{}", frames.step));
+}
+
+}  // namespace
+
+std::vector<std::string> files_of_frame(const std::vector<std::string>& outputs, const FrameList& frames,
+                                        std::int64_t frame) {
+    if (!frames.is_sequence) return outputs;
+    std::vector<std::string> files;
+    for (const std::string& output : outputs)
+        files.push_back(numbered(output, frame, frames.last).string());
+    return files;
+}
+
+int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
+    SequenceReport report;
+    std::set<std::string> said;
+    std::size_t missed = 0;
+    ExitCode code = ExitCode::done;
+    std::int64_t index = 0;
+    for (; index < job.frames.count(); ++index) {
+        const std::int64_t frame = job.frames.at(index);
+        RenderOutcome outcome =
+            session.render(frame, share_of_time(job, index), progress_of_range(job, index));
+        job.progress.finish();
+        if (outcome.statistics.stop == StopReason::interrupted) break;
+        const std::vector<std::string> files = files_of_frame(job.outputs, job.frames, frame);
+        write_pictures(command, files, session.scene(), outcome);
+        if (index == 0 && command.verbose && !command.quiet && command.json != "-")
+            fmt::print("{}", describe(outcome.plan));
+        print_faults(outcome);
+        print_warnings(command, outcome, said);
+        print_frame(command, frame, files, outcome.statistics);
+        add_frame(report, frame, files, outcome);
+        if (missed_error(command, outcome)) ++missed;
+        if (exit_code(command, outcome) == ExitCode::time_limit) code = ExitCode::time_limit;
+    }
+    const bool is_interrupted = index < job.frames.count();
+    if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
+    report.total.statistics.wall_s = seconds_since(job.options.started);
+    print_end(command, report, missed);
+    if (is_interrupted) print_interruption(job.frames, index);
+    write_json(command.json, sequence_json(session.scene(), job.scene_hash, report));
+    return static_cast<int>(is_interrupted ? ExitCode::interrupted : code);
+}
+
+}  // namespace voxilux

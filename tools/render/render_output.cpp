@@ -1,0 +1,131 @@
+#include "render/render_output.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "film/exr.h"
+#include "film/png.h"
+#include "output_files.h"
+#include "parse_values.h"
+#include "session/report.h"
+
+namespace voxilux {
+namespace {
+
+namespace fs = std::filesystem;
+
+ToneMap parse_tone(const std::string& name) {
+    if (name == "filmic") return ToneMap::filmic;
+    if (name == "plain") return ToneMap::plain;
+    throw Error(ExitCode::usage, fmt::format("--tone: '{}' is not filmic or plain", name));
+}
+
+// Acting on scene points: the camera's right, up and backward axes, as OpenEXR's worldToCamera.
+glm::dmat4 world_to_camera(const Camera& camera) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const glm::dmat3 axes(basis[0], basis[1], -basis[2]);
+    glm::dmat4 matrix(glm::transpose(axes));
+    matrix[3] = glm::dvec4(-(glm::transpose(axes) * camera.position), 1.0);
+    return matrix;
+}
+
+// Acting on camera points: x and y in [-1, 1] over the picture after the division by w, z up to 1 far away.
+glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+    const double up = 1.0 / std::tan(glm::radians(camera.fov_y_deg) / 2.0);
+    glm::dmat4 matrix(0.0);
+    matrix[0][0] = up * static_cast<double>(size.y) / static_cast<double>(size.x);
+    matrix[1][1] = up;
+    matrix[2][2] = -1.0;
+    matrix[2][3] = -1.0;
+    matrix[3][2] = -1.0;  // the near plane, z = -1, is one voxel away
+    return matrix;
+}
+
+ExrOptions exr_options(const RenderCommand& command, const Scene& scene, const RenderPlan& plan) {
+    const Camera camera = camera_of(scene);
+    const glm::dmat4 to_camera = world_to_camera(camera);
+    return {.window = {plan.first_pixel.x, plan.first_pixel.y, plan.image_size.x, plan.image_size.y},
+            .reproducible = command.reproducible,
+            .software = "voxilux " VX_VERSION,
+            .comments = fs::path(command.scene.input).filename().string(),
+            .world_to_camera = glm::mat4(to_camera),
+            .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
+}
+
+}  // namespace
+
+ToneMapOptions tone_options(const RenderCommand& command) {
+    if (!std::isfinite(command.exposure_ev))
+        throw Error(ExitCode::usage,
+                    fmt::format("--exposure: {} is not a number of stops", command.exposure_ev));
+    return {.curve = parse_tone(command.tone), .exposure_ev = command.exposure_ev};
+}
+
+void write_pictures(const RenderCommand& command, const std::vector<std::string>& outputs, const Scene& scene,
+                    RenderOutcome& outcome) {
+    const nlohmann::ordered_json report =
+        command.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
+    outcome.image.attributes["voxilux.report"] = report.dump();
+    for (const std::string& file : outputs) {
+        if (has_ending(file, ".exr")) {
+            const WriteReport written =
+                write_exr(file, outcome.image, exr_options(command, scene, outcome.plan));
+            outcome.statistics.faults["exr_clamped"] += written.clamped;
+            outcome.statistics.faults["exr_non_finite"] += written.non_finite;
+        } else {
+            const DisplayImage display = to_display(outcome.image, tone_options(command));
+            outcome.statistics.faults["png_nan"] += display.nan;
+            write_png(file, display.image);
+        }
+    }
+}
+
+bool missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
+    return command.error && !(outcome.statistics.error.high <= parse_error_target(*command.error));
+}
+
+void print_faults(const RenderOutcome& outcome) {
+    const RenderStatistics& statistics = outcome.statistics;
+    for (const std::string& message : statistics.validation)
+        fmt::print(stderr, "validation: {}\n", message);
+    for (const auto& [name, count] : statistics.faults) {
+        if (count != 0) fmt::print(stderr, "warning: fault {} counted {} times\n", name, count);
+    }
+}
+
+void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said) {
+    if (command.quiet) return;
+    for (const std::string& warning : outcome.statistics.warnings) {
+        if (said.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
+    }
+    if (command.verbose) return;  // the plan that is printed has them
+    for (const std::string& note : outcome.plan.notes) {
+        if (said.insert(note).second) fmt::print(stderr, "note: {}\n", note);
+    }
+}
+
+void print_missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
+    if (command.quiet || !missed_error(command, outcome)) return;
+    const RenderStatistics& statistics = outcome.statistics;
+    fmt::print(stderr,
+               "warning: stopped after {} samples with an error of up to {:.3g} %, over the {} asked for\n",
+               statistics.samples, 100.0 * statistics.error.high, *command.error);
+}
+
+void print_outcome(const RenderCommand& command, const std::vector<std::string>& outputs,
+                   const RenderOutcome& outcome) {
+    if (command.quiet || command.json == "-") return;
+    if (command.verbose) fmt::print("{}", describe(outcome.plan));
+    fmt::print("{}", describe(outcome));
+    for (const std::string& file : outputs)
+        fmt::print("wrote     {}\n", file);
+}
+
+ExitCode exit_code(const RenderCommand& command, const RenderOutcome& outcome) {
+    if (outcome.statistics.stop == StopReason::interrupted) return ExitCode::interrupted;
+    const bool out_of_time = outcome.statistics.stop == StopReason::time_limit;
+    return out_of_time && missed_error(command, outcome) ? ExitCode::time_limit : ExitCode::done;
+}
+
+}  // namespace voxilux

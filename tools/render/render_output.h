@@ -1,0 +1,38 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "film/tonemap.h"
+#include "render/render.h"
+#include "session/render_session.h"
+
+namespace voxilux {
+
+// Throws Error(usage) for a curve or an exposure that is none.
+[[nodiscard]] ToneMapOptions tone_options(const RenderCommand& command);
+
+// Writes the picture into every file and counts what did not fit their formats among the faults. `scene` is
+// the still one that was rendered.
+void write_pictures(const RenderCommand& command, const std::vector<std::string>& files, const Scene& scene,
+                    RenderOutcome& outcome);
+
+// Whether --error was given and not reached.
+[[nodiscard]] bool missed_error(const RenderCommand& command, const RenderOutcome& outcome);
+
+// Faults and validation messages, on standard error: mistakes of ours, said whatever the user asked for.
+void print_faults(const RenderOutcome& outcome);
+
+// What may surprise, on standard error, but for what is in `said` already.
+void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said);
+void print_missed_error(const RenderCommand& command, const RenderOutcome& outcome);
+
+// The report for people, on standard output.
+void print_outcome(const RenderCommand& command, const std::vector<std::string>& files,
+                   const RenderOutcome& outcome);
+
+// done, time_limit (before the error target) or interrupted.
+[[nodiscard]] ExitCode exit_code(const RenderCommand& command, const RenderOutcome& outcome);
+
+}  // namespace voxilux
