@@ -117,6 +117,12 @@ double parse_error_target(std::string_view text) {
     return is_percent ? number->first / 100.0 : number->first;
 }
 
+AoMethod parse_ao_method(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, AoMethod>, 3> kNames = {
+        {{"auto", AoMethod::automatic}, {"brute", AoMethod::brute}, {"hash", AoMethod::hash}}};
+    return parse_name("--ao", name, kNames);
+}
+
 Sequence parse_sequence(std::string_view name) {
     static constexpr std::array<std::pair<std::string_view, Sequence>, 3> kNames = {
         {{"sobol", Sequence::sobol}, {"halton", Sequence::halton}, {"white", Sequence::white}}};

@@ -32,6 +32,7 @@ namespace voxilux {
 [[nodiscard]] double parse_error_target(std::string_view text);
 
 // sobol, halton or white.
+[[nodiscard]] AoMethod parse_ao_method(std::string_view name);
 [[nodiscard]] Sequence parse_sequence(std::string_view name);
 
 // three-quarter, front, back, left, right, top or iso.

@@ -61,6 +61,11 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->type_name("R")
         ->group(kSampling);
     command
+        .add_option("--ao", options.ao,
+                    "occlusion: brute (each pixel alone) or hash (shared between pixels and frames)")
+        ->type_name("METHOD")
+        ->group(kSampling);
+    command
         .add_option("--traversal", options.traversal,
                     "structure that rays march through; the plan chooses one")
         ->type_name("NAME")
@@ -81,6 +86,8 @@ Scene load_scene_with(const SceneOptions& options) {
     if (options.size) size = parse_size("--size", *options.size);
     if (options.camera) view = parse_view(*options.camera);
     if (options.sequence) sequence = parse_sequence(*options.sequence);
+    std::optional<AoMethod> ao;
+    if (options.ao) ao = parse_ao_method(*options.ao);
 
     Scene scene = load_scene(options.input, {.overrides = options.overrides});
     RenderSettings& settings = scene.settings;
@@ -90,6 +97,7 @@ Scene load_scene_with(const SceneOptions& options) {
     settings.ao_radius = options.ao_radius.value_or(settings.ao_radius);
     settings.seed = options.seed.value_or(settings.seed);
     settings.sequence = sequence.value_or(settings.sequence);
+    settings.ao.method = ao.value_or(settings.ao.method);
     if (view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
         scene.camera = framing_camera(scene, *view, fov_y_deg);
@@ -110,6 +118,12 @@ FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
                     "--frames: the scene is still; it needs [[camera.key]], [camera.turntable] "
                     "or an animated .vox file");
     return frames;
+}
+
+std::uint32_t frames_of_one_world(const Scene& scene, const FrameList& frames) {
+    if (!scene.animation.files.empty()) return 1;
+    return static_cast<std::uint32_t>(
+        std::min<std::int64_t>(frames.count(), std::numeric_limits<int>::max()));
 }
 
 void print_frame_note(const SceneOptions& options, const Scene& scene) {

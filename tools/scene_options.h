@@ -28,6 +28,7 @@ struct SceneOptions {
     std::optional<std::int64_t> frame;   // one picture
     std::optional<std::string> frames;   // a picture for each
     std::optional<std::string> crop;
+    std::optional<std::string> ao;
     std::optional<std::string> traversal;
     std::uint64_t memory_budget_mib = 0;
 };
@@ -41,6 +42,10 @@ void add_scene_flags(CLI::App& command, SceneOptions& options);
 // The frames to render. Without a flag, the first frame of an animated scene. Throws Error(usage) for
 // --frames that cannot be read, and on a still scene.
 [[nodiscard]] FrameList frames_to_render(const SceneOptions& options, const Scene& scene);
+
+// How many of these frames show the same voxels, so that what is learned of them in one frame serves the
+// next.
+[[nodiscard]] std::uint32_t frames_of_one_world(const Scene& scene, const FrameList& frames);
 
 // When an animated scene gives one picture only, because no flag names its frames: says so on standard error.
 void print_frame_note(const SceneOptions& options, const Scene& scene);

@@ -191,6 +191,11 @@ double log_spread(const Blocks& all, double mean, double pixels) {
 
 }  // namespace
 
+ErrorEstimate unknown_error() {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    return {.estimate = kNaN, .low = kNaN, .high = std::numeric_limits<double>::infinity()};
+}
+
 ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     check_half(a, pixels);

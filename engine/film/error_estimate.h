@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "film/film.h"
@@ -16,7 +17,12 @@ struct ErrorEstimate {
     double low = 0.0;
     double high = 0.0;  // infinity when there are too few pixels or samples to tell
     double confidence = kErrorConfidence;
+
+    [[nodiscard]] bool is_known() const { return !std::isnan(estimate); }
 };
+
+// Where nothing can be said: estimate and low are NaN, high is infinite.
+[[nodiscard]] ErrorEstimate unknown_error();
 
 // The error of film_image(width, height, a, b) by the two-halves argument (error_estimate.cpp). Needs
 // independent halves; low-discrepancy halves disagree more than their mean errs, which makes the estimate too

@@ -66,7 +66,6 @@ gpu::vec3 dual_axis(gpu::vec3 half_axis) {
 gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, const SampleNumber& number) {
     const FrameState& state = number.state;
     const gpu::FrameParams& last = state.last_camera.value_or(params);
-    const std::uint32_t swept = number.sample == 0 && state.samples_done > 0 ? swept_slots(plan) : 0;
     const auto frame = static_cast<gpu::uint>(state.frames_done);  // wraps
     return {.last_camera_cell = last.camera_cell,
             .last_camera_fraction = last.camera_fraction,
@@ -77,8 +76,6 @@ gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, 
             .frame = frame,
             .pass_number = static_cast<gpu::uint>(state.samples_done),
             .table_mask = plan.ao.slots - 1,
-            .first_swept = swept == 0 ? 0 : frame % (plan.ao.slots / swept) * swept,
-            .swept_count = swept,
             .sample_limit = plan.settings.ao.sample_limit,
             .cell_width = plan.settings.ao.cell_px * 2.0f * glm::length(params.camera_up) /
                           static_cast<float>(params.height)};
@@ -89,10 +86,16 @@ struct NumberedParams {
     const SampleNumber& number;
 };
 
+AoStep ao_step(const RenderPlan& plan, NumberedParams now) {
+    const FrameState& state = now.number.state;
+    return {.params = ao_params(plan, now.params, now.number),
+            .sweeps = now.number.sample == 0 && state.samples_done > 0 && is_sweep_frame(state.frames_done)};
+}
+
 Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, NumberedParams now,
                 Recording& rec) {
     if (!plan.has_ao_cells()) return record_ao_trace(plan, slice, hits, rec);
-    return record_ao_cells(plan, slice, hits, ao_params(plan, now.params, now.number), rec);
+    return record_ao_cells(plan, slice, hits, ao_step(plan, now), rec);
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 namespace voxilux {
 namespace {
 
-// Frames in which the whole table is swept once: short beside kCellMaxAge, so a cell is given up little later
-// than it could be.
-constexpr std::uint32_t kSweepFrames = 8;
+// The table is swept whole, in one frame of so many: short beside kCellMaxAge, so a cell is given up little
+// later than it could be. In parts, the frame in which a cell is given up would depend on its slot, and that
+// on the threads.
+constexpr std::uint64_t kSweepFrames = 8;
 
 std::uint32_t flag(bool on) {
     return on ? 1u : 0u;
@@ -46,10 +47,10 @@ std::vector<Constant> table_constants(const RenderPlan& plan) {
             {"has_limit", flag(ao.sample_limit != 0)}};
 }
 
-void record_ao_age(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
+void record_ao_age(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "ao.age",
                         .shader = "ao_age",
-                        .extent = {params.swept_count, 1, 1},
+                        .extent = {plan.ao.slots, 1, 1},
                         .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
                                      {"AoFrame", use_buffer(plan, "ao.frame", recording)},
                                      {"Keys", use_buffer(plan, "ao.keys", recording)},
@@ -148,17 +149,17 @@ Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& h
     return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open"}, hits, recording);
 }
 
-std::uint32_t swept_slots(const RenderPlan& plan) {
-    return std::max(1u, plan.ao.slots / kSweepFrames);
+bool is_sweep_frame(std::uint64_t frame) {
+    return frame % kSweepFrames == 0;
 }
 
-Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                      const gpu::AoParams& params, Recording& recording) {
+Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,
+                      Recording& recording) {
     VX_ASSERT_EQ(slice.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
-    recording.upload(use_buffer(plan, "ao.frame", recording), to_bytes(params));
-    if (params.has_last == 0) empty_table(plan, recording);
-    if (params.swept_count > 0) record_ao_age(plan, params, recording);
-    const SlotPlanes planes = slot_planes(plan, params, recording);
+    recording.upload(use_buffer(plan, "ao.frame", recording), to_bytes(step.params));
+    if (step.params.has_last == 0) empty_table(plan, recording);
+    if (step.sweeps) record_ao_age(plan, recording);
+    const SlotPlanes planes = slot_planes(plan, step.params, recording);
     if (!plan.settings.ao.merged) record_ao_lookup(plan, slice, hits, planes, recording);
     record_ao_sample(plan, slice, hits, planes, recording);
     const Resolved resolved = record_ao_resolve(plan, slice, planes, recording);

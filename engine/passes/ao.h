@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "passes/plane.h"
 #include "shared/gpu_types.h"
 
@@ -10,13 +12,18 @@ namespace voxilux {
 [[nodiscard]] Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                     Recording& recording);
 
-// The same, shared in the cells of a hash. The slice is the whole picture. When `params.has_last` is 0 the
-// table is emptied first; when `params.swept_count` is not 0, cells that nobody has seen for long are given
-// up.
-[[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                                    const gpu::AoParams& params, Recording& recording);
+// One sample of the cells.
+struct AoStep {
+    gpu::AoParams params;
+    bool sweeps = false;  // cells that nobody has seen for long are given up first
+};
 
-// Slots of the table that one frame sweeps: each has its turn once in kSweepFrames frames.
-[[nodiscard]] std::uint32_t swept_slots(const RenderPlan& plan);
+// The same, shared in the cells of a hash. The slice is the whole picture. Where no sample came before
+// (`params.has_last` is 0) the table is emptied first.
+[[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                                    const AoStep& step, Recording& recording);
+
+// Whether the table is swept in a frame; frames are counted from 0.
+[[nodiscard]] bool is_sweep_frame(std::uint64_t frame);
 
 }  // namespace voxilux

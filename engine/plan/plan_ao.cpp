@@ -12,7 +12,11 @@ namespace {
 // Pixels that one film band may have with the hash: every pass then runs over the whole picture before the
 // next one starts, so that no pixel reads sums that others still add to.
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;
-constexpr std::uint32_t kFewestSlots = 1u << 12;
+constexpr std::uint64_t kFewestSlots = std::uint64_t{1} << 12;
+constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 24;  // 128 MiB of keys: what one binding takes
+constexpr double kSlotsPerCell = 3.0;
+constexpr double kFewestCells = 1.0 / 3.0;  // per pixel
+constexpr double kMostCells = 4.0;
 
 // Why the hash cannot serve, or nothing.
 std::string hindrance(const AoNeeds& needs) {
@@ -33,11 +37,16 @@ void check_options(const AoSettings& ao) {
         throw Error(ExitCode::input_refused, fmt::format("[ao] 'slots' {} is not a power of two", ao.slots));
 }
 
-// One slot for each pixel: cells are several pixels wide, and the rest is room for those that were seen
-// before.
+// Cells that a picture shows at most, per pixel: they are half as wide as wished at least, but where voxels
+// are smaller each pixel may have its own. A third of the slots may be taken (kCellProbes); the rest is also
+// room for cells that were seen before.
 std::uint32_t slots_for(const AoSettings& ao, std::uint64_t pixels) {
     if (ao.slots != 0) return ao.slots;
-    return std::max(kFewestSlots, static_cast<std::uint32_t>(std::bit_ceil(pixels)));
+    const double half_width = 0.5 * static_cast<double>(ao.cell_px);
+    const double cells_per_pixel = std::clamp(1.0 / (half_width * half_width), kFewestCells, kMostCells);
+    const auto wanted =
+        static_cast<std::uint64_t>(kSlotsPerCell * cells_per_pixel * static_cast<double>(pixels));
+    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp(wanted, kFewestSlots, kMostSlots)));
 }
 
 }  // namespace

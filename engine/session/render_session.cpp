@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/error.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
@@ -61,6 +62,9 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     scene_ = &player_.show(frame);
     Recording upload;
     if (update_world(*scene_)) record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, upload);
+    if (options_.error_target && prepared_->plan.has_ao_cells())
+        throw Error(ExitCode::usage,
+                    "--error: pixels that share occlusion samples give no estimate; use --ao brute with it");
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;

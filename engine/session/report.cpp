@@ -31,6 +31,12 @@ Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
 }
 
 Json error_json(const ErrorEstimate& error) {
+    if (!error.is_known())
+        return {{"metric", error.metric},
+                {"estimate", nullptr},
+                {"low", nullptr},
+                {"high", nullptr},
+                {"confidence", nullptr}};
     Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
     json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
     json["confidence"] = error.confidence;
@@ -214,8 +220,13 @@ std::string describe(const RenderOutcome& outcome) {
                         s.cpu_s, s.first_pixel_s);
     for (const PassTime& pass : s.passes)
         text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
-    text += fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,
+    if (s.error.is_known()) {
+        text +=
+            fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,
                         s.error.metric, 100.0 * s.error.confidence, s.error.low, s.error.high);
+    } else {
+        text += "error     unknown: pixels share occlusion samples\n";
+    }
     for (const auto& [name, count] : s.faults) {
         if (count != 0) text += fmt::format("fault     {} {}\n", name, count);
     }

@@ -2,8 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Empties the slots of cells that nobody has seen for kCellMaxAge frames, in the part of the table that is this frame's
-// turn. No other pass runs meanwhile, so nobody can claim a slot that is being emptied.
+// Empties the slots of cells that nobody has seen for kCellMaxAge frames. No other pass runs meanwhile, so nobody can claim a slot that is being emptied.
 
 #include "lib/address.glsl"
 
@@ -31,9 +30,8 @@ layout(scalar) readonly buffer Touched {
 };
 
 void main() {
-    uint i = linear_id();
-    if (i >= ao_frame.swept_count) return;
-    uint slot = ao_frame.first_swept + i;
+    uint slot = linear_id();
+    if (slot > ao_frame.table_mask) return;
     if (keys[slot] == uint64_t(0) || !is_stale(touched[slot], ao_frame.frame)) return;
     uvec2 dropped = unpack32(samples[slot]);
     count(kWorkAoEvicted, 1u);

@@ -90,8 +90,6 @@ struct AoParams {
     uint frame;         // number of the frame, which may wrap
     uint pass_number;   // samples taken since the table was empty, which may wrap
     uint table_mask;    // slots of the table less one
-    uint first_swept;   // the slots that this frame sweeps
-    uint swept_count;
     uint sample_limit;  // cells with as many samples take no more; 0: no limit
     float cell_width;   // wanted width of a cell in voxels at distance 1
 };

@@ -17,7 +17,8 @@ using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 Words small_turn(const Words& more) {
-    Words words = {"render", scene_file("turntable"), "--size", "32x18", "--spp", "2"};
+    Words words = {"render", scene_file("turntable"), "--size", "32x18", "--spp", "2",
+                   "-D",     "ao.method=brute"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }

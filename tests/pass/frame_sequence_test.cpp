@@ -26,6 +26,7 @@ RenderOptions validated() {
 Scene small_scene() {
     Scene scene = white_scene();
     scene.settings = {.size = {40, 24}, .spp = 2};
+    scene.settings.ao.method = AoMethod::brute;
     add_box(scene, {-8, -8, -1}, {8, 8, 0});
     add_box(scene, {-8, 2, 0}, {3, 4, 9});
     scene.sun.irradiance = glm::vec3(2.0f);

@@ -39,11 +39,12 @@ CLI::App* add_plan(CLI::App& app, RenderCommand& command) {
 }
 
 int run_plan(const RenderCommand& command) {
-    const PlanRequest request = request_of(command, output_files(command));
+    PlanRequest request = request_of(command, output_files(command));
     check_writable(command.json);
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.quiet) print_frame_note(command.scene, animated);
+    request.frames = frames_of_one_world(animated, frames);
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
     const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device));

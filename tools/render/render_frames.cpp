@@ -39,8 +39,10 @@ std::function<void(const Progress&)> progress_of_range(const RenderJob& job, std
 void print_frame(const RenderCommand& command, std::int64_t frame, const std::vector<std::string>& files,
                  const RenderStatistics& statistics) {
     if (command.quiet || command.json == "-") return;
-    fmt::print("frame     {:<6} {:.2f} s, {} samples, error {:.3g}  {}\n", frame, statistics.wall_s,
-               statistics.samples, statistics.error.estimate, fmt::join(files, " "));
+    const std::string error =
+        statistics.error.is_known() ? fmt::format("{:.3g}", statistics.error.estimate) : "unknown";
+    fmt::print("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
+               statistics.samples, error, fmt::join(files, " "));
     std::fflush(stdout);  // whoever waits for a frame reads it now
 }
 
