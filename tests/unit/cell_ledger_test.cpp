@@ -154,6 +154,37 @@ TEST(HardCase, hole16_comparison_rejects_touches_rarer_than_the_greatest_age) {
     EXPECT_GT(evicted_in_sight(0, rare), 100);
 }
 
+// How many cells were given up in sight after all had been out of it for some frames.
+int evicted_after_return(IsDue is_due) {
+    std::vector<std::uint64_t> keys;
+    for (std::uint64_t i = 0; i < 300; ++i)
+        keys.push_back(key_number(i));
+    int evicted = 0;
+    for (int away = 24; away < 48; ++away) {
+        Ledger ledger(4096, 0xFFFFFFF0u, is_due);
+        ledger.run_frame(keys, 1);
+        for (int i = 0; i < away; ++i)
+            ledger.run_frame({}, 1);
+        ledger.run_frame(keys, 1);
+        const int before = ledger.evicted;
+        for (int i = 0; i < 16; ++i)
+            ledger.run_frame(keys, 1);
+        evicted += ledger.evicted - before;
+    }
+    return evicted;
+}
+
+TEST(HardCase, hole16_cell_that_comes_back_into_sight_is_not_given_up_in_it) {
+    EXPECT_EQ(evicted_after_return(gpu::needs_touch), 0);
+}
+
+TEST(HardCase, hole16_comparison_rejects_touches_in_turn_alone) {
+    EXPECT_GT(evicted_after_return([](gpu::uvec2 key, std::uint32_t, std::uint32_t frame) {
+                  return gpu::is_touch_due(key, frame);
+              }),
+              100);
+}
+
 TEST(CellAge, touch_of_every_key_is_due_once_in_its_period) {
     TestRandom random(8);
     std::map<std::uint32_t, int> turns;
