@@ -86,7 +86,7 @@ uint locate(Hit hit) {
     count(kWorkAoClaimed, found.claimed ? 1u : 0u);
     count(kFaultAoTableFull, found.slot == kNoSlot ? 1u : 0u);
     // All writers of a frame write the same number.
-    if (found.slot != kNoSlot && (found.claimed || is_touch_due(key, ao_frame.frame)))
+    if (found.slot != kNoSlot && (found.claimed || needs_touch(key, touched[found.slot], ao_frame.frame)))
         touched[found.slot] = ao_frame.frame;
     return found.slot;
 }

@@ -23,6 +23,12 @@ VX_FN bool is_touch_due(uvec2 key, uint frame) {
     return ((hash4(key.x, key.y, 0x746F7563u, 0u) ^ frame) & (kCellTouchPeriod - 1u)) == 0u;  // "touc"
 }
 
+// Whether a cell that is seen in a frame is touched in it: in its turn, or when it comes back into sight so
+// old that its turn could come too late.
+VX_FN bool needs_touch(uvec2 key, uint touched, uint frame) {
+    return is_touch_due(key, frame) || frame - touched > kCellMaxAge - kCellTouchPeriod;
+}
+
 VX_END
 
 #endif

@@ -228,6 +228,22 @@ TEST(HardCase, row23_cells_in_sight_outlive_the_wrap_of_frame_numbers) {
         ASSERT_EQ(rig.render().tally[gpu::kWorkAoEvicted], 0u) << i;
 }
 
+// Cells that come back into sight when they are about to be given up: those that were not given up before are
+// kept.
+TEST(HardCase, hole16_cells_seen_again_are_not_given_up_while_in_sight) {
+    for (int away = 28; away <= 42; ++away) {
+        AoRig rig(test::pillared_scene());
+        (void)rig.render();
+        const Camera sky = test::camera_towards({0, 0, 20}, {0, 0.1, 40}, 30.0);
+        for (int i = 0; i < away; ++i)
+            (void)rig.render(sky);
+        (void)rig.render();
+        for (int i = 0; i < 12; ++i)
+            ASSERT_EQ(rig.render().tally[gpu::kWorkAoEvicted], 0u)
+                << i << " frames after " << away << " away";
+    }
+}
+
 TEST(HardCase, row23_wrap_of_the_number_of_samples_loses_none) {
     AoRig rig(test::pillared_scene());
     (void)rig.render();

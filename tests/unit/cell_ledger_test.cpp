@@ -15,12 +15,12 @@ using gpu::FoundSlot;
 using gpu::kNoSlot;
 using test::CellTable;
 using test::TestRandom;
-using IsDue = bool (*)(gpu::uvec2 key, std::uint32_t frame);
+using IsDue = bool (*)(gpu::uvec2 key, std::uint32_t touched, std::uint32_t frame);
 
 // The cells of a run of frames as the passes keep them.
 class Ledger {
   public:
-    Ledger(std::size_t slots, std::uint32_t first_frame, IsDue is_due = gpu::is_touch_due)
+    Ledger(std::size_t slots, std::uint32_t first_frame, IsDue is_due = gpu::needs_touch)
         : frame(first_frame), table_(slots), samples_(slots, 0), touched_(slots, 0), is_due_(is_due) {}
 
     // One frame in which every key is seen and takes some samples.
@@ -83,7 +83,7 @@ class Ledger {
             own += count;
             return;
         }
-        if (found.claimed || is_due_(key, frame)) touched_[found.slot] = frame;
+        if (found.claimed || is_due_(key, touched_[found.slot], frame)) touched_[found.slot] = frame;
         samples_[found.slot] += count;
         expected_[bits] += count;
     }
@@ -143,15 +143,46 @@ int evicted_in_sight(std::uint32_t first_frame, IsDue is_due) {
 }
 
 TEST(HardCase, hole16_cell_in_sight_is_never_given_up) {
-    EXPECT_EQ(evicted_in_sight(0, gpu::is_touch_due), 0);
-    EXPECT_EQ(evicted_in_sight(0xFFFFFFF0u, gpu::is_touch_due), 0) << "frame numbers wrap";
+    EXPECT_EQ(evicted_in_sight(0, gpu::needs_touch), 0);
+    EXPECT_EQ(evicted_in_sight(0xFFFFFFF0u, gpu::needs_touch), 0) << "frame numbers wrap";
 }
 
 TEST(HardCase, hole16_comparison_rejects_touches_rarer_than_the_greatest_age) {
-    const IsDue rare = [](gpu::uvec2 key, std::uint32_t frame) {
+    const IsDue rare = [](gpu::uvec2 key, std::uint32_t, std::uint32_t frame) {
         return ((gpu::hash4(key.x, key.y, 1u, 0u) ^ frame) & 63u) == 0u;
     };
     EXPECT_GT(evicted_in_sight(0, rare), 100);
+}
+
+// How many cells were given up in sight after all had been out of it for some frames.
+int evicted_after_return(IsDue is_due) {
+    std::vector<std::uint64_t> keys;
+    for (std::uint64_t i = 0; i < 300; ++i)
+        keys.push_back(key_number(i));
+    int evicted = 0;
+    for (int away = 24; away < 48; ++away) {
+        Ledger ledger(4096, 0xFFFFFFF0u, is_due);
+        ledger.run_frame(keys, 1);
+        for (int i = 0; i < away; ++i)
+            ledger.run_frame({}, 1);
+        ledger.run_frame(keys, 1);
+        const int before = ledger.evicted;
+        for (int i = 0; i < 16; ++i)
+            ledger.run_frame(keys, 1);
+        evicted += ledger.evicted - before;
+    }
+    return evicted;
+}
+
+TEST(HardCase, hole16_cell_that_comes_back_into_sight_is_not_given_up_in_it) {
+    EXPECT_EQ(evicted_after_return(gpu::needs_touch), 0);
+}
+
+TEST(HardCase, hole16_comparison_rejects_touches_in_turn_alone) {
+    EXPECT_GT(evicted_after_return([](gpu::uvec2 key, std::uint32_t, std::uint32_t frame) {
+                  return gpu::is_touch_due(key, frame);
+              }),
+              100);
 }
 
 TEST(CellAge, touch_of_every_key_is_due_once_in_its_period) {
