@@ -23,6 +23,7 @@ std::string hindrance(const AoNeeds& needs) {
     if (!needs.has_voxels) return "the scene has no voxels to share samples on";
     if (std::max({needs.world_size.x, needs.world_size.y, needs.world_size.z}) > gpu::kAoMaxEdge)
         return fmt::format("the world is longer than {} voxels", gpu::kAoMaxEdge);
+    if (needs.wants_error) return "pixels that share samples give no estimate of the error";
     if (needs.pixels > kMostPixels) return fmt::format("the picture has over {} pixels", kMostPixels);
     return {};
 }
@@ -56,16 +57,17 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
     check_options(ao);
     if (ao.method == AoMethod::brute) return {AoMethod::brute, "asked for"};
     const std::string hindered = hindrance(needs);
+    const AoPlan hash{AoMethod::hash, "asked for", slots_for(ao, needs.pixels), needs.frames > 1};
     if (ao.method == AoMethod::hash) {
-        if (!hindered.empty())
-            throw Error(ExitCode::input_refused,
-                        fmt::format("occlusion in a hash is asked for, but {}; use brute force", hindered));
-        return {AoMethod::hash, "asked for", slots_for(ao, needs.pixels)};
+        if (hindered.empty()) return hash;
+        throw Error(ExitCode::input_refused,
+                    fmt::format("occlusion in a hash is asked for, but {}; use brute force", hindered));
     }
     if (needs.frames <= 1) return {AoMethod::brute, "a single picture is traced pixel by pixel"};
     if (!hindered.empty()) return {AoMethod::brute, hindered};
-    return {AoMethod::hash, fmt::format("{} frames share samples", needs.frames),
-            slots_for(ao, needs.pixels)};
+    AoPlan shared = hash;
+    shared.reason = fmt::format("{} frames share samples", needs.frames);
+    return shared;
 }
 
 }  // namespace voxilux

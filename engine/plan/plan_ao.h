@@ -13,6 +13,7 @@ struct AoPlan {
     AoMethod method = AoMethod::brute;  // never automatic
     std::string reason;                 // one clause, shown to the user
     std::uint32_t slots = 0;            // of the table; 0 without one
+    bool ages = false;                  // there are later frames, which give up cells of earlier ones
 
     bool operator==(const AoPlan&) const = default;
     [[nodiscard]] bool uses_cells() const { return method == AoMethod::hash; }
@@ -23,7 +24,8 @@ struct AoNeeds {
     bool has_voxels = false;
     glm::ivec3 world_size{0};  // cells
     std::uint64_t pixels = 0;  // of the picture
-    std::uint32_t frames = 1;  // that will be rendered
+    std::uint32_t frames = 1;  // of the same voxels that will be rendered
+    bool wants_error = false;  // an error target decides when to stop
 };
 
 // The hash for frame ranges, brute force for single pictures, unless the settings name one. Throws

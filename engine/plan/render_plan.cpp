@@ -93,7 +93,7 @@ void list_ao_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass&
     const AoSettings& ao = plan.settings.ao;
     const bool cells = plan.has_ao_cells();
     add(plan.has(Effect::ao) && !cells, "ao.trace", slices);
-    add(cells, "ao.age", 1);
+    add(cells && plan.ao.ages, "ao.age", 1);
     add(cells && !ao.merged, "ao.lookup", slices);
     add(cells, "ao.sample", slices);
     add(cells, "ao.resolve", slices);
@@ -258,7 +258,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
-                                      .frames = request.frames});
+                                      .frames = request.frames,
+                                      .wants_error = request.wants_error});
     split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);

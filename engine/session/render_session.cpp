@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "base/error.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
@@ -36,10 +35,15 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
         warnings.push_back("the camera is inside a solid voxel: the picture shows its inside, which is dark");
 }
 
+RenderOptions with_error_wish(RenderOptions options) {
+    options.plan.wants_error = options.error_target.has_value();
+    return options;
+}
+
 }  // namespace
 
 RenderSession::RenderSession(Scene scene, RenderOptions options)
-    : options_(std::move(options)),
+    : options_(with_error_wish(std::move(options))),
       player_(std::move(scene)),
       device_(open_device(options_.device)),
       executor_(std::in_place, device_, pass_shaders(), options_.executor) {}
@@ -62,9 +66,6 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     scene_ = &player_.show(frame);
     Recording upload;
     if (update_world(*scene_)) record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, upload);
-    if (options_.error_target && prepared_->plan.has_ao_cells())
-        throw Error(ExitCode::usage,
-                    "--error: pixels that share occlusion samples give no estimate; use --ao brute with it");
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;

@@ -44,6 +44,7 @@ int run_plan(const RenderCommand& command) {
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.quiet) print_frame_note(command.scene, animated);
+    request.wants_error = command.error.has_value();
     request.frames = frames_of_one_world(animated, frames);
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
