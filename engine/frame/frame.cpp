@@ -76,6 +76,7 @@ gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, 
             .frame = frame,
             .pass_number = static_cast<gpu::uint>(state.samples_done),
             .table_mask = plan.ao.slots - 1,
+            .max_age = cell_age(plan, state.live_cells),
             .sample_limit = plan.settings.ao.sample_limit,
             .cell_width = plan.settings.ao.cell_px * 2.0f * glm::length(params.camera_up) /
                           static_cast<float>(params.height)};
@@ -89,7 +90,8 @@ struct NumberedParams {
 AoStep ao_step(const RenderPlan& plan, NumberedParams now) {
     const FrameState& state = now.number.state;
     return {.params = ao_params(plan, now.params, now.number),
-            .sweeps = now.number.sample == 0 && state.samples_done > 0 && is_sweep_frame(state.frames_done)};
+            .sweeps = now.number.sample == 0 && state.samples_done > 0 &&
+                      is_sweep_frame(plan, state.frames_done, state.live_cells)};
 }
 
 Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, NumberedParams now,

@@ -13,6 +13,8 @@ struct FrameState {
     std::uint64_t samples_done = 0;               // since the occlusion cells were emptied
     std::optional<gpu::FrameParams> last_camera;  // of the sample before; none after a change of the world
 
+    std::uint64_t live_cells = 0;  // of occlusion
+
     // Call it after each sample of the whole picture.
     void finish_sample(const gpu::FrameParams& params) {
         ++samples_done;
@@ -21,6 +23,7 @@ struct FrameState {
     // The world is another one: what was learned of it is void.
     void change_world() {
         samples_done = 0;
+        live_cells = 0;
         last_camera.reset();
     }
 };

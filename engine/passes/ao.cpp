@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/cell_age.h"
+#include "shared/limits.h"
 
 namespace voxilux {
 namespace {
@@ -149,8 +150,14 @@ Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& h
     return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open"}, hits, recording);
 }
 
-bool is_sweep_frame(std::uint64_t frame) {
-    return frame % kSweepFrames == 0;
+std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells) {
+    const std::uint64_t room = plan.ao.slots / 4;
+    if (live_cells <= room) return gpu::kCellMaxAge;
+    return std::max(gpu::kCellMinAge, static_cast<std::uint32_t>(gpu::kCellMaxAge * room / live_cells));
+}
+
+bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t live_cells) {
+    return frame % kSweepFrames == 0 || cell_age(plan, live_cells) < gpu::kCellMaxAge;
 }
 
 Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,

@@ -23,7 +23,12 @@ struct AoStep {
 [[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                     const AoStep& step, Recording& recording);
 
-// Whether the table is swept in a frame; frames are counted from 0.
-[[nodiscard]] bool is_sweep_frame(std::uint64_t frame);
+// How long cells stay unseen, frames, when so many are in the table: kCellMaxAge while they take up to a
+// quarter of it, then in proportion less, but not below kCellMinAge.
+[[nodiscard]] std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells);
+
+// Whether the table is swept in a frame, counted from 0: in one of eight, and in each while cells stay less
+// than kCellMaxAge.
+[[nodiscard]] bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t live_cells);
 
 }  // namespace voxilux

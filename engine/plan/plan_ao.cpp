@@ -15,7 +15,7 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;
 constexpr std::uint64_t kFewestSlots = std::uint64_t{1} << 12;
 constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 24;  // 128 MiB of keys: what one binding takes
 constexpr double kSlotsPerCell = 3.0;
-constexpr double kFewestCells = 1.0 / 3.0;  // per pixel
+constexpr double kFewestCells = 2.0 / 3.0;  // per pixel
 constexpr double kMostCells = 4.0;
 
 // Why the hash cannot serve, or nothing.

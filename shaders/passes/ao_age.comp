@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Empties the slots of cells that nobody has seen for kCellMaxAge frames. No other pass runs meanwhile, so nobody can claim a slot that is being emptied.
+// Empties the slots of cells that nobody has seen for max_age frames. No other pass runs meanwhile, so nobody can claim
+// a slot that is being emptied.
 
 #include "lib/address.glsl"
 
@@ -32,7 +33,7 @@ layout(scalar) readonly buffer Touched {
 void main() {
     uint slot = linear_id();
     if (slot > ao_frame.table_mask) return;
-    if (keys[slot] == uint64_t(0) || !is_stale(touched[slot], ao_frame.frame)) return;
+    if (keys[slot] == uint64_t(0) || !is_stale(touched[slot], ao_frame.frame, ao_frame.max_age)) return;
     uvec2 dropped = unpack32(samples[slot]);
     count(kWorkAoEvicted, 1u);
     count(kWorkAoDropped, dropped.y == 0u ? dropped.x : 0xFFFFFFFFu);

@@ -12,9 +12,10 @@ VX_CONST(uint, kNoSlot, 0xFFFFFFFFu);
 // Set in the slot of a pixel that takes no samples for the cell now. Slots themselves are below.
 VX_CONST(uint, kSlotRests, 0x80000000u);
 
-// Whether a slot last touched in frame `touched` is to be emptied in frame `now`. Frame numbers may wrap.
-VX_FN bool is_stale(uint touched, uint now) {
-    return now - touched > kCellMaxAge;
+// Whether a slot last touched in frame `touched` is to be emptied in frame `now`, when cells that nobody sees
+// stay `max_age` frames. Frame numbers may wrap.
+VX_FN bool is_stale(uint touched, uint now, uint max_age) {
+    return now - touched > max_age;
 }
 
 // Whether a frame renews the touch of a key: each key has its turn once in kCellTouchPeriod frames, so that
@@ -26,7 +27,7 @@ VX_FN bool is_touch_due(uvec2 key, uint frame) {
 // Whether a cell that is seen in a frame is touched in it: in its turn, or when it comes back into sight so
 // old that its turn could come too late.
 VX_FN bool needs_touch(uvec2 key, uint touched, uint frame) {
-    return is_touch_due(key, frame) || frame - touched > kCellMaxAge - kCellTouchPeriod;
+    return is_touch_due(key, frame) || frame - touched > kCellMinAge - kCellTouchPeriod;
 }
 
 VX_END

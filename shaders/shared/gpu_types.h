@@ -90,6 +90,7 @@ struct AoParams {
     uint frame;         // number of the frame, which may wrap
     uint pass_number;   // samples taken since the table was empty, which may wrap
     uint table_mask;    // slots of the table less one
+    uint max_age;       // frames that a cell stays unseen
     uint sample_limit;  // cells with as many samples take no more; 0: no limit
     float cell_width;   // wanted width of a cell in voxels at distance 1
 };

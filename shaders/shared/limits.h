@@ -82,6 +82,8 @@ VX_CONST(int, kAoMaxEdge, 131072);
 VX_CONST(uint, kCellProbes, 32u);
 // Frames after which a cell that nobody sees is given up. Longer than a touch may be late (kCellTouchPeriod).
 VX_CONST(uint, kCellMaxAge, 32u);
+// The same when the table fills up. Longer than a touch may be late (kCellTouchPeriod).
+VX_CONST(uint, kCellMinAge, 16u);
 VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // Standard deviations beyond which two openness values are taken to differ. SVGF (Schied et al. 2017,
 // section 4.4) uses 4 for luminance.

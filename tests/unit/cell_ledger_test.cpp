@@ -66,7 +66,7 @@ class Ledger {
         const std::uint32_t count = std::max(1u, slots / 8);
         const std::uint32_t first = frame % (slots / count) * count;
         for (std::uint32_t slot = first; slot < first + count; ++slot) {
-            if (table_.keys[slot] == 0 || !gpu::is_stale(touched_[slot], frame)) continue;
+            if (table_.keys[slot] == 0 || !gpu::is_stale(touched_[slot], frame, gpu::kCellMaxAge)) continue;
             dropped += samples_[slot];
             ++evicted;
             expected_.erase(table_.keys[slot]);
@@ -205,10 +205,10 @@ TEST(CellAge, touch_of_every_key_is_due_once_in_its_period) {
 
 TEST(CellAge, age_counts_across_the_wrap_of_frame_numbers) {
     for (const std::uint32_t touched : {0u, 1000u, 0xFFFFFFFFu, 0xFFFFFFE0u, 0x7FFFFFFFu, 0x80000000u}) {
-        EXPECT_FALSE(gpu::is_stale(touched, touched));
-        EXPECT_FALSE(gpu::is_stale(touched, touched + gpu::kCellMaxAge));
-        EXPECT_TRUE(gpu::is_stale(touched, touched + gpu::kCellMaxAge + 1));
-        EXPECT_TRUE(gpu::is_stale(touched, touched + 0x80000000u));
+        EXPECT_FALSE(gpu::is_stale(touched, touched, gpu::kCellMaxAge));
+        EXPECT_FALSE(gpu::is_stale(touched, touched + gpu::kCellMaxAge, gpu::kCellMaxAge));
+        EXPECT_TRUE(gpu::is_stale(touched, touched + gpu::kCellMaxAge + 1, gpu::kCellMaxAge));
+        EXPECT_TRUE(gpu::is_stale(touched, touched + 0x80000000u, gpu::kCellMaxAge));
     }
 }
 

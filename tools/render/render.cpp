@@ -75,6 +75,7 @@ int render_picture(const RenderCommand& command, RenderSession& session, const R
     write_pictures(command, job.outputs, session.scene(), outcome);
     for (const std::string& message : session.end())
         outcome.statistics.validation.push_back(message);
+    print_validation(outcome);
     print_faults(outcome);
     std::set<std::string> said;
     print_warnings(command, outcome, said);

@@ -88,7 +88,7 @@ int render_frames(const RenderCommand& command, RenderSession& session, const Re
         write_pictures(command, files, session.scene(), outcome);
         if (index == 0 && command.verbose && !command.quiet && command.json != "-")
             fmt::print("{}", describe(outcome.plan));
-        print_faults(outcome);
+        print_validation(outcome);
         print_warnings(command, outcome, said);
         print_frame(command, frame, files, outcome.statistics);
         add_frame(report, frame, files, outcome);
@@ -98,6 +98,7 @@ int render_frames(const RenderCommand& command, RenderSession& session, const Re
     const bool is_interrupted = index < job.frames.count();
     if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
     report.total.statistics.wall_s = seconds_since(job.options.started);
+    print_faults(report.total);
     print_end(command, report, missed);
     if (is_interrupted) print_interruption(job.frames, index);
     write_json(command.json, sequence_json(session.scene(), job.scene_hash, report));

@@ -85,11 +85,13 @@ bool missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
     return command.error && !(outcome.statistics.error.high <= parse_error_target(*command.error));
 }
 
-void print_faults(const RenderOutcome& outcome) {
-    const RenderStatistics& statistics = outcome.statistics;
-    for (const std::string& message : statistics.validation)
+void print_validation(const RenderOutcome& outcome) {
+    for (const std::string& message : outcome.statistics.validation)
         fmt::print(stderr, "validation: {}\n", message);
-    for (const auto& [name, count] : statistics.faults) {
+}
+
+void print_faults(const RenderOutcome& outcome) {
+    for (const auto& [name, count] : outcome.statistics.faults) {
         if (count != 0) fmt::print(stderr, "warning: fault {} counted {} times\n", name, count);
     }
 }

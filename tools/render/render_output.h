@@ -21,7 +21,8 @@ void write_pictures(const RenderCommand& command, const std::vector<std::string>
 // Whether --error was given and not reached.
 [[nodiscard]] bool missed_error(const RenderCommand& command, const RenderOutcome& outcome);
 
-// Faults and validation messages, on standard error: mistakes of ours, said whatever the user asked for.
+// Messages of the validation layers and faults, on standard error: said whatever the user asked for.
+void print_validation(const RenderOutcome& outcome);
 void print_faults(const RenderOutcome& outcome);
 
 // What may surprise, on standard error, but for what is in `said` already.
