@@ -68,30 +68,6 @@ void set_counts(AoRow& row, const AoFootage& footage) {
     row.load = static_cast<double>(row.cells) / footage.slots;
 }
 
-// Quality and counts, which are the same in each round. Brute force repeats its rays: it has no flicker that
-// means anything.
-AoRow measure(const AoTake& take, AoStage& stage, References& references) {
-    AoTake kept = take;
-    for (const int frame : measured_frames(take.frames))
-        kept.kept.insert(frame);
-    const bool flickers =
-        take.motion == Motion::still && take.frames > 1 && take.variant.ao.method != AoMethod::brute;
-    if (flickers) kept.kept.insert(take.frames - 1);
-    const AoFootage footage = stage.play(kept);
-    AoRow row{.motion = std::string(name_of(take.motion)),
-              .variant = take.variant.name,
-              .frames = take.frames,
-              .rays_per_pixel = take.rays,
-              .cpu_ms = std::numeric_limits<double>::infinity()};
-    set_errors(row, take, footage, references);
-    set_counts(row, footage);
-    if (flickers) {
-        row.flicker = mean_change(footage.openness.at(take.frames - 1), footage.openness.at(take.frames),
-                                  references.at(take, take.frames).pixels);
-    }
-    return row;
-}
-
 // Takes the times of a round into a row that keeps the best.
 void take_times(AoRow& row, const AoFootage& footage) {
     std::map<std::string, std::vector<double>> ms;
@@ -113,6 +89,31 @@ void take_times(AoRow& row, const AoFootage& footage) {
     }
 }
 
+// The row of a first round: quality and counts are the same in all of them. Brute force repeats its rays: it
+// has no flicker that means anything.
+AoRow measure(const AoTake& take, AoStage& stage, References& references) {
+    AoTake kept = take;
+    for (const int frame : measured_frames(take.frames))
+        kept.kept.insert(frame);
+    const bool flickers =
+        take.motion == Motion::still && take.frames > 1 && take.variant.ao.method != AoMethod::brute;
+    if (flickers) kept.kept.insert(take.frames - 1);
+    const AoFootage footage = stage.play(kept);
+    AoRow row{.motion = std::string(name_of(take.motion)),
+              .variant = take.variant.name,
+              .frames = take.frames,
+              .rays_per_pixel = take.rays,
+              .cpu_ms = std::numeric_limits<double>::infinity()};
+    set_errors(row, take, footage, references);
+    set_counts(row, footage);
+    take_times(row, footage);
+    if (flickers) {
+        row.flicker = mean_change(footage.openness.at(take.frames - 1), footage.openness.at(take.frames),
+                                  references.at(take, take.frames).pixels);
+    }
+    return row;
+}
+
 }  // namespace
 
 std::vector<AoRow> bench_ao(const std::string& name, AoStage& stage, const AoBenchOptions& options) {
@@ -128,7 +129,7 @@ std::vector<AoRow> bench_ao(const std::string& name, AoStage& stage, const AoBen
         for (const AoTake& take : takes)
             rows.push_back(measure(take, stage, references));
         const int rounds = motion == Motion::floor ? 1 : options.rounds;
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 1; round < rounds; ++round) {
             for (std::size_t i = 0; i < takes.size(); ++i)
                 take_times(rows[first + i], stage.play(takes[i]));
         }
