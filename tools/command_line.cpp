@@ -129,13 +129,13 @@ int run_command_line(int argc, const char* const* argv) {
     InfoOptions info;
     DevicesCommand devices;
     CompareOptions compare;
-    BenchMarchCommand bench_march;
+    BenchCommand bench;
     const CLI::App* const render_app = add_render(app, render);
     const CLI::App* const plan_app = add_plan(app, plan);
     const CLI::App* const info_app = add_info(app, info);
     const CLI::App* const devices_app = add_devices(app, devices);
     const CLI::App* const compare_app = add_compare(app, compare);
-    const CLI::App* const bench_app = add_bench(app, bench_march);
+    const CLI::App* const bench_app = add_bench(app, bench);
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
@@ -148,7 +148,7 @@ int run_command_line(int argc, const char* const* argv) {
     if (plan_app->parsed()) return run_plan(plan);
     if (info_app->parsed()) return run_info(info);
     if (devices_app->parsed()) return run_devices(devices);
-    if (bench_app->parsed()) return run_bench_march(bench_march);
+    if (bench_app->parsed()) return run_bench(*bench_app, bench);
     VX_ASSERT(compare_app->parsed());
     return run_compare(compare);
 }

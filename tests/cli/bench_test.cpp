@@ -89,5 +89,78 @@ TEST(Bench, scene_without_voxels_is_refused) {
     EXPECT_NE(ending.err.find("there is no voxel to march to"), std::string::npos) << ending.err;
 }
 
+Words small_ao(const Words& more) {
+    Words words = {"bench",    "ao", "--size",      "64x36", "--extent", "64",
+                   "--frames", "4",  "--reference", "16",    "--rounds", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(BenchAo, prints_rows_with_their_keys_for_each_motion_and_variant) {
+    const Ending ending =
+        run(small_ao({"--motion", "still,walk", "--variant", "brute,hash,filter-1", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(ending.err, "");
+    const Json rows = Json::parse(ending.out);
+    ASSERT_EQ(rows.size(), 6u);
+    const std::set<std::string> keys = {"scene",
+                                        "motion",
+                                        "variant",
+                                        "frames",
+                                        "rays_per_pixel",
+                                        "ao_ms",
+                                        "cpu_ms",
+                                        "rays",
+                                        "searched_percent",
+                                        "probes_per_search",
+                                        "passes_ms",
+                                        "atomics",
+                                        "flicker",
+                                        "cells",
+                                        "table_full",
+                                        "load",
+                                        "errors",
+                                        "reference_noise"};
+    const std::set<std::string> hash_passes = {"ao.age", "ao.lookup", "ao.sample", "ao.resolve"};
+    for (const Json& row : rows) {
+        EXPECT_EQ(keys_of(row), keys);
+        EXPECT_EQ(row["errors"].size(), 2u);  // frames 1 and 4
+        EXPECT_EQ(row["flicker"].is_null(), row["motion"] != "still" || row["variant"] == "brute");
+        EXPECT_GT(row["ao_ms"], 0.0);
+        if (row["variant"] == "hash") {
+            EXPECT_EQ(keys_of(row["passes_ms"]), hash_passes);
+        }
+    }
+    EXPECT_EQ(keys_of(rows[0]["passes_ms"]), std::set<std::string>{"ao.trace"});
+    EXPECT_EQ(rows[0]["cells"], 0);
+    EXPECT_EQ(rows[1]["searched_percent"], 0.0);
+    EXPECT_EQ(rows[1]["atomics"].get<double>(), 2.0 * rows[1]["rays"].get<double>());
+    EXPECT_EQ(rows[3]["motion"], "walk");
+    EXPECT_GT(rows[4]["searched_percent"], 0.0);
+    // Cells that keep their samples are nearer to the truth than one ray is.
+    for (const std::size_t brute : {0u, 3u})
+        EXPECT_LT(rows[brute + 1]["errors"][1]["rmse"], rows[brute]["errors"][1]["rmse"]);
+}
+
+TEST(BenchAo, floor_is_measured_for_widths_of_cells_of_scene_files_too) {
+    const ScratchFolder scratch;
+    const Ending ending = run({"bench", "ao", scene_file("mixed"), "--size", "32x18", "--reference", "16",
+                               "--motion", "floor", "--rounds", "1", "--json", scratch / "rows.json"});
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_NE(ending.out.find("mixed.toml, floor: 16 frames, 64 rays per pixel"), std::string::npos)
+        << ending.out;
+    std::set<std::string> variants;
+    for (const Json& row : Json::parse(bytes_of(scratch / "rows.json")))
+        variants.insert(row["variant"]);
+    EXPECT_EQ(variants, (std::set<std::string>{"hash", "px-5", "px-16"}));
+}
+
+TEST(BenchAo, scene_without_voxels_is_refused) {
+    const Ending ending = run(small_ao({scene_file("spheres")}));
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_NE(ending.err.find("there is no voxel whose occlusion could be found"), std::string::npos)
+        << ending.err;
+}
+
 }  // namespace
 }  // namespace voxilux::test

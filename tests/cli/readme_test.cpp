@@ -69,7 +69,8 @@ std::set<std::string> real_flags() {
     std::set<std::string> flags = flags_in(run({"--help"}).out);
     for (const char* subcommand : {"render", "plan", "info", "devices", "compare"})
         flags.merge(flags_in(run({subcommand, "--help"}).out));
-    flags.merge(flags_in(run({"bench", "march", "--help"}).out));
+    for (const char* part : {"march", "ao"})
+        flags.merge(flags_in(run({"bench", part, "--help"}).out));
     return flags;
 }
 

@@ -46,6 +46,12 @@ Words with(Words more) {
     return words;
 }
 
+Words bench_ao(Words more) {
+    Words words = {"bench", "ao"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
 Words bench(Words more) {
     Words words = {"bench", "march"};
     words.insert(words.end(), more.begin(), more.end());
@@ -89,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"device", with({"--device", "no such"}), "--device no such: no such device; there are: 0: "},
         Refused{"device_number", with({"--device", "99"}), "--device 99"},
         Refused{"output_ending", {"render", scene_file("one_voxel"), "-o", "a.jpg"}, "must be .exr or .png"},
-        Refused{"bench_what", {"bench"}, "bench what? known: march"},
+        Refused{"bench_what", {"bench"}, "bench what? known: march, ao"},
         Refused{"bench_unknown", {"bench", "marsh"}, "there is no bench 'marsh'; did you mean 'march'?"},
         Refused{"bench_unknown_flag", bench({"--extents", "32"}),
                 "no flag --extents; did you mean '--extent'?"},
@@ -101,6 +107,16 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"bench_size", bench({"--size", "64"}), "--size: '64' is not WIDTHxHEIGHT"},
         Refused{"bench_rounds", bench({"--rounds", "0"}), "--rounds: 0 is not from 1 to 1000"},
         Refused{"bench_build", bench({"--build", "gpu"}), "--build: 'gpu' is not cpu, device or both"},
+        Refused{"bench_ao_variant", bench_ao({"--variant", "hsh"}),
+                "no variant 'hsh'; there are brute, hash"},
+        Refused{"bench_ao_motion", bench_ao({"--motion", "run"}),
+                "no motion 'run'; there are still, pan, walk, floor"},
+        Refused{"bench_ao_frames", bench_ao({"--frames", "0"}), "--frames: 0 is not from 1 to 4096"},
+        Refused{"bench_ao_rounds", bench_ao({"--rounds", "-1"}), "--rounds: -1 is not from 1 to 1000"},
+        Refused{"bench_ao_reference", bench_ao({"--reference", "65536"}),
+                "--reference: 65536 is not from 1 to 65535"},
+        Refused{"bench_ao_extent", bench_ao({"--extent", "40"}), "--extent: 40 is not a multiple of 16"},
+        Refused{"bench_ao_size", bench_ao({"--size", "64"}), "--size: '64' is not WIDTHxHEIGHT"},
         Refused{"bench_device", bench({"--device", "no such"}), "--device no such: no such device"},
         Refused{"compare_one_image", {"compare", "a.exr"}, "TEST is required"},
         Refused{"compare_box", {"compare", "a", "b", "--box", "1,2,3"}, "--box: '1,2,3' is not X0,Y0,X1,Y1"},
@@ -168,6 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{
                         "info_unknown_kind", {"info", "broken.obj"}, "info reads .vox, .toml, .exr and .png"},
                     Refused{"bench_absent", {"bench", "march", "no.vox"}, "no.vox"},
+                    Refused{"bench_ao_absent", {"bench", "ao", "no.vox"}, "no.vox"},
                     Refused{"compare_broken", {"compare", "broken.exr", "broken.png"}, "broken.exr"}),
     name_of);
 

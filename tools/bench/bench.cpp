@@ -37,13 +37,21 @@ MarchBenchOptions march_options(const BenchMarchCommand& command) {
     return {.traversals = traversals_of(command), .builder = builder_named(command.build)};
 }
 
-CLI::App* add_bench(CLI::App& app, BenchMarchCommand& march) {
-    CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march");
+CLI::App* add_bench(CLI::App& app, BenchCommand& command) {
+    CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march, ao");
     bench->require_subcommand(1);
-    CLI::App* command = bench->add_subcommand(
+    CLI::App* march = bench->add_subcommand(
         "march", "rays through each structure of a world, in millions per second of CPU and of wall time");
-    add_march_flags(*command, march);
+    add_march_flags(*march, command.march);
+    CLI::App* ao = bench->add_subcommand(
+        "ao", "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays");
+    add_ao_flags(*ao, command.ao);
     return bench;
+}
+
+int run_bench(const CLI::App& bench, const BenchCommand& command) {
+    if (bench.got_subcommand("ao")) return run_bench_ao(command.ao);
+    return run_bench_march(command.march);
 }
 
 int run_bench_march(const BenchMarchCommand& command) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/ao_flags.h"
 #include "bench/march_bench.h"
 
 namespace voxilux {
@@ -18,8 +19,17 @@ void add_march_flags(CLI::App& command, BenchMarchCommand& march);
 // Throws Error(usage) for a name that does not exist.
 [[nodiscard]] MarchBenchOptions march_options(const BenchMarchCommand& command);
 
-// Declares the subcommand `bench` and what it measures; parsing fills `march`, which must outlive the app.
-CLI::App* add_bench(CLI::App& app, BenchMarchCommand& march);
+// The flags of all that `bench` measures.
+struct BenchCommand {
+    BenchMarchCommand march;
+    BenchAoCommand ao;
+};
+
+// Declares the subcommand `bench` and what it measures; parsing fills `command`, which must outlive the app.
+CLI::App* add_bench(CLI::App& app, BenchCommand& command);
+
+// Runs what was asked for of a parsed `bench`. Returns the exit code; throws as the parts do.
+int run_bench(const CLI::App& bench, const BenchCommand& command);
 
 // Marches and prints what run_benchmark says. Returns the exit code. Throws Error(usage) for a flag that
 // cannot be read, Error(input_refused) for a file.

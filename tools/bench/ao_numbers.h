@@ -1,0 +1,56 @@
+#pragma once
+
+// What `bench ao` measures of frames, as numbers.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shared/tally.h"
+
+namespace voxilux {
+
+// Openness in [0,1] of some pixels of a picture, from many rays.
+struct AoReference {
+    std::vector<std::size_t> pixels;  // numbers in the picture, row by row
+    std::vector<float> openness;      // of those
+};
+
+// Root of the mean squared difference over the reference's pixels; 0 when it has none. `openness` is that of
+// the whole picture.
+[[nodiscard]] double rmse_over(const AoReference& reference, std::span<const float> openness);
+
+// Mean absolute difference of two pictures over some pixels; 0 when there are none.
+[[nodiscard]] double mean_change(std::span<const float> before, std::span<const float> after,
+                                 std::span<const std::size_t> pixels);
+
+// The root of the mean variance that the reference itself has when its `rays` are independent. Rays that
+// follow a low-discrepancy sequence have less.
+[[nodiscard]] double noise_bound(const AoReference& reference, std::uint32_t rays);
+
+// Sums of a tally (shared/tally.h) over some frames.
+struct AoWork {
+    std::uint64_t frames = 0;
+    std::array<std::uint64_t, gpu::kTallyCount> counts{};
+
+    void add(std::span<const gpu::uint, gpu::kTallyCount> tally);
+    // Mean of a count over the frames; 0 without any.
+    [[nodiscard]] double mean(std::size_t index) const;
+};
+
+// Atomic operations on the table in a frame: one for each compare-and-swap of a key, and for each hit that
+// takes samples for its cell one for their number and one for the open ones.
+[[nodiscard]] double atomics_per_frame(const AoWork& work, std::uint32_t rays_per_sample);
+
+// Hits of cells that were searched in the table, in percent of all of them; 0 without any.
+[[nodiscard]] double searched_percent(const AoWork& work);
+
+// Keys looked at per search; 0 without one.
+[[nodiscard]] double probes_per_search(const AoWork& work);
+
+// The value in the middle, the upper one of two; 0 of nothing.
+[[nodiscard]] double median_of(std::vector<double> values);
+
+}  // namespace voxilux
