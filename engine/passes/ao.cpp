@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shared/cell_age.h"
+#include "shared/gpu_types.h"
 #include "shared/limits.h"
 
 namespace voxilux {
@@ -17,35 +18,37 @@ std::uint32_t flag(bool on) {
     return on ? 1u : 0u;
 }
 
-// The slots of the pixels of this sample and of the one before: two buffers that take turns.
+// The slots of the pixels of this sample, and of the one before where it is reprojected: they take turns.
 struct SlotPlanes {
     std::string now;
     std::string last;
 };
 
 SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
+    if (!plan.settings.ao.reproject)
+        return {use_buffer(plan, "ao.slots_even", recording), placeholder_buffer(recording)};
     SlotPlanes planes{use_buffer(plan, "ao.slots_even", recording),
                       use_buffer(plan, "ao.slots_odd", recording)};
     if (params.pass_number % 2 == 1) std::swap(planes.now, planes.last);
     return planes;
 }
 
-std::vector<Binding> table_bindings(const RenderPlan& plan, const SlotPlanes& planes, Recording& recording) {
+// Of every pass that finds cells.
+std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, const std::string& slots,
+                                    Recording& recording) {
     return {{"Frame", use_buffer(plan, "frame", recording)},
             {"Tally", use_buffer(plan, "tally", recording)},
             {"AoFrame", use_buffer(plan, "ao.frame", recording)},
             {"Keys", use_buffer(plan, "ao.keys", recording)},
             {"Samples", use_buffer(plan, "ao.samples", recording)},
             {"Touched", use_buffer(plan, "ao.touched", recording)},
-            {"LastSlots", planes.last},
-            {"Slots", planes.now}};
+            {"Hits", hits.buffer},
+            {"Slots", slots}};
 }
 
-std::vector<Constant> table_constants(const RenderPlan& plan) {
+std::vector<Constant> rest_constants(const RenderPlan& plan) {
     const AoSettings& ao = plan.settings.ao;
-    return {{"reprojects", flag(ao.reproject)},
-            {"checkerboard", flag(ao.checkerboard)},
-            {"has_limit", flag(ao.sample_limit != 0)}};
+    return {{"checkerboard", flag(ao.checkerboard)}, {"has_limit", flag(ao.sample_limit != 0)}};
 }
 
 void record_ao_age(const RenderPlan& plan, Recording& recording) {
@@ -62,13 +65,44 @@ void record_ao_age(const RenderPlan& plan, Recording& recording) {
 
 void record_ao_lookup(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
                       Recording& recording) {
-    Dispatch dispatch{.label = "ao.lookup",
-                      .shader = "ao_lookup",
+    recording.dispatch({.label = "ao.lookup",
+                        .shader = "ao_lookup",
+                        .extent = pixel_extent(plan, slice),
+                        .bindings = table_bindings(plan, hits, planes.now, recording),
+                        .constants = rest_constants(plan)});
+}
+
+void record_ao_reproject(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                         const SlotPlanes& planes, Recording& recording) {
+    const std::string missed = use_buffer(plan, "ao.missed", recording);
+    recording.upload(missed, to_bytes(gpu::AoMissed{.groups_y = 1, .groups_z = 1}));
+    Dispatch dispatch{.label = "ao.reproject",
+                      .shader = "ao_reproject",
                       .extent = pixel_extent(plan, slice),
-                      .bindings = table_bindings(plan, planes, recording),
-                      .constants = table_constants(plan)};
-    dispatch.bindings.push_back({"Hits", hits.buffer});
+                      .bindings = table_bindings(plan, hits, planes.now, recording),
+                      .constants = rest_constants(plan)};
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"LastSlots", planes.last}, {"Missed", missed}});
     recording.dispatch(std::move(dispatch));
+}
+
+void record_ao_search(const RenderPlan& plan, const Plane& hits, const SlotPlanes& planes,
+                      Recording& recording) {
+    const std::string missed = use_buffer(plan, "ao.missed", recording);
+    Dispatch dispatch{.label = "ao.search",
+                      .shader = "ao_search",
+                      .bindings = table_bindings(plan, hits, planes.now, recording),
+                      .constants = rest_constants(plan)};
+    dispatch.bindings.push_back({"Missed", missed});
+    recording.dispatch_indirect(std::move(dispatch), missed);
+}
+
+// Finds the slot of each hit, unless the pass that traces does it itself.
+void record_slots(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
+                  Recording& recording) {
+    if (plan.settings.ao.merged) return;
+    if (!plan.settings.ao.reproject) return record_ao_lookup(plan, slice, hits, planes, recording);
+    record_ao_reproject(plan, slice, hits, planes, recording);
+    record_ao_search(plan, hits, planes, recording);
 }
 
 void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
@@ -76,13 +110,12 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
     const bool merged = plan.settings.ao.merged;
     // Who has looked the slots up reads them; the merged pass writes them itself.
     const std::string unused = placeholder_buffer(recording);
-    Dispatch dispatch{
-        .label = "ao.sample",
-        .shader = "ao_sample",
-        .extent = pixel_extent(plan, slice),
-        .bindings = table_bindings(plan, {merged ? planes.now : unused, planes.last}, recording),
-        .constants = surface_constants(plan)};
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Hits", hits.buffer},
+    Dispatch dispatch{.label = "ao.sample",
+                      .shader = "ao_sample",
+                      .extent = pixel_extent(plan, slice),
+                      .bindings = table_bindings(plan, hits, merged ? planes.now : unused, recording),
+                      .constants = surface_constants(plan)};
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"LastSlots", planes.last},
                                                        {"Spheres", spheres_buffer(plan, recording)},
                                                        {"Opens", use_buffer(plan, "ao.opens", recording)},
                                                        {"Located", merged ? unused : planes.now},
@@ -167,7 +200,7 @@ Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& h
     if (step.params.has_last == 0) empty_table(plan, recording);
     if (step.sweeps) record_ao_age(plan, recording);
     const SlotPlanes planes = slot_planes(plan, step.params, recording);
-    if (!plan.settings.ao.merged) record_ao_lookup(plan, slice, hits, planes, recording);
+    record_slots(plan, slice, hits, planes, recording);
     record_ao_sample(plan, slice, hits, planes, recording);
     const Resolved resolved = record_ao_resolve(plan, slice, planes, recording);
     if (plan.settings.ao.filter == 0) return {resolved.openness};

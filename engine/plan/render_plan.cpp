@@ -94,7 +94,9 @@ void list_ao_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass&
     const bool cells = plan.has_ao_cells();
     add(plan.has(Effect::ao) && !cells, "ao.trace", slices);
     add(cells && plan.ao.ages, "ao.age", 1);
-    add(cells && !ao.merged, "ao.lookup", slices);
+    add(cells && !ao.merged && !ao.reproject, "ao.lookup", slices);
+    add(cells && !ao.merged && ao.reproject, "ao.reproject", slices);
+    add(cells && !ao.merged && ao.reproject, "ao.search", slices);
     add(cells, "ao.sample", slices);
     add(cells, "ao.resolve", slices);
     add(cells, "ao.filter", slices * ao.filter);
@@ -130,7 +132,10 @@ void list_ao_buffers(RenderPlan& plan) {
     list("ao.opens", std::uint64_t{plan.ao.slots} * 8, true);
     list("ao.touched", std::uint64_t{plan.ao.slots} * 4, true);
     list("ao.slots_even", pixels * sizeof(gpu::uint), true);
-    list("ao.slots_odd", pixels * sizeof(gpu::uint), true);
+    const bool reprojects = plan.settings.ao.reproject;
+    if (reprojects) list("ao.slots_odd", pixels * sizeof(gpu::uint), true);
+    if (reprojects && !plan.settings.ao.merged)
+        list("ao.missed", sizeof(gpu::AoMissed) + pixels * sizeof(gpu::uint), false);
     list("ao.own", pixels * sizeof(float), false);
     if (plan.settings.ao.filter == 0) return;
     list("ao.variance", pixels * sizeof(float), false);

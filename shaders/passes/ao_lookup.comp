@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The slot of the occlusion cell of each hit.
+// The slot of the occlusion cell of each hit, searched in the table.
 
 #include "lib/address.glsl"
 
@@ -23,7 +23,7 @@ void main() {
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];
     uint slot = kNoSlot;
-    if (hit.face < kFaceInside) slot = locate(hit);
+    if (hit.face < kFaceInside) slot = search(hit, kNoSlot);
     if (slot != kNoSlot && rests(pixel, slot)) slot |= kSlotRests;
     slots[pixel.index] = slot;
 }

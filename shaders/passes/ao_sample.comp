@@ -15,7 +15,9 @@
 #include "lib/occlusion.glsl"
 
 #include "lib/ao_cells.glsl"
+#include "lib/ao_reproject.glsl"
 
+layout(constant_id = 20) const uint reprojects = 1u;  // of the look-up, when it happens here
 layout(constant_id = 23) const uint merged = 0u;      // the look-up happens here
 layout(constant_id = 24) const uint by_pixel = 0u;    // samples start at the hit, in the pixel's sequence
 
@@ -31,6 +33,14 @@ layout(scalar) readonly buffer Located {
 layout(scalar) writeonly buffer Own {
     float own_openness[];
 };
+
+uint locate(Hit hit) {
+    uint guess = kNoSlot;
+    if (reprojects != 0u) guess = reproject(hit, ao_cell_key(cell_of(hit)));
+    uint slot = search(hit, guess);
+    count(kWorkAoReused, guess != kNoSlot ? 1u : 0u);
+    return slot;
+}
 
 // The sequence that a hit's next samples come from: its cell's or its pixel's.
 struct Stream {

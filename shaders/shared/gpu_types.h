@@ -95,6 +95,15 @@ struct AoParams {
     float cell_width;   // wanted width of a cell in voxels at distance 1
 };
 
+// Head of the list of pixels whose occlusion cell has to be searched: the workgroups of the search, as an
+// indirect dispatch reads them, and how many pixels follow.
+struct AoMissed {
+    uint groups_x;
+    uint groups_y;
+    uint groups_z;
+    uint count;
+};
+
 // Push constants of ao_filter.
 struct AoFilterPush {
     int step;  // pixels between the taps

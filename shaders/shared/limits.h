@@ -70,6 +70,9 @@ VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 VX_CONST(float, kMissDepth, 1.0e10f);
 VX_CONST(float, kInversePi, 0.318309886f);
 
+// Invocations of a workgroup over a list (lib/invocation.glsl).
+VX_CONST(uint, kLinearGroup, 64u);
+
 // Ambient occlusion in a hash. Levels of cells: the largest is a whole face of a voxel, so that no cell
 // reaches across a wall, the smallest 1/16 of its edge, what the bits of a key leave.
 VX_CONST(uint, kAoLevels, 5u);

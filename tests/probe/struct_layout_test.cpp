@@ -58,6 +58,8 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(AoParams, table_mask), VX_MEMBER(AoParams, max_age),
                   VX_MEMBER(AoParams, sample_limit), VX_MEMBER(AoParams, cell_width)),
         VX_LAYOUT(AoFilterPush, VX_MEMBER(AoFilterPush, step)),
+        VX_LAYOUT(AoMissed, VX_MEMBER(AoMissed, groups_x), VX_MEMBER(AoMissed, groups_y),
+                  VX_MEMBER(AoMissed, groups_z), VX_MEMBER(AoMissed, count)),
         VX_LAYOUT(WorldGrowPush, VX_MEMBER(WorldGrowPush, count), VX_MEMBER(WorldGrowPush, chunks),
                   VX_MEMBER(WorldGrowPush, axis), VX_MEMBER(WorldGrowPush, bound)),
         VX_LAYOUT(FilmAddPush, VX_MEMBER(FilmAddPush, count), VX_MEMBER(FilmAddPush, values_stride),

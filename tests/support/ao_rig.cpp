@@ -75,7 +75,8 @@ AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
     const auto rows = static_cast<std::uint32_t>(prepared_.plan.settings.size.y);
     record_frame(prepared_.plan, {.row_count = rows}, frame.params, {sample, state}, recording);
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
-    const std::string slots = state.samples_done % 2 == 0 ? "ao.slots_even" : "ao.slots_odd";
+    const bool is_even = state.samples_done % 2 == 0 || !prepared_.plan.settings.ao.reproject;
+    const std::string slots = is_even ? "ao.slots_even" : "ao.slots_odd";
     const std::string openness = openness_buffer(prepared_.plan);
     for (const std::string& buffer :
          {hits, slots, openness, std::string("ao.keys"), std::string("ao.samples"), std::string("ao.opens"),

@@ -24,6 +24,7 @@ const std::map<std::string, std::string> kReadAndWritten = {
     {"Samples",
      "each sample takes its number by an atomic, and the pass that empties slots reads what was in them"},
     {"Opens", "atomic counters"},
+    {"Missed", "a list that grows by atomics"},
     {"Touched",
      "every writer of a frame writes the number of the frame; the pass that empties slots reads it"},
     {"Counts", "a probe that counts its invocations with atomics"},

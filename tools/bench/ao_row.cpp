@@ -10,8 +10,8 @@ namespace voxilux {
 namespace {
 
 // Columns of times; ao.trace is what brute force has instead of ao.sample.
-constexpr std::array<std::string_view, 6> kPasses = {"ao.age",     "ao.lookup", "ao.sample",
-                                                     "ao.resolve", "ao.filter", "ao.trace"};
+constexpr std::array<std::string_view, 8> kPasses = {"ao.age",    "ao.lookup",  "ao.reproject", "ao.search",
+                                                     "ao.sample", "ao.resolve", "ao.filter",    "ao.trace"};
 
 std::string time_of(const AoRow& row, std::string_view label) {
     const auto found = std::ranges::find(row.passes, label, &AoPassTime::label);
@@ -25,7 +25,7 @@ std::string heading_of(const AoRow& row) {
         row.rays_per_pixel == 1 ? "1 ray" : fmt::format("{} rays", row.rays_per_pixel), row.reference_noise);
     text += fmt::format("{:<13} {:>7}", "variant, ms", "ao");
     for (const std::string_view label : kPasses)
-        text += fmt::format(" {:>7}", label.substr(3));
+        text += fmt::format(" {:>9}", label.substr(3));
     text += fmt::format(" {:>7} {:>8} {:>8} {:>6} {:>8} {:>7} {:>6}", "CPU", "rays", "searched", "probes",
                         "atomics", "cells", "load");
     for (const AoError& error : row.errors)
@@ -36,7 +36,7 @@ std::string heading_of(const AoRow& row) {
 std::string line_of(const AoRow& row) {
     std::string text = fmt::format("{:<13} {:>7.2f}", row.variant, row.ao_ms());
     for (const std::string_view label : kPasses)
-        text += fmt::format(" {:>7}", time_of(row, label));
+        text += fmt::format(" {:>9}", time_of(row, label));
     text +=
         fmt::format(" {:>7.1f} {:>8.0f} {:>7.2f}% {:>6.2f} {:>8.0f} {:>7} {:>5.1f}%", row.cpu_ms, row.rays,
                     row.searched_percent, row.probes_per_search, row.atomics, row.cells, 100.0 * row.load);

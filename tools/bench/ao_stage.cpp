@@ -78,7 +78,7 @@ TracedStrip record_strip(const RenderPlan& plan, const Slice& slice, gpu::FrameP
     params.row_count = slice.row_count;
     params.band_first_row = slice.band_first_row;
     record_frame_upload(plan, params, recording);
-    Plane hits = record_primary_march(plan, slice, recording);
+    Plane hits = record_primary_march(plan, slice, record_primary_beam(plan, slice, recording), recording);
     if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, slice, hits, recording);
     params.sequence = gpu::kSequenceSobol;
     record_frame_upload(plan, params, recording);
