@@ -25,7 +25,7 @@ struct SlotPlanes {
 };
 
 SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
-    if (!plan.settings.ao.reproject)
+    if (!plan.ao.reprojects)
         return {use_buffer(plan, "ao.slots_even", recording), placeholder_buffer(recording)};
     SlotPlanes planes{use_buffer(plan, "ao.slots_even", recording),
                       use_buffer(plan, "ao.slots_odd", recording)};
@@ -99,15 +99,15 @@ void record_ao_search(const RenderPlan& plan, const Plane& hits, const SlotPlane
 // Finds the slot of each hit, unless the pass that traces does it itself.
 void record_slots(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
                   Recording& recording) {
-    if (plan.settings.ao.merged) return;
-    if (!plan.settings.ao.reproject) return record_ao_lookup(plan, slice, hits, planes, recording);
+    if (plan.ao.merged) return;
+    if (!plan.ao.reprojects) return record_ao_lookup(plan, slice, hits, planes, recording);
     record_ao_reproject(plan, slice, hits, planes, recording);
     record_ao_search(plan, hits, planes, recording);
 }
 
 void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
                       Recording& recording) {
-    const bool merged = plan.settings.ao.merged;
+    const bool merged = plan.ao.merged;
     // Who has looked the slots up reads them; the merged pass writes them itself.
     const std::string unused = placeholder_buffer(recording);
     Dispatch dispatch{.label = "ao.sample",
@@ -120,7 +120,7 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
                                                        {"Opens", use_buffer(plan, "ao.opens", recording)},
                                                        {"Located", merged ? unused : planes.now},
                                                        {"Own", use_buffer(plan, "ao.own", recording)}});
-    dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.settings.ao.reproject)},
+    dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.ao.reprojects)},
                                                          {"merged", flag(merged)},
                                                          {"by_pixel", flag(plan.settings.ao.by_pixel)}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
@@ -190,7 +190,8 @@ std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells) {
 }
 
 bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t live_cells) {
-    return frame % kSweepFrames == 0 || cell_age(plan, live_cells) < gpu::kCellMaxAge;
+    const bool is_full = cell_age(plan, live_cells) < gpu::kCellMaxAge;
+    return is_full || (frame % kSweepFrames == 0 && live_cells > plan.ao.slots / 8);
 }
 
 Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,

@@ -27,8 +27,8 @@ struct AoStep {
 // quarter of it, then in proportion less, but not below kCellMinAge.
 [[nodiscard]] std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells);
 
-// Whether the table is swept in a frame, counted from 0: in one of eight, and in each while cells stay less
-// than kCellMaxAge.
+// Whether the table is swept in a frame, counted from 0: never while an eighth of it holds all cells, then in
+// one frame of eight, and in each while cells stay less than kCellMaxAge.
 [[nodiscard]] bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t live_cells);
 
 }  // namespace voxilux

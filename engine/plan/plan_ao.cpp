@@ -28,8 +28,13 @@ std::string hindrance(const AoNeeds& needs) {
     return {};
 }
 
+// Whether pixels may rest, which they must know before the samples are taken.
+bool needs_slots_first(const AoSettings& ao) {
+    return ao.checkerboard || ao.sample_limit != 0;
+}
+
 void check_options(const AoSettings& ao) {
-    if (ao.merged && (ao.checkerboard || ao.sample_limit != 0))
+    if (ao.merged.value_or(false) && needs_slots_first(ao))
         throw Error(
             ExitCode::input_refused,
             "[ao] 'merged' excludes 'checkerboard' and 'sample_limit': they must know the cell before the "
@@ -57,7 +62,15 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
     check_options(ao);
     if (ao.method == AoMethod::brute) return {AoMethod::brute, "asked for"};
     const std::string hindered = hindrance(needs);
-    const AoPlan hash{AoMethod::hash, "asked for", slots_for(ao, needs.pixels), needs.frames > 1};
+    // A CPU runs passes faster when they are one. A search that finds its cell uses no atomics, so that there
+    // reprojection pays only where cells are wide.
+    const bool reprojects = ao.reproject.value_or(!needs.is_cpu);
+    const AoPlan hash{.method = AoMethod::hash,
+                      .reason = "asked for",
+                      .slots = slots_for(ao, needs.pixels),
+                      .reprojects = reprojects,
+                      .merged = ao.merged.value_or(needs.is_cpu && !reprojects && !needs_slots_first(ao)),
+                      .ages = needs.frames > 1};
     if (ao.method == AoMethod::hash) {
         if (hindered.empty()) return hash;
         throw Error(ExitCode::input_refused,

@@ -13,6 +13,8 @@ struct AoPlan {
     AoMethod method = AoMethod::brute;  // never automatic
     std::string reason;                 // one clause, shown to the user
     std::uint32_t slots = 0;            // of the table; 0 without one
+    bool reprojects = false;            // cells are looked for where the sample before saw them
+    bool merged = false;                // search and trace are one pass
     bool ages = false;                  // there are later frames, which give up cells of earlier ones
 
     bool operator==(const AoPlan&) const = default;
@@ -25,6 +27,7 @@ struct AoNeeds {
     glm::ivec3 world_size{0};  // cells
     std::uint64_t pixels = 0;  // of the picture
     std::uint32_t frames = 1;  // of the same voxels that will be rendered
+    bool is_cpu = true;        // the device is one
     bool wants_error = false;  // an error target decides when to stop
 };
 

@@ -94,9 +94,9 @@ void list_ao_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass&
     const bool cells = plan.has_ao_cells();
     add(plan.has(Effect::ao) && !cells, "ao.trace", slices);
     add(cells && plan.ao.ages, "ao.age", 1);
-    add(cells && !ao.merged && !ao.reproject, "ao.lookup", slices);
-    add(cells && !ao.merged && ao.reproject, "ao.reproject", slices);
-    add(cells && !ao.merged && ao.reproject, "ao.search", slices);
+    add(cells && !plan.ao.merged && !plan.ao.reprojects, "ao.lookup", slices);
+    add(cells && !plan.ao.merged && plan.ao.reprojects, "ao.reproject", slices);
+    add(cells && !plan.ao.merged && plan.ao.reprojects, "ao.search", slices);
     add(cells, "ao.sample", slices);
     add(cells, "ao.resolve", slices);
     add(cells, "ao.filter", slices * ao.filter);
@@ -132,9 +132,9 @@ void list_ao_buffers(RenderPlan& plan) {
     list("ao.opens", std::uint64_t{plan.ao.slots} * 8, true);
     list("ao.touched", std::uint64_t{plan.ao.slots} * 4, true);
     list("ao.slots_even", pixels * sizeof(gpu::uint), true);
-    const bool reprojects = plan.settings.ao.reproject;
+    const bool reprojects = plan.ao.reprojects;
     if (reprojects) list("ao.slots_odd", pixels * sizeof(gpu::uint), true);
-    if (reprojects && !plan.settings.ao.merged)
+    if (reprojects && !plan.ao.merged)
         list("ao.missed", sizeof(gpu::AoMissed) + pixels * sizeof(gpu::uint), false);
     list("ao.own", pixels * sizeof(float), false);
     if (plan.settings.ao.filter == 0) return;
@@ -264,6 +264,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
                                       .frames = request.frames,
+                                      .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     split_image(plan, limits);
     count_rays(plan);

@@ -138,8 +138,10 @@ void add_light(Hasher& hasher, const Sun& sun, const Sky& sky) {
 void add_ao(Hasher& hasher, const AoSettings& ao) {
     hasher.add(ao.method);
     hasher.add(ao.cell_px);
-    hasher.add(ao.reproject);
-    hasher.add(ao.merged);
+    hasher.add(ao.reproject.has_value());
+    hasher.add(ao.reproject.value_or(false));
+    hasher.add(ao.merged.has_value());
+    hasher.add(ao.merged.value_or(false));
     hasher.add(ao.checkerboard);
     hasher.add(ao.by_pixel);
     hasher.add(ao.filter);

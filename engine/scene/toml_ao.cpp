@@ -26,8 +26,8 @@ void read_ao(TomlScene& in) {
     if (const auto method = section.choice("method", kMethods)) ao.method = static_cast<AoMethod>(*method);
     if (const auto px = section.number("cell_px", {0.0, kMaxCellPixels, true}))
         ao.cell_px = static_cast<float>(*px);
-    ao.reproject = section.boolean("reproject").value_or(ao.reproject);
-    ao.merged = section.boolean("merged").value_or(ao.merged);
+    if (const auto reproject = section.boolean("reproject")) ao.reproject = reproject;
+    if (const auto merged = section.boolean("merged")) ao.merged = merged;
     ao.checkerboard = section.boolean("checkerboard").value_or(ao.checkerboard);
     constexpr std::array<std::string_view, 2> kSamplings{"cell", "pixel"};
     if (const auto sampling = section.choice("sampling", kSamplings)) ao.by_pixel = *sampling == 1;

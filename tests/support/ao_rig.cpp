@@ -75,7 +75,7 @@ AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
     const auto rows = static_cast<std::uint32_t>(prepared_.plan.settings.size.y);
     record_frame(prepared_.plan, {.row_count = rows}, frame.params, {sample, state}, recording);
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
-    const bool is_even = state.samples_done % 2 == 0 || !prepared_.plan.settings.ao.reproject;
+    const bool is_even = state.samples_done % 2 == 0 || !prepared_.plan.ao.reprojects;
     const std::string slots = is_even ? "ao.slots_even" : "ao.slots_odd";
     const std::string openness = openness_buffer(prepared_.plan);
     for (const std::string& buffer :
@@ -94,6 +94,7 @@ AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
         EXPECT_TRUE(frame.tally[i] == 0 || i == gpu::kFaultAoTableFull) << "fault " << gpu::kTallyNames[i];
     state.finish_sample(frame.params);
+    state.live_cells += std::uint64_t{frame.tally[gpu::kWorkAoClaimed]} - frame.tally[gpu::kWorkAoEvicted];
     ++state.frames_done;
     return frame;
 }

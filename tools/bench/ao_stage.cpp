@@ -163,6 +163,7 @@ AoFootage AoStage::play(const AoTake& take) {
         (frame == 1 ? footage.first : footage.rest).add(std::span(tally).first<gpu::kTallyCount>());
         if (take.kept.contains(frame)) footage.openness[frame] = values_of<float>(result, openness);
         state.finish_sample(params);
+        state.live_cells += std::uint64_t{tally[gpu::kWorkAoClaimed]} - tally[gpu::kWorkAoEvicted];
         ++state.frames_done;
     }
     return footage;

@@ -23,8 +23,8 @@ std::vector<AoVariant> make_variants() {
     std::vector<AoVariant> variants = {
         {kAoBaseline, {.method = AoMethod::brute}},
         {"hash", hash()},
-        {"no-reproject", hash_with(&AoSettings::reproject, false)},
-        {"merged", hash_with(&AoSettings::merged, true)},
+        {"reproject", hash_with(&AoSettings::reproject, std::optional(true))},
+        {"split", hash_with(&AoSettings::merged, std::optional(false))},
         {"checkerboard", hash_with(&AoSettings::checkerboard, true)},
         {"limit-4096", hash_with(&AoSettings::sample_limit, 4096u)},
         {"px-5", hash_with(&AoSettings::cell_px, 5.0f)},
