@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/checked_cast.h"
 #include "base/error.h"
 #include "parse_values.h"
 #include "scene/animation.h"
@@ -62,7 +63,7 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->group(kSampling);
     command
         .add_option("--ao", options.ao,
-                    "occlusion: brute (each pixel alone) or hash (shared between pixels and frames)")
+                    "occlusion: brute (each pixel alone), hash (shared between pixels and frames) or auto")
         ->type_name("METHOD")
         ->group(kSampling);
     command
@@ -120,10 +121,9 @@ FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
     return frames;
 }
 
-std::uint32_t frames_of_one_world(const Scene& scene, const FrameList& frames) {
-    if (!scene.animation.files.empty()) return 1;
-    return static_cast<std::uint32_t>(
-        std::min<std::int64_t>(frames.count(), std::numeric_limits<int>::max()));
+void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request) {
+    request.frames = checked_cast<std::uint32_t>(frames.count(), "frames");
+    request.moves_voxels = frames.count() > 1 && !scene.animation.files.empty();
 }
 
 void print_frame_note(const SceneOptions& options, const Scene& scene) {

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/child_process.h"
 #include "support/scratch_folder.h"
+#include "support/vox_builder.h"
 
 namespace voxilux::test {
 namespace {
@@ -91,6 +93,35 @@ TEST(OcclusionReport, reproducible_picture_with_shared_occlusion_has_the_same_by
     const std::string usual = bytes_with("8x8");
     EXPECT_EQ(bytes_with("32x1"), usual);
     EXPECT_EQ(bytes_with("1x64"), usual);
+}
+
+// A model that is somewhere else from frame 1 on.
+std::string walking_file() {
+    using namespace vox_builder;
+    return file_text(chiral_model(4, 3, 5) +
+                     transform(0, 1, -1, {{{"_f", "0"}, {"_t", "5 0 0"}}, {{"_f", "1"}, {"_t", "9 2 1"}}}) +
+                     shape(1, {{0, {{"_f", "0"}}}}));
+}
+
+// The plan of a range of frames holds every pass that its render records.
+TEST(OcclusionReport, render_of_moving_voxels_records_only_passes_of_its_plan) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "s.toml")
+        << "[[model]]\nfile = 'walk.vox'\n[ao]\nmethod = 'hash'\n[render]\nsize = [16, 9]\nspp = 1\n";
+    std::ofstream(scratch / "walk.vox") << walking_file();
+    const Words words{"render", scratch / "s.toml", "--frames", "0-20", "--json", "-",
+                      "-o",     scratch / "a.png"};
+    Words planned = words;
+    planned[0] = "plan";
+    const auto labels = [](const Json& report) {
+        Keys all;
+        for (const Json& pass : report["passes"])
+            all.insert(pass["label"]);
+        return all;
+    };
+    const Keys done = labels(json_of(words));
+    EXPECT_EQ(done, labels(json_of(planned)));
+    EXPECT_TRUE(done.contains("ao.age")) << "voxels rest from frame 1 on";
 }
 
 }  // namespace
