@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/checked_cast.h"
 #include "base/error.h"
 #include "parse_values.h"
 #include "scene/animation.h"
@@ -15,6 +16,32 @@ namespace {
 constexpr const char* kScene = "Scene";
 constexpr const char* kSampling = "Sampling";
 constexpr std::uint64_t kMostMib = std::numeric_limits<std::uint64_t>::max() >> 20;
+
+void add_sampling_flags(CLI::App& command, SceneOptions& options) {
+    command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
+    command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
+        ->type_name("N")
+        ->group(kSampling);
+    command.add_option("--ao-radius", options.ao_radius, "reach of occlusion rays, in voxels")
+        ->type_name("R")
+        ->group(kSampling);
+    command
+        .add_option("--ao", options.ao,
+                    "occlusion: brute (each pixel alone), hash (shared between pixels and frames) or auto")
+        ->type_name("METHOD")
+        ->group(kSampling);
+    command
+        .add_option("--traversal", options.traversal,
+                    "structure that rays march through; the plan chooses one")
+        ->type_name("NAME")
+        ->group(kSampling);
+    command.add_option("--seed", options.seed, "seed of every random stream")
+        ->type_name("N")
+        ->group(kSampling);
+    command.add_option("--sequence", options.sequence, "sample sequence: sobol, halton or white")
+        ->type_name("NAME")
+        ->group(kSampling);
+}
 
 }  // namespace
 
@@ -53,29 +80,7 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->take_all()
         ->allow_extra_args(false)
         ->group(kScene);
-    command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
-    command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
-        ->type_name("N")
-        ->group(kSampling);
-    command.add_option("--ao-radius", options.ao_radius, "reach of occlusion rays, in voxels")
-        ->type_name("R")
-        ->group(kSampling);
-    command
-        .add_option("--ao", options.ao,
-                    "occlusion: brute (each pixel alone) or hash (shared between pixels and frames)")
-        ->type_name("METHOD")
-        ->group(kSampling);
-    command
-        .add_option("--traversal", options.traversal,
-                    "structure that rays march through; the plan chooses one")
-        ->type_name("NAME")
-        ->group(kSampling);
-    command.add_option("--seed", options.seed, "seed of every random stream")
-        ->type_name("N")
-        ->group(kSampling);
-    command.add_option("--sequence", options.sequence, "sample sequence: sobol, halton or white")
-        ->type_name("NAME")
-        ->group(kSampling);
+    add_sampling_flags(command, options);
 }
 
 Scene load_scene_with(const SceneOptions& options) {
@@ -120,10 +125,9 @@ FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
     return frames;
 }
 
-std::uint32_t frames_of_one_world(const Scene& scene, const FrameList& frames) {
-    if (!scene.animation.files.empty()) return 1;
-    return static_cast<std::uint32_t>(
-        std::min<std::int64_t>(frames.count(), std::numeric_limits<int>::max()));
+void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request) {
+    request.frames = checked_cast<std::uint32_t>(frames.count(), "frames");
+    request.moves_voxels = frames.count() > 1 && !scene.animation.files.empty();
 }
 
 void print_frame_note(const SceneOptions& options, const Scene& scene) {

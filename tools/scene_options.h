@@ -43,9 +43,8 @@ void add_scene_flags(CLI::App& command, SceneOptions& options);
 // --frames that cannot be read, and on a still scene.
 [[nodiscard]] FrameList frames_to_render(const SceneOptions& options, const Scene& scene);
 
-// How many of these frames show the same voxels, so that what is learned of them in one frame serves the
-// next.
-[[nodiscard]] std::uint32_t frames_of_one_world(const Scene& scene, const FrameList& frames);
+// Tells the plan how many frames will be rendered, and whether voxels move between them.
+void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request);
 
 // When an animated scene gives one picture only, because no flag names its frames: says so on standard error.
 void print_frame_note(const SceneOptions& options, const Scene& scene);

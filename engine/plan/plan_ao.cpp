@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "base/error.h"
 #include "shared/limits.h"
@@ -18,13 +19,20 @@ constexpr double kSlotsPerCell = 3.0;
 constexpr double kFewestCells = 2.0 / 3.0;  // per pixel
 constexpr double kMostCells = 4.0;
 
+// Occlusion rays of a sample of the whole picture: one recording counts them in 32 bits.
+constexpr std::uint64_t kMostRays = std::numeric_limits<std::uint32_t>::max();
+
 // Why the hash cannot serve, or nothing.
-std::string hindrance(const AoNeeds& needs) {
+std::string hindrance(const RenderSettings& settings, const AoNeeds& needs) {
     if (!needs.has_voxels) return "the scene has no voxels to share samples on";
     if (std::max({needs.world_size.x, needs.world_size.y, needs.world_size.z}) > gpu::kAoMaxEdge)
         return fmt::format("the world is longer than {} voxels", gpu::kAoMaxEdge);
     if (needs.wants_error) return "pixels that share samples give no estimate of the error";
     if (needs.pixels > kMostPixels) return fmt::format("the picture has over {} pixels", kMostPixels);
+    if (static_cast<std::uint32_t>(settings.size.y) > needs.most_rows)
+        return fmt::format("the picture has over {} rows", needs.most_rows);
+    if (needs.pixels * settings.ao_rays > kMostRays)
+        return fmt::format("a sample of the picture has over {} occlusion rays", kMostRays);
     return {};
 }
 
@@ -61,7 +69,7 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
     const AoSettings& ao = settings.ao;
     check_options(ao);
     if (ao.method == AoMethod::brute) return {AoMethod::brute, "asked for"};
-    const std::string hindered = hindrance(needs);
+    const std::string hindered = hindrance(settings, needs);
     // A CPU runs passes faster when they are one. A search that finds its cell uses no atomics, so that there
     // reprojection pays only where cells are wide.
     const bool reprojects = ao.reproject.value_or(!needs.is_cpu);
@@ -77,6 +85,7 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
                     fmt::format("occlusion in a hash is asked for, but {}; use brute force", hindered));
     }
     if (needs.frames <= 1) return {AoMethod::brute, "a single picture is traced pixel by pixel"};
+    if (needs.moves_voxels) return {AoMethod::brute, "frames with moving voxels share no samples"};
     if (!hindered.empty()) return {AoMethod::brute, hindered};
     AoPlan shared = hash;
     shared.reason = fmt::format("{} frames share samples", needs.frames);

@@ -263,8 +263,10 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
+                                      .most_rows = limits.max_groups[1],
                                       .frames = request.frames,
                                       .is_cpu = limits.is_cpu,
+                                      .moves_voxels = request.moves_voxels,
                                       .wants_error = request.wants_error});
     split_image(plan, limits);
     count_rays(plan);

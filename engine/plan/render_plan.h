@@ -104,7 +104,8 @@ struct PlanRequest {
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
-    std::uint32_t frames = 1;               // of the same voxels that will be rendered
+    std::uint32_t frames = 1;               // that will be rendered
+    bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop
 };
 

@@ -48,6 +48,7 @@ RenderStatistics FrameRun::finish(Image& image) {
     image = std::move(film.image);
     // Halves that share occlusion cells are not independent: they agree better than they are right.
     statistics_.error = plan_.has_ao_cells() ? unknown_error() : film.error;
+    statistics_.live_cells = state_.live_cells;
     statistics_.memory = executor_.memory();
     statistics_.pipelines = executor_.pipelines_created();
     return std::move(statistics_);

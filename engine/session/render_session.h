@@ -60,7 +60,8 @@ struct RenderStatistics {
     std::map<std::string, std::uint64_t> faults;
     std::vector<MemoryRow> memory;
     std::uint64_t pipelines = 0;
-    std::uint32_t samples = 0;  // whole ones
+    std::uint32_t samples = 0;     // whole ones
+    std::uint64_t live_cells = 0;  // of occlusion, at the end
     ErrorEstimate error;
     StopReason stop = StopReason::finished;
     std::vector<std::string> warnings;

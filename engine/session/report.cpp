@@ -1,9 +1,11 @@
 #include "session/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene/scene_hash.h"
+#include "session/occlusion_report.h"
 
 namespace voxilux {
 namespace {
@@ -115,6 +117,7 @@ void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
     total.memory = frame.memory;
     total.pipelines = frame.pipelines;
     total.samples = std::min(total.samples, frame.samples);
+    total.live_cells = frame.live_cells;
     if (!(frame.error.high <= total.error.high)) total.error = frame.error;
     total.stop = std::max(total.stop, frame.stop);  // the reasons are in order of their weight
     for (const std::string& warning : frame.warnings) {
@@ -130,6 +133,17 @@ Json traversal_json(const RenderPlan& plan) {
     return {{"name", name_of(plan.world.traversal)}, {"reason", plan.world.traversal_reason}};
 }
 
+// What depends on which thread comes first: where keys of one home lie in the table, and how many reach for
+// one slot.
+constexpr std::array<const char*, 2> kUnrepeatableWork{"ao_probes", "ao_swaps"};
+
+Json repeatable_work_json(const RenderStatistics& statistics) {
+    Json json = statistics.work;
+    for (const char* name : kUnrepeatableWork)
+        json.erase(name);
+    return json;
+}
+
 }  // namespace
 
 Json report_json(const Scene& scene, const RenderOutcome& outcome) {
@@ -139,6 +153,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
                       {"driver", statistics.device.driver},
                       {"type", statistics.device.type}};
     json["traversal"] = traversal_json(outcome.plan);
+    json["occlusion"] = occlusion_json(outcome.plan, statistics);
     json["samples"] = statistics.samples;
     json["stopped"] = name_of(statistics.stop);
     json["wall_s"] = statistics.wall_s;
@@ -192,7 +207,7 @@ Json sequence_json(const Scene& scene, std::uint64_t scene_hash, const SequenceR
 Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) {
     Json json = head_json(scene, outcome.plan, "render");
     json["samples"] = outcome.statistics.samples;
-    json["work"] = outcome.statistics.work;
+    json["work"] = repeatable_work_json(outcome.statistics);
     json["effects"] = effects_json(outcome.plan, nullptr);
     json["error"] = error_json(outcome.statistics.error);
     json["faults"] = outcome.statistics.faults;
@@ -202,6 +217,7 @@ Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) 
 Json plan_json(const Scene& scene, const RenderPlan& plan) {
     Json json = head_json(scene, plan, "plan");
     json["traversal"] = traversal_json(plan);
+    json["occlusion"] = planned_occlusion_json(plan);
     json["effects"] = effects_json(plan, nullptr);
     json["passes"] = planned_passes_json(plan);
     json["memory"] = planned_memory_json(plan);
@@ -220,6 +236,7 @@ std::string describe(const RenderOutcome& outcome) {
                         s.cpu_s, s.first_pixel_s);
     for (const PassTime& pass : s.passes)
         text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
+    text += occlusion_text(outcome.plan, s);
     if (s.error.is_known()) {
         text +=
             fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,

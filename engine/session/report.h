@@ -28,7 +28,8 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 [[nodiscard]] nlohmann::ordered_json sequence_json(const Scene& scene, std::uint64_t scene_hash,
                                                    const SequenceReport& report);
 
-// The part of the report that does not depend on the clock or the machine's load: what --reproducible stores.
+// The part of the report that does not depend on the clock, the machine's load or the order of threads: what
+// --reproducible stores.
 [[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene,
                                                               const RenderOutcome& outcome);
 

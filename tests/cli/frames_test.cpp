@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -155,6 +156,23 @@ TEST(Frames, interruption_keeps_what_is_finished_and_says_how_to_go_on) {
         std::string::npos)
         << ending.err.substr(ending.err.size() > 400 ? ending.err.size() - 400 : 0);
     EXPECT_EQ(read_exr(scratch / "a.0003.exr").width, 32);
+}
+
+TEST(Frames, frame_that_cannot_be_rendered_is_named_and_earlier_ones_stay) {
+    const ScratchFolder scratch;
+    std::ofstream(scratch / "s.toml")
+        << "[render]\nsize = [16, 9]\nspp = 1\n"
+           "[[camera.key]]\nframe = 1\nposition = [0, 0, 5]\nyaw = 0\npitch = 0\n"
+           "[[camera.key]]\nframe = 3\nposition = [1e8, 0, 5]\nyaw = 0\npitch = 0\n"
+           "[material.m]\n[[shape]]\nshape = 'box'\nmaterial = 'm'\n"
+           "from = [4, 0, 0]\nto = [8, 4, 4]\n";
+    const Ending ending =
+        run({"render", scratch / "s.toml", "--frames", "1-3", "-q", "-o", scratch / "a.png"});
+    EXPECT_EQ(ending.code, 3);
+    EXPECT_TRUE(ending.err.starts_with("voxilux: frame 2: camera position (50000000, 0, 5) is over"))
+        << ending.err;
+    EXPECT_TRUE(ending.err.ends_with("; 1 of 3 frames are written\n")) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), (Words{"a.0001.png", "s.toml"}));
 }
 
 TEST(Frames, picture_of_an_animation_is_noted_to_be_one_of_many) {

@@ -41,12 +41,12 @@ Json json_of(const Words& words) {
 TEST(Report, render_has_exactly_its_keys) {
     const ScratchFolder scratch;
     const Json report = json_of(small_render(scratch, {"--json", "-", "--seed", "7"}));
-    EXPECT_EQ(
-        keys_of(report),
-        (Keys{"version", "command", "scene_hash", "seed", "size", "device", "wall_s", "cpu_s", "peak_rss_mib",
-              "gpu_ms", "passes", "work", "memory", "effects", "error", "forecast", "faults",
-              // Beyond the contract:
-              "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings", "traversal"}));
+    EXPECT_EQ(keys_of(report), (Keys{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
+                                     "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
+                                     "error", "forecast", "faults",
+                                     // Beyond the contract:
+                                     "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings",
+                                     "traversal", "occlusion"}));
     EXPECT_EQ(report["command"], "render");
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
@@ -108,8 +108,10 @@ TEST(Report, plan_promises_what_the_render_does) {
     words[0] = "plan";
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan), (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
-                                   "memory", "forecast", "rays", "notes", "traversal"}));
+                                   "memory", "forecast", "rays", "notes", "traversal", "occlusion"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
+    EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
+    EXPECT_EQ(keys_of(plan["occlusion"]), (Keys{"method", "reason", "slots"}));
     EXPECT_EQ(plan["scene_hash"], report["scene_hash"]);
     ASSERT_EQ(plan["passes"].size(), report["passes"].size());
     std::map<std::string, int> done;

@@ -74,6 +74,35 @@ TEST(PlanAo, method_that_is_named_is_used_or_refused) {
     }
 }
 
+TEST(PlanAo, frames_with_moving_voxels_are_traced_pixel_by_pixel_unless_asked_otherwise) {
+    AoNeeds moving = kServes;
+    moving.moves_voxels = true;
+    const AoPlan plan = plan_ao(asking_for(AoMethod::automatic), moving);
+    EXPECT_FALSE(plan.uses_cells());
+    EXPECT_NE(plan.reason.find("moving voxels"), std::string::npos) << plan.reason;
+    const AoPlan asked = plan_ao(asking_for(AoMethod::hash), moving);
+    EXPECT_TRUE(asked.uses_cells());
+    EXPECT_TRUE(asked.ages) << "voxels that rest for some frames keep their cells";
+}
+
+// A sample is one dispatch over the whole picture, and its rays are counted in 32 bits.
+TEST(PlanAo, picture_of_more_rows_or_rays_than_one_dispatch_takes_or_counts_is_refused) {
+    RenderSettings settings = asking_for(AoMethod::hash);
+    settings.size = {16, 65536};
+    AoNeeds needs = kServes;
+    needs.most_rows = 65535;
+    EXPECT_NE(answer(settings, needs).find("over 65535 rows"), std::string::npos);
+    settings.size.y = 65535;
+    EXPECT_EQ(answer(settings, needs), "hash");
+    needs.pixels = 65537;
+    settings.ao_rays = 65535;
+    EXPECT_EQ(answer(settings, needs), "hash");
+    needs.pixels = 65538;
+    EXPECT_NE(answer(settings, needs).find("over 4294967295 occlusion rays"), std::string::npos);
+    settings.ao.method = AoMethod::automatic;
+    EXPECT_EQ(answer(settings, needs), "brute");
+}
+
 TEST(PlanAo, limits_themselves_are_served) {
     AoNeeds largest = kServes;
     largest.world_size = glm::ivec3(131072);

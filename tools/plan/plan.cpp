@@ -45,7 +45,7 @@ int run_plan(const RenderCommand& command) {
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.quiet) print_frame_note(command.scene, animated);
     request.wants_error = command.error.has_value();
-    request.frames = frames_of_one_world(animated, frames);
+    request_frames(animated, frames, request);
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
     const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device));

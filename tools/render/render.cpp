@@ -105,7 +105,7 @@ int run_render(const RenderCommand& command) {
     const FrameList frames = frames_to_render(command.scene, scene);
     if (!command.quiet) print_frame_note(command.scene, scene);
     const std::uint64_t hash = frames.is_sequence ? scene_hash(scene) : 0;
-    options.plan.frames = frames_of_one_world(scene, frames);
+    request_frames(scene, frames, options.plan);
     RenderSession session(std::move(scene), options);
     const RenderJob job{
         .outputs = outputs, .frames = frames, .options = options, .progress = progress, .scene_hash = hash};

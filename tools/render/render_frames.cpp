@@ -61,6 +61,38 @@ void print_interruption(const FrameList& frames, std::int64_t index) {
                frames.step == 1 ? "" : fmt::format("x{}", frames.step));
 }
 
+// What the frames so far left behind.
+struct Rendered {
+    SequenceReport report;
+    std::set<std::string> said;
+    std::size_t missed = 0;  // frames over the error asked for
+    ExitCode code = ExitCode::done;
+};
+
+// Renders and writes one frame; false when it was interrupted.
+bool render_frame(const RenderCommand& command, RenderSession& session, const RenderJob& job,
+                  std::int64_t index, Rendered& done) try {
+    const std::int64_t frame = job.frames.at(index);
+    RenderOutcome outcome = session.render(frame, share_of_time(job, index), progress_of_range(job, index));
+    job.progress.finish();
+    if (outcome.statistics.stop == StopReason::interrupted) return false;
+    const std::vector<std::string> files = files_of_frame(job.outputs, job.frames, frame);
+    write_pictures(command, files, session.scene(), outcome);
+    if (index == 0 && command.verbose && !command.quiet && command.json != "-")
+        fmt::print("{}", describe(outcome.plan));
+    print_validation(outcome);
+    print_warnings(command, outcome, done.said);
+    print_frame(command, frame, files, outcome.statistics);
+    add_frame(done.report, frame, files, outcome);
+    if (missed_error(command, outcome)) ++done.missed;
+    if (exit_code(command, outcome) == ExitCode::time_limit) done.code = ExitCode::time_limit;
+    return true;
+} catch (const Error& error) {
+    if (index == 0) throw;
+    throw Error(error.code(), fmt::format("frame {}: {}; {} of {} frames are written", job.frames.at(index),
+                                          error.what(), index, job.frames.count()));
+}
+
 }  // namespace
 
 std::vector<std::string> files_of_frame(const std::vector<std::string>& outputs, const FrameList& frames,
@@ -73,36 +105,19 @@ std::vector<std::string> files_of_frame(const std::vector<std::string>& outputs,
 }
 
 int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
-    SequenceReport report;
-    std::set<std::string> said;
-    std::size_t missed = 0;
-    ExitCode code = ExitCode::done;
+    Rendered done;
     std::int64_t index = 0;
-    for (; index < job.frames.count(); ++index) {
-        const std::int64_t frame = job.frames.at(index);
-        RenderOutcome outcome =
-            session.render(frame, share_of_time(job, index), progress_of_range(job, index));
-        job.progress.finish();
-        if (outcome.statistics.stop == StopReason::interrupted) break;
-        const std::vector<std::string> files = files_of_frame(job.outputs, job.frames, frame);
-        write_pictures(command, files, session.scene(), outcome);
-        if (index == 0 && command.verbose && !command.quiet && command.json != "-")
-            fmt::print("{}", describe(outcome.plan));
-        print_validation(outcome);
-        print_warnings(command, outcome, said);
-        print_frame(command, frame, files, outcome.statistics);
-        add_frame(report, frame, files, outcome);
-        if (missed_error(command, outcome)) ++missed;
-        if (exit_code(command, outcome) == ExitCode::time_limit) code = ExitCode::time_limit;
-    }
+    while (index < job.frames.count() && render_frame(command, session, job, index, done))
+        ++index;
     const bool is_interrupted = index < job.frames.count();
     if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
+    SequenceReport& report = done.report;
     report.total.statistics.wall_s = seconds_since(job.options.started);
     print_faults(report.total);
-    print_end(command, report, missed);
+    print_end(command, report, done.missed);
     if (is_interrupted) print_interruption(job.frames, index);
     write_json(command.json, sequence_json(session.scene(), job.scene_hash, report));
-    return static_cast<int>(is_interrupted ? ExitCode::interrupted : code);
+    return static_cast<int>(is_interrupted ? ExitCode::interrupted : done.code);
 }
 
 }  // namespace voxilux
