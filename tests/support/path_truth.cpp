@@ -222,6 +222,7 @@ void refuse(bool unknown, const char* what) {
 TruthSphere truth_sphere(const Scene& scene, const Sphere& sphere) {
     const Material& material = scene.materials.at(sphere.material);
     const bool polished = material.surface == Surface::metal || material.surface == Surface::glass;
+    refuse(material.surface == Surface::blend || material.surface == Surface::media, "blend and media");
     refuse(polished && material.roughness != 0.0f, "rough metal or glass");
     return {.centre = sphere.centre,
             .radius = sphere.radius,

@@ -54,7 +54,8 @@ struct TruthPixel {
     glm::dvec3 variance_of_mean;  // estimated from the samples
 };
 
-// Throws std::invalid_argument for what the tracer does not know: voxels, a sun, rough metal or glass.
+// Throws std::invalid_argument for what the tracer does not know: voxels, a sun, a scene without
+// camera, rough metal or glass, blends and media.
 [[nodiscard]] TruthWorld truth_world(const Scene& scene);
 
 // Pixel (x, y), row 0 at the top; a pure function of its arguments.

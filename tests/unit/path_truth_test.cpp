@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -135,18 +136,25 @@ TEST(PathTruth, picture_is_a_function_of_its_seed) {
     EXPECT_NE(trace(1), trace(2));
 }
 
-// Two estimators of one picture: lamps sampled, and lamps hit by chance. The pixels are the corner behind the
-// mirror ball, a caustic, and the ceiling.
+struct ScenePixel {
+    const char* scene;
+    glm::ivec2 pixel;  // of 32 x 32
+};
+
+// Two estimators of one picture: lamps sampled, and lamps hit by chance. The pixels: the corner behind the
+// mirror ball, caustics, the ceiling, and diffuse surfaces seen through glass and inside it.
 TEST(PathTruth, sampled_lamps_give_what_chance_gives) {
-    const test::TruthWorld world =
-        test::truth_world(load_scene(std::filesystem::path(VX_SOURCE_DIR) / "scenes/cornell.toml"));
-    for (const glm::ivec2 pixel : {glm::ivec2(6, 23), glm::ivec2(24, 26), glm::ivec2(14, 3)}) {
-        const TruthPixel sampled = trace_truth_pixel(world, {.spp = 20000, .seed = 4}, pixel);
+    for (const ScenePixel& at :
+         {ScenePixel{"cornell", {6, 23}}, ScenePixel{"cornell", {24, 26}}, ScenePixel{"cornell", {14, 3}},
+          ScenePixel{"glass_in_glass", {24, 21}}, ScenePixel{"glass_in_glass", {8, 21}}}) {
+        const test::TruthWorld world = test::truth_world(
+            load_scene(std::filesystem::path(VX_SOURCE_DIR) / "scenes" / (std::string(at.scene) + ".toml")));
+        const TruthPixel sampled = trace_truth_pixel(world, {.spp = 20000, .seed = 4}, at.pixel);
         const TruthPixel hit =
-            trace_truth_pixel(world, {.spp = 100000, .seed = 5, .samples_lamps = false}, pixel);
+            trace_truth_pixel(world, {.spp = 60000, .seed = 5, .samples_lamps = false}, at.pixel);
         const double variance = sampled.variance_of_mean.x + hit.variance_of_mean.x;
-        EXPECT_LT(std::abs(sampled.mean.x - hit.mean.x), kFarOff * std::sqrt(variance)) << pixel.x;
-        EXPECT_LT(std::sqrt(variance), 0.05 * hit.mean.x);
+        EXPECT_LT(std::abs(sampled.mean.x - hit.mean.x), kFarOff * std::sqrt(variance)) << at.pixel.x;
+        EXPECT_LT(std::sqrt(variance), 0.05 * hit.mean.x) << at.scene << at.pixel.x;
     }
 }
 
