@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "scene/scene_toml.h"
+#include "support/statistics.h"
 
 namespace voxilux {
 namespace {
@@ -156,6 +158,32 @@ TEST(PathTruth, sampled_lamps_give_what_chance_gives) {
         EXPECT_LT(std::abs(sampled.mean.x - hit.mean.x), kFarOff * std::sqrt(variance)) << at.pixel.x;
         EXPECT_LT(std::sqrt(variance), 0.05 * hit.mean.x) << at.scene << at.pixel.x;
     }
+}
+
+// Pixels of mean 1 and noise of a variance of 0.04, less `offset`; each estimate is a mean of 12 uniform
+// numbers.
+test::PictureZ z_of_noise(double offset) {
+    test::TestRandom random(6);
+    std::vector<TruthPixel> traced, expected;
+    for (int i = 0; i < 4000; ++i) {
+        TruthPixel pixel{glm::dvec3(1.0 - offset), glm::dvec3(0.04)};
+        for (int c = 0; c < 3; ++c)
+            for (int n = 0; n < 12; ++n)
+                pixel.mean[c] += 0.2 * random.uniform(-0.5, 0.5);
+        traced.push_back(pixel);
+        expected.push_back({glm::dvec3(1.0), glm::dvec3(0.0)});
+    }
+    return test::picture_z(traced, expected);
+}
+
+TEST(PictureZ, of_noise_is_1_and_of_an_offset_is_more) {
+    const test::PictureZ same = z_of_noise(0.0);
+    EXPECT_NEAR(same.rms, 1.0, 0.02);
+    EXPECT_LT(same.beyond_4, 0.001);
+    EXPECT_LT(std::abs(same.of_mean.x), kFarOff);
+    const test::PictureZ moved = z_of_noise(0.1);  // half a standard deviation
+    EXPECT_NEAR(moved.rms, std::sqrt(1.25), 0.02);
+    EXPECT_NEAR(moved.of_mean.x, -0.5 * std::sqrt(4000.0), kFarOff);
 }
 
 TEST(PathTruth, what_it_does_not_know_is_refused) {
