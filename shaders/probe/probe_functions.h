@@ -3,10 +3,13 @@
 #ifndef VX_PROBE_FUNCTIONS_H
 #define VX_PROBE_FUNCTIONS_H
 
+#include "shared/alias.h"
+#include "shared/dielectric.h"
 #include "shared/film_sum.h"
 #include "shared/sampling.h"
 #include "shared/sequence.h"
 #include "shared/sphere.h"
+#include "shared/sppm.h"
 #include "shared/two_float.h"
 
 VX_BEGIN
@@ -190,6 +193,61 @@ VX_FN SphereOut probe_sphere(SphereIn v) {
     r.hit = hit.hit ? 1u : 0u;
     r.t = hit.t;
     r.normal = hit.normal;
+    return r;
+}
+
+struct DielectricIn {
+    float cosine;
+    float eta;
+    vec3 direction;
+    vec3 normal;
+};
+struct DielectricOut {
+    float reflectance;  // for the cosine
+    float bend;
+    uint is_total;
+    uint ray_is_total;  // for the direction
+    vec3 refracted;
+    vec3 mirrored;
+};
+VX_FN DielectricOut probe_dielectric(DielectricIn v) {
+    DielectricOut r;
+    Dielectric surface = dielectric(v.cosine, v.eta);
+    r.reflectance = surface.reflectance;
+    r.bend = surface.bend;
+    r.is_total = surface.is_total ? 1u : 0u;
+    VX_PRECISE float cosine = -dot(v.direction, v.normal);
+    Dielectric met = dielectric(cosine, v.eta);
+    r.ray_is_total = met.is_total ? 1u : 0u;
+    r.refracted = refracted_direction(v.direction, v.normal, v.eta, met);
+    r.mirrored = mirror_direction(v.direction, v.normal);
+    return r;
+}
+
+struct SppmIn {
+    vec2 u_place;
+    vec2 u_direction;
+    vec3 to_centre;
+    float radius;
+    vec3 throughput;
+    float distance_squared;
+    uint bits;
+    uint count;
+};
+struct SppmOut {
+    SphereEmission emission;
+    SphereCone cone;
+    float kernel;
+    float survival;
+    uint bucket;
+};
+VX_FN SppmOut probe_sppm(SppmIn v) {
+    SppmOut r;
+    r.emission = sphere_emission(v.u_place, v.u_direction);
+    r.cone = sphere_cone(v.to_centre, v.radius);
+    r.kernel = photon_kernel(v.distance_squared, v.radius);
+    r.survival = roulette_survival(v.throughput);
+    r.bucket = alias_bucket(v.bits, v.count);
     return r;
 }
 

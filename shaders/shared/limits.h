@@ -92,6 +92,14 @@ VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
+// Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so that ratios lie in [1/4,
+// 4].
+VX_CONST(float, kMostEta, 16.0f);
+
+// Photons. Smallest radius of a gather, in voxels: the distance of neighbouring floats between 1024 and 2048.
+// A smaller disc would measure the rounding of positions.
+VX_CONST(float, kLeastPhotonRadius, 1.220703125e-4f);  // 2^-13
+
 VX_END
 
 #endif

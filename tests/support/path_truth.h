@@ -1,0 +1,78 @@
+#pragma once
+
+// An independent truth for pictures of analytic spheres: a path tracer in double precision that shares no
+// code with the shaders. It is slow, plain and unbiased. Diffuse surfaces sample one lamp each, over the
+// solid angle of its disc; light that a path reaches behind a mirror or glass counts when the path hits the
+// lamp. So each path of light is found in exactly one way. Source: Kajiya 1986, "The Rendering Equation";
+// solid angle of a sphere: Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting",
+// section 3.2.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace voxilux::test {
+
+struct TruthSphere {
+    glm::dvec3 centre;
+    double radius;
+    Surface surface;
+    glm::dvec3 albedo;
+    glm::dvec3 emission;
+    double ior;
+    std::uint32_t material;
+};
+
+// A scene as the tracer sees it. Lamps shine outwards only. Glass reflects or refracts by Fresnel's equations
+// and takes its colour from either. A point inside several glass spheres is in the smallest of them; where
+// one material is on both sides of a surface there is none.
+struct TruthWorld {
+    std::vector<TruthSphere> spheres;
+    std::vector<std::size_t> lamps;  // of `spheres`
+    glm::dvec3 sky;
+    glm::dvec3 eye;
+    glm::dmat3 view;  // columns right, up, forward; the first two as long as the half height of the picture
+};
+
+struct TruthRequest {
+    glm::ivec2 size{32, 32};  // pixels: box filter, so a small picture is the mean of the pixels of a big one
+    int spp = 256;            // >= 2
+    std::uint64_t seed = 1;
+    // False: lamps count only when a path hits them, another estimator of the same picture.
+    bool samples_lamps = true;
+    // True: sin t = (eta sin i)^2 in place of Snell's law, which a judge has to catch.
+    bool squares_the_sine = false;
+};
+
+struct TruthPixel {
+    glm::dvec3 mean;              // radiance
+    glm::dvec3 variance_of_mean;  // estimated from the samples
+};
+
+// Throws std::invalid_argument for what the tracer does not know: voxels, a sun, a scene without
+// camera, rough metal or glass, blends and media.
+[[nodiscard]] TruthWorld truth_world(const Scene& scene);
+
+// Pixel (x, y), row 0 at the top; a pure function of its arguments.
+[[nodiscard]] TruthPixel trace_truth_pixel(const TruthWorld& world, const TruthRequest& request,
+                                           glm::ivec2 pixel);
+
+// All pixels, [height][width].
+[[nodiscard]] std::vector<TruthPixel> trace_truth(const TruthWorld& world, const TruthRequest& request);
+
+// How far a traced picture is from an expected one, in standard deviations.
+struct PictureZ {
+    double rms = 0.0;         // over pixels and channels; 1 for equal pictures and normal noise
+    double beyond_4 = 0.0;    // share of pixels and channels; 6e-5 for normal noise
+    glm::dvec3 of_mean{0.0};  // of the mean of the picture
+};
+
+// Both pictures have as many pixels, each with the variance of its mean.
+[[nodiscard]] PictureZ picture_z(std::span<const TruthPixel> traced, std::span<const TruthPixel> expected);
+
+}  // namespace voxilux::test
