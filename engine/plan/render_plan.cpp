@@ -265,8 +265,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .pixels = pixels_of(plan.settings),
                                       .most_rows = limits.max_groups[1],
                                       .frames = request.frames,
-                                      .is_cpu = limits.is_cpu,
                                       .moves_voxels = request.moves_voxels,
+                                      .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     split_image(plan, limits);
     count_rays(plan);

@@ -41,7 +41,8 @@ Json json_of(const Words& words) {
 
 TEST(OcclusionReport, says_how_the_table_served) {
     const ScratchFolder scratch;
-    const Json report = json_of(small_render(scratch, {"--json", "-", "--ao", "hash"}));
+    const Json report =
+        json_of(small_render(scratch, {"--json", "-", "--ao", "hash", "-D", "ao.reproject=true"}));
     const Json& occlusion = report["occlusion"];
     EXPECT_EQ(keys_of(occlusion),
               (Keys{"method", "reason", "slots", "live_cells", "load", "probes_per_search", "reused_share"}));
@@ -106,8 +107,8 @@ std::string walking_file() {
 // The plan of a range of frames holds every pass that its render records.
 TEST(OcclusionReport, render_of_moving_voxels_records_only_passes_of_its_plan) {
     const ScratchFolder scratch;
-    std::ofstream(scratch / "s.toml")
-        << "[[model]]\nfile = 'walk.vox'\n[ao]\nmethod = 'hash'\n[render]\nsize = [16, 9]\nspp = 1\n";
+    std::ofstream(scratch / "s.toml") << "[[model]]\nfile = 'walk.vox'\n[ao]\nmethod = 'hash'\nslots = "
+                                         "256\n[render]\nsize = [16, 9]\nspp = 1\n";
     std::ofstream(scratch / "walk.vox") << walking_file();
     const Words words{"render", scratch / "s.toml", "--frames", "0-20", "--json", "-",
                       "-o",     scratch / "a.png"};
