@@ -108,7 +108,7 @@ std::string walking_file() {
 TEST(OcclusionReport, render_of_moving_voxels_records_only_passes_of_its_plan) {
     const ScratchFolder scratch;
     std::ofstream(scratch / "s.toml") << "[[model]]\nfile = 'walk.vox'\n[ao]\nmethod = 'hash'\nslots = "
-                                         "256\n[render]\nsize = [16, 9]\nspp = 1\n";
+                                         "32\n[render]\nsize = [16, 9]\nspp = 1\n";
     std::ofstream(scratch / "walk.vox") << walking_file();
     const Words words{"render", scratch / "s.toml", "--frames", "0-20", "--json", "-",
                       "-o",     scratch / "a.png"};
