@@ -42,8 +42,7 @@ std::vector<std::int64_t> all_key_frames(const VoxFile& file) {
         }
     }
     std::ranges::sort(frames);
-    const auto repeated = std::ranges::unique(frames);
-    frames.erase(repeated.begin(), repeated.end());
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
     return frames;
 }
 
