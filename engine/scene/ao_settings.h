@@ -15,7 +15,7 @@ struct AoSettings {
     float cell_px = 10.0f;  // width of a cell that is wished for, pixels; cells are between half of it and it
     // Look for a cell where the sample before saw it, before searching the table; absent: the plan chooses.
     std::optional<bool> reproject;
-    std::optional<bool> merged;  // search and trace in one pass; absent: the plan chooses
+    std::optional<bool> merged;      // search and trace in one pass; absent: the plan chooses
     bool checkerboard = false;       // every other pixel takes samples
     bool by_pixel = false;           // rays start at the pixel's hit and follow the pixel's own sequence
     std::uint32_t filter = 0;        // iterations of the a-trous filter, 0 to 4

@@ -33,7 +33,8 @@ std::vector<std::int32_t> hidden_layers(const VoxFile& file) {
     return ids;
 }
 
-Result<Pose> pose_of(const VoxTransform& transform, const std::vector<std::int32_t>& hidden, std::int64_t frame) {
+Result<Pose> pose_of(const VoxTransform& transform, const std::vector<std::int32_t>& hidden,
+                     std::int64_t frame) {
     Pose pose{.hidden = std::binary_search(hidden.begin(), hidden.end(), transform.layer),
               .layer = transform.layer};
     if (transform.frames.empty()) return pose;

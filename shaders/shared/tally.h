@@ -25,7 +25,7 @@ VX_CONST(uint, kWorkAoClaimed, 11u);  // cells entered
 VX_CONST(uint, kWorkAoEvicted, 12u);  // cells given up
 VX_CONST(uint, kWorkAoDropped, 13u);  // samples that were in them; saturates at 2^32 - 1 for each cell
 VX_CONST(uint, kWorkAoOwnRays, 14u);  // occlusion rays that no cell took
-VX_CONST(uint, kWorkAoSwaps, 15u);  // compare-and-swaps of keys
+VX_CONST(uint, kWorkAoSwaps, 15u);    // compare-and-swaps of keys
 VX_CONST(uint, kTallyCount, 16u);
 
 VX_END
