@@ -16,7 +16,7 @@ struct AoPlan {
     std::uint32_t slots = 0;            // of the table; 0 without one
     bool reprojects = false;            // cells are looked for where the sample before saw them
     bool merged = false;                // search and trace are one pass
-    bool ages = false;                  // there are later frames, which give up cells of earlier ones
+    bool ages = false;                  // later frames give up cells of earlier ones if the table fills
 
     bool operator==(const AoPlan&) const = default;
     [[nodiscard]] bool uses_cells() const { return method == AoMethod::hash; }

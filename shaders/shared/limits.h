@@ -83,7 +83,8 @@ VX_CONST(int, kAoMaxEdge, 131072);
 // Slots from its home on that may hold a cell. With two fifths of the slots taken, a cell finds them all
 // taken by others about once in 10^6 times, with a third of them less than once in 10^7.
 VX_CONST(uint, kCellProbes, 32u);
-// Frames after which a cell that nobody sees is given up. Longer than a touch may be late (kCellTouchPeriod).
+// Frames after which a cell that nobody sees may be given up. Longer than a touch may be late
+// (kCellTouchPeriod).
 VX_CONST(uint, kCellMaxAge, 32u);
 // The same when the table fills up. Longer than a touch may be late (kCellTouchPeriod).
 VX_CONST(uint, kCellMinAge, 16u);
