@@ -8,6 +8,7 @@
 #include "plan/device_limits.h"
 #include "plan/effects.h"
 #include "plan/plan_ao.h"
+#include "plan/plan_photons.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
 #include "shared/gpu_types.h"
@@ -25,6 +26,7 @@ struct WorldFacts {
     std::uint64_t node_bytes = 0;
     std::uint64_t leaf_bytes = 0;
     GrowthNeeds growth;
+    LightFacts lights;
 
     bool operator==(const WorldFacts&) const = default;
 };
@@ -74,6 +76,9 @@ struct RenderPlan {
     WorldFacts world;
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
+    std::uint32_t glass_spheres = 0;  // the first so many in the device's order
+    bool has_glass_voxels = false;
+    PhotonPlan photons;  // all zero without caustics and indirect light
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
@@ -86,6 +91,7 @@ struct RenderPlan {
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
+    [[nodiscard]] bool has_photons() const { return has(Effect::caustics) || has(Effect::indirect); }
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);

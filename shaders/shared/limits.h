@@ -93,6 +93,16 @@ VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
+// Length of a ray that only asks what its first cell holds, voxels: shorter than any way out of a cell but
+// none.
+VX_CONST(float, kProbeLength, 1.0e-30f);
+// Surfaces that one path may meet. Roulette ends all but those between perfect mirrors, which never end.
+VX_CONST(uint, kMostBounces, 4096u);
+// Steps of the loop of an invocation that traces photons one after the other.
+VX_CONST(uint, kMostPhotonSteps, 16777216u);
+// Surfaces that a path from the camera meets before roulette may end it: it costs more noise than time there.
+VX_CONST(uint, kSureBounces, 8u);
+
 // Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so that ratios lie in [1/4,
 // 4].
 VX_CONST(float, kMostEta, 16.0f);
