@@ -9,6 +9,7 @@
 
 #include "embedded.h"
 #include "shared/gpu_types.h"
+#include "shared/photon_types.h"
 #include "vk/spirv_reflect.h"
 
 namespace voxilux {
@@ -69,6 +70,17 @@ const std::vector<Layout>& layouts() {
         VX_LAYOUT(BenchHit, VX_MEMBER(BenchHit, cell), VX_MEMBER(BenchHit, face), VX_MEMBER(BenchHit, t),
                   VX_MEMBER(BenchHit, steps)),
         VX_LAYOUT(BenchMarchPush, VX_MEMBER(BenchMarchPush, count), VX_MEMBER(BenchMarchPush, chunks)),
+        VX_LAYOUT(PhotonGrid, VX_MEMBER(PhotonGrid, cells_per_voxel),
+                  VX_MEMBER(PhotonGrid, x_cells_per_voxel), VX_MEMBER(PhotonGrid, mask)),
+        VX_LAYOUT(PhotonParams, VX_MEMBER(PhotonParams, grid), VX_MEMBER(PhotonParams, power_scale),
+                  VX_MEMBER(PhotonParams, power_unit), VX_MEMBER(PhotonParams, radius),
+                  VX_MEMBER(PhotonParams, narrow_radius), VX_MEMBER(PhotonParams, capacity),
+                  VX_MEMBER(PhotonParams, photon_count), VX_MEMBER(PhotonParams, iteration)),
+        VX_LAYOUT(StoredPhoton, VX_MEMBER(StoredPhoton, position), VX_MEMBER(StoredPhoton, surface),
+                  VX_MEMBER(StoredPhoton, power), VX_MEMBER(StoredPhoton, bucket),
+                  VX_MEMBER(StoredPhoton, rank)),
+        VX_LAYOUT(PhotonHead, VX_MEMBER(PhotonHead, groups_x), VX_MEMBER(PhotonHead, groups_y),
+                  VX_MEMBER(PhotonHead, groups_z), VX_MEMBER(PhotonHead, count)),
     };
     return rows;
 }
