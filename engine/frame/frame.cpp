@@ -4,6 +4,8 @@
 #include "passes/aov.h"
 #include "passes/direct.h"
 #include "passes/film_add.h"
+#include "passes/photon.h"
+#include "passes/photon_trace.h"
 #include "passes/primary.h"
 #include "passes/shade.h"
 #include "passes/specular.h"
@@ -11,6 +13,7 @@
 #include "passes/sun.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
+#include "shared/sppm.h"
 
 namespace voxilux {
 namespace {
@@ -57,6 +60,24 @@ Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, N
     return record_ao_cells(plan, slice, hits, ao_step(plan, now), rec);
 }
 
+PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                            std::uint32_t iteration, Recording& rec) {
+    if (!plan.has_photons()) return {constant_value(0.0f, rec, 3), constant_value(0.0f, rec, 3)};
+    const gpu::PhotonParams params = photon_params(
+        {.radius = gpu::photon_radius(plan.photons.radius, plan.settings.photons.alpha, iteration),
+         .extent = plan.world.lights.extent,
+         .most_power = plan.photons.most_power,
+         .buckets = plan.photons.buckets,
+         .capacity = plan.photons.capacity,
+         .photon_count = plan.photons.count(),
+         .iteration = iteration});
+    record_photon_clear(plan, params, rec);
+    record_photon_emit(plan, rec);
+    record_photon_trace(plan, rec);
+    record_photon_sort(plan, params, rec);
+    return record_photon_gather(plan, slice, hits, rec);
+}
+
 }  // namespace
 
 void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
@@ -82,12 +103,12 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
         plan.has(Effect::sun) ? record_sun_trace(plan, slice, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, slice, seen.hits, rec)
                                                   : constant_value(0.0f, rec, 3);
-    const Plane photons = constant_value(0.0f, rec, 3);
+    const PhotonPlanes photons = record_photons(plan, slice, seen.hits, sample + 1, rec);
     const ShadeInputs inputs{.hits = seen.hits,
                              .ao = ao,
                              .sun = sun,
                              .direct = direct,
-                             .photons = photons,
+                             .photons = photons.light,
                              .weights = seen.weights};
     const Plane color = record_shade_resolve(plan, slice, inputs, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);

@@ -26,9 +26,9 @@ SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice,
                       .extent = pixel_extent(plan, slice),
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"FirstHits", first_hits.buffer},
-                                                       {"Hits", planes.hits.buffer},
-                                                       {"Weights", planes.weights.buffer}});
+    dispatch.bindings.insert(
+        dispatch.bindings.end(),
+        {{"FirstHits", first_hits.buffer}, {"Hits", planes.hits.buffer}, {"Weights", planes.weights.buffer}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return planes;

@@ -20,8 +20,7 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
     std::vector<gpu::SurfaceMaterial> materials(plan.material_count);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        const SurfaceShares shares =
-            plan.has(Effect::specular) ? surface_shares(material) : SurfaceShares{};
+        const SurfaceShares shares = plan.has(Effect::specular) ? surface_shares(material) : SurfaceShares{};
         materials[i] = {.albedo = material.albedo,
                         .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
                         .mirror = shares.mirror,

@@ -111,7 +111,9 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
 
 // Light that has not been let out, or finds no mirror, needs no photons.
 void drop_unlit(EffectStates& states) {
-    const auto state = [&](Effect effect) -> EffectState& { return states[static_cast<std::size_t>(effect)]; };
+    const auto state = [&](Effect effect) -> EffectState& {
+        return states[static_cast<std::size_t>(effect)];
+    };
     const auto drop = [&](Effect effect, const char* reason) {
         if (state(effect).on) state(effect) = {effect, false, reason};
     };

@@ -38,6 +38,28 @@ void list_photon_passes(const RenderPlan& plan, std::uint64_t slices, const AddP
     const bool on = plan.has_photons();
     add(on, "photon.emit", slices);
     add(on, "photon.trace", slices);
+    add(on, "photon.scan", 3 * slices);
+    add(on, "photon.sort", slices);
+    add(on, "photon.gather", slices);
+}
+
+void list_photon_buffers(RenderPlan& plan) {
+    if (!plan.has_photons()) return;
+    const auto list = [&](const char* name, std::uint64_t bytes) {
+        plan.buffers.push_back({name, bytes, false});
+    };
+    const PhotonPlan& photons = plan.photons;
+    list("photon.frame", sizeof(gpu::PhotonParams));
+    list("photon.rays", photons.count() * sizeof(gpu::PhotonStart));
+    list("photon.head", sizeof(gpu::PhotonHead));
+    list("photon.stored", photons.capacity * sizeof(gpu::StoredPhoton));
+    list("photon.counts", photons.buckets * sizeof(gpu::uint));
+    list("photon.runs", gpu::scan_runs(photons.buckets) * sizeof(gpu::uint));
+    list("photon.starts", (photons.buckets + 1) * sizeof(gpu::uint));
+    list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
+    list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
+    list("photon.light", plan.slice_pixels() * sizeof(gpu::vec3));
+    list("photon.narrow", plan.slice_pixels() * sizeof(gpu::vec3));
 }
 
 void list_ao_buffers(RenderPlan& plan) {
@@ -117,7 +139,7 @@ void list_buffers(RenderPlan& plan) {
     persistent(lamps, "light.records", plan.world.lights.count * sizeof(gpu::LightRecord));
     persistent(lamps, "light.table", plan.world.lights.count * sizeof(gpu::AliasEntry));
     transient(plan.has(Effect::direct), "direct.light", pixels * sizeof(gpu::vec3));
-    transient(plan.has_photons(), "photon.starts", plan.photons.count() * sizeof(gpu::PhotonStart));
+    list_photon_buffers(plan);
     list_ao_buffers(plan);
     transient(plan.has(Effect::sun), "sun.lit", pixels * sizeof(float));
     transient(true, "shade.color", pixels * sizeof(gpu::vec3));

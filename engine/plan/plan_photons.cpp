@@ -22,6 +22,7 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 // photons is far below a half. Below: of photons that bounce between caustics only.
 constexpr double kStoreMargin = 1.5;
 constexpr double kMostStored = 64.0;
+constexpr double kDefaultRadius = 1.0;
 
 double stored_per_photon(double most_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
@@ -67,19 +68,20 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + lamps))));
     plan.lamp_photons = wanted - plan.sun_photons;
     plan.lanes = limits.is_cpu ? (wanted + kPhotonsPerLane - 1) / kPhotonsPerLane : wanted;
-    const double stored = wanted * stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
+    const double stored =
+        wanted * stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
     if (stored * sizeof(gpu::StoredPhoton) > static_cast<double>(limits.max_binding_bytes))
         throw Error(ExitCode::input_refused,
                     fmt::format("{} photons in an iteration need room for {:.0f}, more than {} bytes of {}; "
                                 "use fewer of them and more iterations",
                                 wanted, stored, limits.max_binding_bytes, limits.name));
+    plan.radius = settings.radius.value_or(kDefaultRadius);
     plan.capacity = static_cast<std::uint32_t>(stored);
     plan.buckets = std::min(std::bit_ceil(std::max(plan.capacity, 1024u)), kMostBuckets);
     if (plan.lamp_photons != 0)
-        plan.most_power = glm::vec3(needs.lights.most_power / static_cast<double>(plan.lamp_photons));
+        plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);
     if (plan.sun_photons != 0)
-        plan.most_power =
-            glm::max(plan.most_power, glm::vec3(sun_power / static_cast<double>(plan.sun_photons)));
+        plan.most_power = glm::max(plan.most_power, sun_power / static_cast<double>(plan.sun_photons));
     return plan;
 }
 

@@ -78,7 +78,7 @@ struct RenderPlan {
     std::uint32_t sphere_count = 0;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
-    PhotonPlan photons;  // all zero without caustics and indirect light
+    PhotonPlan photons;           // all zero without caustics and indirect light
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders

@@ -32,8 +32,8 @@ PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, cons
     }
     WorldFacts world_facts = measure_world(prepared.march_world);
     world_facts.traversal_reason = choice.reason;
-    world_facts.lights = measure_lights(scene, prepared.lights, prepared.march_world.size(),
-                                        prepared.march_world.origin);
+    world_facts.lights =
+        measure_lights(scene, prepared.lights, prepared.march_world.size(), prepared.march_world.origin);
     prepared.plan = plan_render(scene, prepared.facts, world_facts, request, limits);
     return prepared;
 }

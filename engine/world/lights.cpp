@@ -67,9 +67,8 @@ void measure_power(const Scene& scene, Collector& lights) {
     const std::vector<std::uint32_t> order = sphere_order(scene);
     for (std::size_t i = 0; i < lights.list.records.size(); ++i) {
         const gpu::LightParts parts = gpu::light_parts(lights.list.records[i].what);
-        const std::uint32_t material = parts.kind == gpu::kLightSphere
-                                           ? scene.spheres[order[parts.sphere]].material
-                                           : parts.material;
+        const std::uint32_t material =
+            parts.kind == gpu::kLightSphere ? scene.spheres[order[parts.sphere]].material : parts.material;
         const glm::dvec3 emission(scene.materials.at(material).emission);
         const double etendue = lights.powers[i] / (emission.x + emission.y + emission.z);
         const auto pdf = static_cast<double>(lights.list.table[i].pdf);

@@ -11,8 +11,8 @@
 #include "shared/dielectric.h"
 #include "shared/sppm.h"
 
-layout(constant_id = 30) const uint has_glass_voxels = 0u;
-layout(constant_id = 31) const uint has_glass_spheres = 0u;
+layout(constant_id = 40) const uint has_glass_voxels = 0u;
+layout(constant_id = 41) const uint has_glass_spheres = 0u;
 
 layout(scalar) readonly buffer Materials {
     SurfaceMaterial materials[];

@@ -110,6 +110,16 @@ VX_CONST(float, kMostEta, 16.0f);
 // Photons. Smallest radius of a gather, in voxels: the distance of neighbouring floats between 1024 and 2048.
 // A smaller disc would measure the rounding of positions.
 VX_CONST(float, kLeastPhotonRadius, 1.220703125e-4f);  // 2^-13
+// Factor by which a disc is widened when its cells are looked up: several roundings of a distance.
+VX_CONST(float, kPhotonReach, 1.00000095367431640625f);  // 1 + 2^-20
+// Number of the farthest cell of photons; what lies beyond is in it, too.
+VX_CONST(float, kFarthestPhotonCell, 1.073741824e9f);  // 2^30
+// Cells along x in the width of a cell along y and z: fewer photons to look at, more buckets.
+VX_CONST(float, kPhotonCellParts, 4.0f);
+// Photons of a gather that are added in 32 bits before they go to 64: 2^11 of less than 2^21.
+VX_CONST(uint, kPhotonBatch, 2048u);
+// Workgroups along x of an indirect dispatch; the others go along y. The least limit that Vulkan allows.
+VX_CONST(uint, kMostGroups, 65535u);
 
 VX_END
 

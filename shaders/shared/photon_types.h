@@ -44,13 +44,8 @@ struct PhotonHead {
     uint count;
 };
 
-// Push constants of photon_scan.
-struct PhotonScanPush {
-    uint count;  // of what this dispatch goes over
-};
-
-// Buckets that one invocation of the prefix sum goes through, and invocations that then add up the runs: the
-// runs of 2^22 buckets are 1024 for each of them.
+// Buckets that one invocation of the prefix sum goes through. Of 2^22 buckets there are 2^16 runs, 1024 for
+// each of the invocations that turn their sums into prefix sums.
 VX_CONST(uint, kScanRun, 64u);
 
 // Runs of a prefix sum over so many buckets.
