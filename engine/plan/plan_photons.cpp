@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scene/surface_shares.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
 
@@ -49,10 +50,12 @@ LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec
         const glm::dvec3 far = glm::abs(sphere.centre - glm::dvec3(origin)) + sphere.radius;
         facts.extent = std::max({facts.extent, far.x, far.y, far.z});
     }
-    for (const Material& material : scene.materials)
-        facts.most_albedo = std::max(
-            facts.most_albedo,
-            static_cast<double>(std::max({material.albedo.x, material.albedo.y, material.albedo.z})));
+    for (const Material& material : scene.materials) {
+        const SurfaceShares shares = surface_shares(material);
+        if (shares.mirror + shares.glass >= 1.0f) continue;
+        const float albedo = std::max({material.albedo.x, material.albedo.y, material.albedo.z});
+        facts.most_albedo = std::max(facts.most_albedo, static_cast<double>(albedo));
+    }
     return facts;
 }
 

@@ -93,6 +93,10 @@ VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
+// Spheres that are tested in an unrolled loop. 16 kB, what every device takes as a uniform block, hold 455;
+// beyond 16 the loop gets too long to be unrolled.
+VX_CONST(uint, kFewSpheres, 16u);
+
 // Length of a ray that only asks what its first cell holds, voxels: shorter than any way out of a cell but
 // none.
 VX_CONST(float, kProbeLength, 1.0e-30f);
