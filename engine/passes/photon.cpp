@@ -33,6 +33,12 @@ void record_photon_scan(const RenderPlan& plan, const gpu::PhotonParams& params,
     record_scan_level(plan, 2, runs, recording);
 }
 
+// Invocations of a pass over the pixels of a slice in tiles of 8x8.
+Extent tile_extent(const RenderPlan& plan, const Slice& slice) {
+    const auto columns = static_cast<std::uint32_t>(plan.settings.size.x);
+    return {(columns + 7) / 8 * ((slice.row_count + 7) / 8) * 64, 1, 1};
+}
+
 }  // namespace
 
 gpu::PhotonParams photon_params(const PhotonSetup& setup) {
@@ -80,7 +86,7 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
                               {use_buffer(plan, "photon.narrow", recording)}};
     recording.dispatch({.label = "photon.gather",
                         .shader = "photon_gather",
-                        .extent = pixel_extent(plan, slice),
+                        .extent = tile_extent(plan, slice),
                         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                      {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
                                      {"Hits", hits.buffer},
