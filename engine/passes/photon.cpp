@@ -90,11 +90,13 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
                         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                      {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
                                      {"Hits", hits.buffer},
+                                     {"Spheres", spheres_buffer(plan, recording)},
                                      {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
                                      {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
                                      {"SortedPowers", use_buffer(plan, "photon.powers", recording)},
                                      {"Light", planes.light.buffer},
-                                     {"NarrowLight", planes.narrow.buffer}}});
+                                     {"NarrowLight", planes.narrow.buffer}},
+                        .constants = {{"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}}});
     return planes;
 }
 

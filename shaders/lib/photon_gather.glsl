@@ -135,7 +135,8 @@ void add_list(GatherBox box, GatherList list, vec3 point, bool takes, inout Phot
 
 // Cells of a box along y or z.
 uint cells_between(float low, float high) {
-    return uint(photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel)) + 1u;
+    int cells = photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel) + 1;
+    return uint(max(cells, 0));  // none of an empty box
 }
 
 // Adds the photons of a box. Its rows are looked up side by side, one by each invocation.
@@ -160,7 +161,7 @@ PhotonSums gather(vec3 position, uint surface) {
     PhotonSums sums = no_photons();
     float reach = photon.radius * kPhotonReach;
     bool waits = surface != kNoSurface;
-    while (subgroupAny(waits)) {  // the leader never waits again
+    while (subgroupAny(waits)) {  // one waits less after each turn
         uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
         GatherBox box;
         box.surface = subgroupShuffle(surface, leader);
@@ -169,7 +170,7 @@ PhotonSums gather(vec3 position, uint surface) {
         box.low = subgroupMin(takes ? position : vec3(kUnbounded)) - reach;
         box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
         add_box(box, position, takes, sums);
-        waits = waits && !takes;
+        waits = waits && !takes && gl_SubgroupInvocationID != leader;
     }
     return sums;
 }

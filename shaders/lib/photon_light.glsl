@@ -40,10 +40,10 @@ vec3 irradiance(u64vec3 sum, float area) {
     return density;
 }
 
-// Writes what the sums of a pixel mean, when `share` of its disc is there to receive photons.
-void store_light(uint index, PhotonSums sums, float share) {
+// Writes what the sums of a pixel mean, when these shares of its discs are there to receive photons.
+void store_light(uint index, PhotonSums sums, float share, float narrow_share) {
     precise float area = 3.14159274 * photon.radius * photon.radius * share;
-    precise float narrow_area = 3.14159274 * photon.narrow_radius * photon.narrow_radius * share;
+    precise float narrow_area = 3.14159274 * photon.narrow_radius * photon.narrow_radius * narrow_share;
     light[index] = irradiance(sums.wide, area);
     narrow_light[index] = irradiance(sums.narrow, narrow_area);
 }

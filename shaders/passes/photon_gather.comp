@@ -11,6 +11,7 @@
 #include "lib/frame_access.glsl"
 #include "lib/photon_frame.glsl"
 #include "lib/photon_gather.glsl"
+#include "lib/photon_share.glsl"
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
@@ -19,13 +20,10 @@ layout(scalar) readonly buffer Hits {
 void main() {
     Pixel pixel = tile_pixel();
     // Invocations outside the picture go along: photons are fetched by all of a subgroup.
-    uint surface = kNoSurface;
-    vec3 position = vec3(0.0);
-    if (pixel.inside) {
-        Hit hit = hits[pixel.index];
-        surface = photon_surface(hit);
-        position = photon_position(hit);
-    }
-    PhotonSums sums = gather(position, surface);
-    if (pixel.inside) store_light(pixel.index, sums, 1.0);
+    Hit hit;
+    hit.face = kFaceMiss;
+    if (pixel.inside) hit = hits[pixel.index];
+    PhotonSums sums = gather(photon_position(hit), photon_surface(hit));
+    if (!pixel.inside) return;
+    store_light(pixel.index, sums, disc_share(hit, photon.radius), disc_share(hit, photon.narrow_radius));
 }

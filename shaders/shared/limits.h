@@ -108,6 +108,12 @@ VX_CONST(float, kFarthestPhotonCell, 1.073741824e9f);  // 2^30
 VX_CONST(float, kPhotonCellParts, 2.0f);
 // Visible points gather together when they are no farther apart than this many radii.
 VX_CONST(float, kGatherSpread, 4.0f);
+// A sphere cuts the disc of a point only where the sine of the angle between their surfaces is above this:
+// nearly parallel surfaces lie on each other or are apart, and where they cross is rounding.
+VX_CONST(float, kLeastSlope, 0.001f);
+// A disc counts as no less than this share of it: what a corner of three walls leaves. In narrower corners
+// cuts are not independent, and dividing by less would amplify noise.
+VX_CONST(float, kLeastShare, 0.25f);
 // Workgroups along x of an indirect dispatch; the others go along y. The least limit that Vulkan allows.
 VX_CONST(uint, kMostGroups, 65535u);
 

@@ -42,6 +42,9 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     frame.sphere_count = static_cast<gpu::uint>(job.spheres.size());
     recording.upload(use_buffer(plan, "frame", recording), to_bytes(frame));
     recording.clear(use_buffer(plan, "tally", recording));
+    if (!job.spheres.empty())
+        recording.upload(use_buffer(plan, "sphere.records", recording),
+                         std::as_bytes(std::span(job.spheres)));
     recording.declare(
         {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
     recording.clear("t.points", 0xFFFFFFFFu);
@@ -60,18 +63,22 @@ RenderPlan photon_plan(const PhotonJob& job) {
     const std::uint64_t buckets = job.setup.buckets;
     RenderPlan plan;
     plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
-    plan.buffers = {{"frame", sizeof(gpu::FrameParams)},
-                    {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
-                    {"photon.frame", sizeof(gpu::PhotonParams)},
-                    {"photon.head", sizeof(gpu::PhotonHead)},
-                    {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
-                    {"photon.counts", buckets * 4},
-                    {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
-                    {"photon.starts", (buckets + 1) * 4},
-                    {"photon.places", capacity * 16},
-                    {"photon.powers", capacity * 8},
-                    {"photon.light", pixels * 12},
-                    {"photon.narrow", pixels * 12}};
+    plan.effects[static_cast<std::size_t>(Effect::spheres)].on = !job.spheres.empty();
+    plan.sphere_count = static_cast<std::uint32_t>(job.spheres.size());
+    plan.buffers = {
+        {"frame", sizeof(gpu::FrameParams)},
+        {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
+        {"sphere.records", std::max<std::size_t>(job.spheres.size(), 1) * sizeof(gpu::SphereRecord)},
+        {"photon.frame", sizeof(gpu::PhotonParams)},
+        {"photon.head", sizeof(gpu::PhotonHead)},
+        {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
+        {"photon.counts", buckets * 4},
+        {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
+        {"photon.starts", (buckets + 1) * 4},
+        {"photon.places", capacity * 16},
+        {"photon.powers", capacity * 8},
+        {"photon.light", pixels * 12},
+        {"photon.narrow", pixels * 12}};
     return plan;
 }
 
