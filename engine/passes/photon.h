@@ -38,4 +38,9 @@ struct PhotonPlanes {
 [[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                                 Recording& recording);
 
+// The same, to the bit, from photons that look for the points around them instead: `scatter`. Photons need
+// not be sorted (constant sorts_photons of the pass that stores them is 0).
+[[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
+                                               const Slice& slice, const Plane& hits, Recording& recording);
+
 }  // namespace voxilux

@@ -8,7 +8,9 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
+#include "lib/loops.glsl"
 #include "lib/photon_light.glsl"
+#include "lib/tally_access.glsl"
 
 layout(scalar) readonly buffer BucketStarts {
     uint bucket_starts[];
@@ -60,13 +62,9 @@ GatherRow gather_row(GatherBox box, uint number, uint columns, uint total) {
     row.z = photon_cell(box.low.z, photon.grid.cells_per_voxel) + int(number / columns);
     int x0 = photon_cell(box.low.x, photon.grid.x_cells_per_voxel);
     int x1 = photon_cell(box.high.x, photon.grid.x_cells_per_voxel);
-    uint size = photon.grid.mask + 1u;
-    uint length = uint(x1 - x0) + 1u;
-    bool is_whole = length >= size;
-    uint begin = is_whole ? 0u : (photon_row(row.y, row.z, box.surface) + uint(x0)) & photon.grid.mask;
-    uint end = begin + (is_whole ? size : length);
-    row.first = bucket_starts[begin];
-    row.count = bucket_starts[end > size ? end - size : end] + (end > size ? total : 0u) - row.first;
+    BucketRun run = bucket_run(row.y, row.z, x0, x1, box.surface, photon.grid);
+    row.first = bucket_starts[run.begin];
+    row.count = bucket_starts[run.end] + (run.wraps ? total : 0u) - row.first;
     return row;
 }
 
@@ -97,8 +95,10 @@ struct GatherList {
 
 Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
     uint at = 0u;  // the invocation whose row holds photon n
-    for (uint step = list.lanes / 2u; step > 0u; step /= 2u)
-        at += n >= subgroupShuffle(list.end, at + step - 1u) ? step : 0u;
+    for (uint step = 16u; step > 0u; step /= 2u) {
+        uint next = subgroupShuffle(list.end, (at + step - 1u) & (list.lanes - 1u));
+        at += step < list.lanes && n >= next ? step : 0u;
+    }
     uint i = subgroupShuffle(list.row.first + list.row.count - list.end, at) + n;
     i = i >= list.total ? i - list.total : i;
     i = n < list.count ? i : 0u;
@@ -172,6 +172,7 @@ PhotonSums gather(vec3 position, uint surface) {
         add_box(box, position, takes, sums);
         waits = waits && !takes && gl_SubgroupInvocationID != leader;
     }
+    count(kFaultPhotonLoopCut, are_loops_spent(gl_SubgroupSize) && surface != kNoSurface ? 1u : 0u);
     return sums;
 }
 

@@ -65,6 +65,27 @@ VX_FN uint photon_bucket(vec3 position, uint surface, PhotonGrid grid) {
     return (photon_row(y, z, surface) + uint(x)) & grid.mask;
 }
 
+// Neighbouring buckets, from `begin` to before `end`, places in the table of starts; it goes on at the
+// table's beginning when it wraps.
+struct BucketRun {
+    uint begin;
+    uint end;
+    bool wraps;
+};
+
+// The buckets of the cells x0 to x1 of a row, each once.
+VX_FN BucketRun bucket_run(int y, int z, int x0, int x1, uint surface, PhotonGrid grid) {
+    const uint size = grid.mask + 1u;
+    const uint length = uint(x1 - x0) + 1u;
+    const bool is_whole = length >= size;
+    BucketRun run;
+    run.begin = is_whole ? 0u : (photon_row(y, z, surface) + uint(x0)) & grid.mask;
+    const uint end = run.begin + (is_whole ? size : length);
+    run.wraps = end > size;
+    run.end = run.wraps ? end - size : end;
+    return run;
+}
+
 #ifdef __cplusplus
 // The grid for discs of a radius in a world whose coordinates are at most `extent` > 0 in magnitude, and a
 // power of two of buckets. Cells are wider than the disc by 2^-20 of the extent, several roundings of a

@@ -35,6 +35,13 @@ struct StoredPhoton {
     uint rank;  // among those of the bucket, in order of arrival
 };
 
+// A visible point that photons look for.
+struct PhotonPoint {
+    vec3 position;  // local to the world, voxels
+    uint surface;   // photon_surface()
+    uint pixel;     // of the slice
+};
+
 // Head of the store: the workgroups of passes over all photons in it, as an indirect dispatch reads them, and
 // how many asked for a place. More than fit are counted, too.
 struct PhotonHead {

@@ -79,6 +79,8 @@ const std::vector<Layout>& layouts() {
         VX_LAYOUT(StoredPhoton, VX_MEMBER(StoredPhoton, position), VX_MEMBER(StoredPhoton, surface),
                   VX_MEMBER(StoredPhoton, power), VX_MEMBER(StoredPhoton, bucket),
                   VX_MEMBER(StoredPhoton, rank)),
+        VX_LAYOUT(PhotonPoint, VX_MEMBER(PhotonPoint, position), VX_MEMBER(PhotonPoint, surface),
+                  VX_MEMBER(PhotonPoint, pixel)),
         VX_LAYOUT(PhotonHead, VX_MEMBER(PhotonHead, groups_x), VX_MEMBER(PhotonHead, groups_y),
                   VX_MEMBER(PhotonHead, groups_z), VX_MEMBER(PhotonHead, count)),
     };

@@ -41,7 +41,8 @@ struct PhotonOutcome {
 // A plan that holds the buffers of a job and nothing else.
 [[nodiscard]] RenderPlan photon_plan(const PhotonJob& job);
 
-// Appends, sorts and gathers.
+// Appends, sorts and gathers, or appends and splats.
 [[nodiscard]] PhotonOutcome run_photons(const PhotonJob& job, Executor& executor = test_executor());
+[[nodiscard]] PhotonOutcome run_splat(const PhotonJob& job, Executor& executor = test_executor());
 
 }  // namespace voxilux::test
