@@ -150,6 +150,7 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
     recording.dispatch_indirect({.label = "photon.splat",
                                  .shader = "photon_splat",
                                  .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+                                              {"Tally", use_buffer(plan, "tally", recording)},
                                               {"PhotonHeads", head},
                                               {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
                                               {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
