@@ -253,6 +253,35 @@ TEST(PhotonGather, light_leaks_neither_through_a_wall_nor_round_a_corner) {
     }
 }
 
+// A floor and a wall of the scenes' kind, the point half a radius from the wall: what the wall takes of the
+// disc is missing from the area.
+TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_leaves) {
+    PhotonJob job;
+    job.setup = {.radius = 2.0, .extent = 20.0, .most_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
+    job.points = {sphere_point({1.0f, 5.0f, 0.0f}, 0)};
+    job.photons = {{{1.25f, 5.0f, 0.0f}, gpu::photon_surface(job.points[0]), glm::vec3(0.5f), 1u}};
+    const PhotonOutcome open = test::run_photons(job);
+    job.spheres = {{gpu::sphere_anchored_near({0, 0, 1e4}, 1e4, {0, 0, 0}), 0},
+                   {gpu::sphere_anchored_near({1e4, 0, 0}, 1e4, {0, 0, 0}), 0}};
+    const PhotonOutcome walled = test::run_photons(job);
+    const double left =
+        2.0 / 3.0 + std::sqrt(3.0) / (4.0 * std::numbers::pi);  // of a line at half the radius
+    EXPECT_NEAR(double{walled.light[0].x} / double{open.light[0].x} * left, 1.0, 1e-3);
+    EXPECT_GT(walled.narrow[0].x, open.narrow[0].x);
+    EXPECT_TRUE(same_light(walled, test::run_splat(job)));
+}
+
+TEST(PhotonGather, workgroups_of_any_shape_give_the_same_bits) {
+    const PhotonJob job = random_job(12, {0, 0, 0}, 6.0, 2);
+    const PhotonOutcome want = test::run_photons(job);
+    for (const std::array<std::uint32_t, 2> size :
+         {std::array{16u, 16u}, std::array{4u, 2u}, std::array{3u, 5u}}) {
+        Executor executor(test_device(), all_shaders(), {.group_size = size, .poison_transients = true});
+        EXPECT_TRUE(same_light(want, test::run_photons(job, executor))) << size[0];
+        EXPECT_TRUE(same_light(want, test::run_splat(job, executor))) << size[0];
+    }
+}
+
 TEST(PhotonGather, a_moved_photon_is_found) {
     PhotonJob job = random_job(7, {0, 0, 0}, 10.0, 3);
     const PhotonOutcome outcome = test::run_photons(job);
