@@ -100,6 +100,7 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     params.capacity = setup.capacity;
     params.photon_count = setup.photon_count;
     params.iteration = setup.iteration;
+    params.alpha = static_cast<float>(setup.alpha);
     return params;
 }
 
@@ -125,7 +126,8 @@ void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params,
 }
 
 PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                                  Recording& recording) {
+                                  PhotonRadii radii, Recording& recording) {
+    const bool own = radii == PhotonRadii::own;
     const PhotonPlanes planes = photon_planes(plan, recording);
     Dispatch dispatch{.label = "photon.gather",
                       .shader = "photon_gather",
@@ -136,6 +138,9 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
                               {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
                               {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
                               {"SortedPowers", use_buffer(plan, "photon.powers", recording)}});
+    dispatch.bindings.push_back(
+        {"PixelRadii", own ? use_buffer(plan, "photon.radii", recording) : placeholder_buffer(recording)});
+    dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
     let_resolve(plan, planes, dispatch, recording);
     recording.dispatch(std::move(dispatch));
     return planes;

@@ -12,6 +12,8 @@
 #include "lib/photon_light.glsl"
 #include "lib/tally_access.glsl"
 
+layout(constant_id = 32) const uint own_radii = 0u;
+
 layout(scalar) readonly buffer BucketStarts {
     uint bucket_starts[];
 };
@@ -114,9 +116,7 @@ Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
 }
 
 // Adds the photons of a list to the sums of the points that take part.
-void add_list(GatherBox box, GatherList list, vec3 point, bool takes, inout PhotonSums sums) {
-    float radius_squared = takes ? photon.radius * photon.radius : -1.0;
-    float narrow_squared = takes ? photon.narrow_radius * photon.narrow_radius : -1.0;
+void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout PhotonSums sums) {
     for (uint first = 0u; first < list.count; first += list.lanes) {
         Fetched fetched = fetch_photon(box, list, first + gl_SubgroupInvocationID);
         uint wanted = subgroupBallot(fetched.is_wanted).x;
@@ -126,8 +126,9 @@ void add_list(GatherBox box, GatherList list, vec3 point, bool takes, inout Phot
             uint from = findLSB(left);
             float squared = photon_distance_squared(point, subgroupShuffle(fetched.position, from));
             uvec3 quanta = unpack_power(subgroupShuffle(fetched.power, from));
-            wide += squared <= radius_squared ? quanta : uvec3(0u);
-            narrow += squared <= narrow_squared ? quanta : uvec3(0u);
+            wide += squared <= discs.squared ? quanta : uvec3(0u);
+            if (own_radii != 0u) sums.met += squared <= discs.squared ? 1u : 0u;
+            narrow += squared <= discs.narrow_squared ? quanta : uvec3(0u);
         }
         add_quanta(sums, wide, narrow);
     }
@@ -140,7 +141,7 @@ uint cells_between(float low, float high) {
 }
 
 // Adds the photons of a box. Its rows are looked up side by side, one by each invocation.
-void add_box(GatherBox box, vec3 point, bool takes, inout PhotonSums sums) {
+void add_box(GatherBox box, vec3 point, Discs discs, inout PhotonSums sums) {
     uint columns = cells_between(box.low.y, box.high.y);
     uint rows = columns * cells_between(box.low.z, box.high.z);
     GatherList list;
@@ -152,12 +153,12 @@ void add_box(GatherBox box, vec3 point, bool takes, inout PhotonSums sums) {
         list.row.count = number < rows && gl_SubgroupInvocationID < list.lanes ? list.row.count : 0u;
         list.end = subgroupInclusiveAdd(list.row.count);
         list.count = subgroupShuffle(list.end, list.lanes - 1u);
-        add_list(box, list, point, takes, sums);
+        add_list(box, list, point, discs, sums);
     }
 }
 
 // The sums at a point; kNoSurface gets none. All invocations of a subgroup call it together.
-PhotonSums gather(vec3 position, uint surface) {
+PhotonSums gather(vec3 position, uint surface, Discs own) {
     PhotonSums sums = no_photons();
     float reach = photon.radius * kPhotonReach;
     bool waits = surface != kNoSurface;
@@ -169,7 +170,10 @@ PhotonSums gather(vec3 position, uint surface) {
         bool takes = waits && surface == box.surface && max(max(away.x, away.y), away.z) <= kGatherSpread * photon.radius;
         box.low = subgroupMin(takes ? position : vec3(kUnbounded)) - reach;
         box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
-        add_box(box, position, takes, sums);
+        Discs discs;  // of those that take part
+        discs.squared = takes ? own.squared : -1.0;
+        discs.narrow_squared = takes ? own.narrow_squared : -1.0;
+        add_box(box, position, discs, sums);
         waits = waits && !takes && gl_SubgroupInvocationID != leader;
     }
     count(kFaultPhotonLoopCut, are_loops_spent(gl_SubgroupSize) && surface != kNoSurface ? 1u : 0u);

@@ -24,6 +24,13 @@ struct PhotonParams {
     uint capacity;        // photons that fit in the store
     uint photon_count;    // emitted in an iteration
     uint iteration;       // from 1
+    float alpha;          // share of the new photons that a pixel with a radius of its own keeps
+};
+
+// The radius of a pixel that shrinks with the photons it has met (sppm.h).
+struct PixelRadius {
+    float squared;  // voxels^2
+    float photons;  // that count as met
 };
 
 // A photon where it met a diffuse surface: as it was stored, and as it was sorted.

@@ -282,6 +282,46 @@ TEST(PhotonGather, workgroups_of_any_shape_give_the_same_bits) {
     }
 }
 
+// Photons of a surface within a squared radius of a point.
+double photons_within(const PhotonJob& job, const gpu::Hit& hit, double squared) {
+    double count = 0.0;
+    for (const gpu::PhotonIn& photon : job.photons) {
+        const glm::dvec3 away = glm::dvec3(photon.position) - glm::dvec3(gpu::photon_position(hit));
+        const bool counts = photon.is_stored != 0 && photon.surface == gpu::photon_surface(hit);
+        count += counts && glm::dot(away, away) <= squared ? 1.0 : 0.0;
+    }
+    return count;
+}
+
+// The paper's statistics in double precision, flux included: its estimate is the mean of what the passes
+// gave.
+TEST(PhotonGather, radii_of_pixels_shrink_as_the_paper_says_and_the_mean_is_its_estimate) {
+    PhotonJob job = random_job(21, {0, 0, 0}, 10.0, 1);
+    job.radii = PhotonRadii::own;
+    job.points.resize(64);
+    std::vector<double> squared(64, job.setup.radius * job.setup.radius), met(64, 0.0), flux(64, 0.0),
+        sum(64, 0.0);
+    for (std::uint32_t iteration = 1; iteration <= 4; ++iteration) {
+        job.photons = random_job(100 + iteration, {0, 0, 0}, 10.0, 1).photons;
+        job.setup.iteration = iteration;
+        const PhotonOutcome outcome = test::run_photons(job);
+        for (std::size_t i = 0; i < 64; ++i) {
+            const double m = photons_within(job, job.points[i], squared[i]);
+            const double phi =
+                light_at(job, job.points[i], std::sqrt(squared[i])).light.x * std::numbers::pi * squared[i];
+            const double ratio = m > 0.0 ? (met[i] + job.setup.alpha * m) / (met[i] + m) : 1.0;
+            flux[i] = (flux[i] + phi) * ratio;
+            squared[i] *= ratio;
+            met[i] += job.setup.alpha * m;
+            sum[i] += double{outcome.light[i].x};
+            ASSERT_NEAR(double{outcome.radii[i].squared} / squared[i], 1.0, 1e-5) << i << ", " << iteration;
+            const double estimate = flux[i] / (std::numbers::pi * squared[i]);
+            ASSERT_NEAR(sum[i], estimate, 1e-5 * estimate) << i << ", " << iteration;
+        }
+    }
+    EXPECT_LT(squared[0], 0.9 * job.setup.radius * job.setup.radius);
+}
+
 TEST(PhotonGather, a_moved_photon_is_found) {
     PhotonJob job = random_job(7, {0, 0, 0}, 10.0, 3);
     const PhotonOutcome outcome = test::run_photons(job);

@@ -61,6 +61,8 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
         outcome.places = values_of<std::uint64_t>(result, "photon.places");
         outcome.powers = values_of<std::uint64_t>(result, "photon.powers");
     }
+    if (result.readbacks.contains("photon.radii"))
+        outcome.radii = values_of<gpu::PixelRadius>(result, "photon.radii");
     const auto tally = values_of<gpu::uint>(result, "tally");
     std::copy_n(tally.begin(), outcome.tally.size(), outcome.tally.begin());
     outcome.times = result.passes;
@@ -76,12 +78,13 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     record_photon_clear(plan, params, recording);
     record_append(plan, job, !scatters, recording);
     if (!scatters) record_photon_sort(plan, params, recording);
-    const PhotonPlanes planes = scatters ? record_photon_splat(plan, params, slice, {"t.points"}, recording)
-                                         : record_photon_gather(plan, slice, {"t.points"}, recording);
+    const PhotonPlanes planes = scatters
+                                    ? record_photon_splat(plan, params, slice, {"t.points"}, recording)
+                                    : record_photon_gather(plan, slice, {"t.points"}, job.radii, recording);
     for (const std::string& buffer :
          {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally")})
         recording.readback(buffer);
-    for (const char* buffer : {"photon.places", "photon.powers"})
+    for (const char* buffer : {"photon.places", "photon.powers", "photon.radii"})
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
     return outcome_of(executor.run(recording), planes);
 }
@@ -113,6 +116,7 @@ RenderPlan photon_plan(const PhotonJob& job) {
         {"photon.places", capacity * 16},
         {"photon.powers", capacity * 8},
         {"photon.ranks", pixels * 4},
+        {"photon.radii", pixels * sizeof(gpu::PixelRadius), true},
         {"photon.points", pixels * sizeof(gpu::PhotonPoint)},
         {"photon.totals", pixels * 48},
         {"photon.light", pixels * 12},
