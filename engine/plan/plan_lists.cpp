@@ -39,9 +39,14 @@ void list_photon_passes(const RenderPlan& plan, std::uint64_t slices, const AddP
     const bool on = plan.has_photons();
     add(on, "photon.emit", slices);
     add(on, "photon.trace", slices);
+    const bool scatter = plan.settings.photons.scatter;
+    add(on && scatter, "photon.point", slices);
     add(on, "photon.scan", 3 * slices);
-    add(on, "photon.sort", slices);
-    add(on, "photon.gather", slices);
+    add(on && scatter, "photon.place", slices);
+    add(on && scatter, "photon.splat", slices);
+    add(on && scatter, "photon.resolve", slices);
+    add(on && !scatter, "photon.sort", slices);
+    add(on && !scatter, "photon.gather", slices);
 }
 
 void list_photon_buffers(RenderPlan& plan) {
@@ -57,10 +62,19 @@ void list_photon_buffers(RenderPlan& plan) {
     list("photon.counts", photons.buckets * sizeof(gpu::uint));
     list("photon.runs", gpu::scan_runs(photons.buckets) * sizeof(gpu::uint));
     list("photon.starts", (photons.buckets + 1) * sizeof(gpu::uint));
-    list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
-    list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
-    list("photon.light", plan.slice_pixels() * sizeof(gpu::vec3));
-    list("photon.narrow", plan.slice_pixels() * sizeof(gpu::vec3));
+    const std::uint64_t pixels = plan.slice_pixels();
+    list("photon.light", pixels * sizeof(gpu::vec3));
+    list("photon.narrow", pixels * sizeof(gpu::vec3));
+    if (plan.settings.photons.classic)
+        plan.buffers.push_back({"photon.radii", pixels * sizeof(gpu::PixelRadius), true});
+    if (plan.settings.photons.scatter) {
+        list("photon.ranks", pixels * sizeof(gpu::uint));
+        list("photon.points", pixels * sizeof(gpu::PhotonPoint));
+        list("photon.totals", pixels * 6 * sizeof(std::uint64_t));
+    } else {
+        list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
+        list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
+    }
 }
 
 void list_ao_buffers(RenderPlan& plan) {

@@ -47,6 +47,8 @@ struct PhotonNeeds {
     bool keeps_indirect = false;
     glm::vec3 sun_irradiance{0.0f};
     std::uint64_t pixels = 0;
+    std::uint32_t spheres = 0;
+    bool has_voxels = false;
 };
 
 // Throws Error(input_refused) when the photons of an iteration would not fit in a binding.
