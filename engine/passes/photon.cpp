@@ -48,9 +48,11 @@ PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
 void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& dispatch,
                  Recording& recording) {
     dispatch.bindings.insert(dispatch.bindings.end(), {{"Spheres", spheres_buffer(plan, recording)},
+                                                       {"SphereTable", sphere_table_buffer(plan, recording)},
                                                        {"Light", planes.light.buffer},
                                                        {"NarrowLight", planes.narrow.buffer}});
-    dispatch.constants.push_back({"has_spheres", plan.has(Effect::spheres) ? 1u : 0u});
+    for (const Constant& constant : sphere_constants(plan))
+        dispatch.constants.push_back(constant);
 }
 
 // Sorts the visible points into buckets.

@@ -75,12 +75,16 @@ WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
             .leaves = use_or_placeholder(plan, on, "world.leaves", recording)};
 }
 
+std::vector<Constant> sphere_constants(const RenderPlan& plan) {
+    const bool on = plan.has(Effect::spheres);
+    const bool few = on && plan.sphere_count <= gpu::kFewSpheres;
+    return {{"has_spheres", on ? 1u : 0u}, {"few_spheres", few ? plan.sphere_count : 0u}};
+}
+
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
-    const bool spheres = plan.has(Effect::spheres);
-    const bool few = spheres && plan.sphere_count <= gpu::kFewSpheres;
-    return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u},
-            {"has_spheres", spheres ? 1u : 0u},
-            {"few_spheres", few ? plan.sphere_count : 0u}};
+    std::vector<Constant> constants = sphere_constants(plan);
+    constants.push_back({"has_voxels", plan.has(Effect::voxels) ? 1u : 0u});
+    return constants;
 }
 
 Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,

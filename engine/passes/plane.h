@@ -44,6 +44,8 @@ struct Slice {
 
 // Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
+// Those of them that say which spheres there are.
+[[nodiscard]] std::vector<Constant> sphere_constants(const RenderPlan& plan);
 
 // A buffer of one word that no shader uses, for blocks that a variant of a shader leaves alone.
 [[nodiscard]] std::string placeholder_buffer(Recording& recording);

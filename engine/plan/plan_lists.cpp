@@ -143,7 +143,8 @@ void list_buffers(RenderPlan& plan) {
     const bool grows = plan.has(Effect::voxels) && plan.world.growth.steps > 0;
     transient(grows, "world.homes", plan.world.growth.home_bytes);
     by_address(grows, "world.grown", plan.world.growth.grown_bytes, false);
-    persistent(plan.has(Effect::spheres), "sphere.records", std::max(plan.sphere_count, gpu::kFewSpheres) * sizeof(gpu::SphereRecord));
+    persistent(plan.has(Effect::spheres), "sphere.records",
+               std::max(plan.sphere_count, gpu::kFewSpheres) * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.starts", plan.slice_tiles() * sizeof(float));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));

@@ -15,7 +15,7 @@ namespace {
 
 // Photons that one invocation traces on a CPU: a path's length varies, and what eight invocations do together
 // takes as long as the longest of them; over so many paths the sums of the lengths are within a few percent.
-constexpr double kPhotonsPerLane = 32.0;
+constexpr double kPhotonsPerLane = 128.0;
 // Turns of all loops that one invocation may be expected to take: a quarter of what lavapipe allows.
 constexpr double kLaneTurns = 16384.0;
 constexpr double kMarchTurns = 32.0;  // of a ray through voxels

@@ -32,6 +32,7 @@ struct PathRay {
 // glass voxel, seen from inside, and `beyond` is the cell behind the face.
 struct PathHit {
     Hit hit;
+    vec3 normal;  // unit, on the side that the ray comes from
     bool leaves_medium;  // through a face of its glass voxels
     bool stays;          // no surface: the next voxel is of the same glass, or the ray starts in glass
     uint far_medium;     // material of the glass voxel behind the face, or kNoMedium
@@ -56,6 +57,7 @@ PathHit no_hit() {
     found.hit.t = kUnbounded;
     found.hit.material = 0u;
     found.hit.sphere = kNoSphere;
+    found.normal = vec3(0.0, 0.0, 1.0);
     found.leaves_medium = false;
     found.stays = false;
     found.far_medium = kNoMedium;
@@ -152,13 +154,17 @@ void find_sphere(PathRay path, inout PathHit found) {
     if (nearest.i == kNoSphere) return;
     found = no_hit();
     found.hit.t = nearest.t;
-    place_on_sphere(found.hit, nearest.i, origin, path.direction);
+    found.normal = place_on_sphere(found.hit, nearest.i, origin, path.direction);
 }
 
 // What a ray meets first.
 PathHit next_hit(PathRay path) {
     PathHit found = no_hit();
-    if (has_voxels != 0u) find_voxel(path, found);
+    if (has_voxels != 0u) {
+        find_voxel(path, found);
+        vec3 outward = face_normal(found.hit.face);
+        found.normal = found.leaves_medium ? -outward : outward;
+    }
     if (has_spheres != 0u) find_sphere(path, found);
     return found;
 }
@@ -220,6 +226,7 @@ const uint kEventRefract = 3u;
 
 struct PathEvent {
     uint kind;
+    vec3 albedo;     // of the surface
     vec3 direction;  // in which it goes on
     float eta;       // far over near index of refraction
 };
@@ -232,19 +239,19 @@ PathEvent path_event(PathRay path, PathHit found, vec2 u) {
     bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
     bool is_glass_here = material.glass > 0.0 && (from_inside || u.x < material.glass);
     bool is_mirror_here = !is_glass_here && u.x < material.glass + material.mirror;
-    vec3 normal = found.leaves_medium ? -face_normal(found.hit.face) : surface_normal(found.hit);
     PathEvent event;
     event.kind = is_mirror_here ? kEventMirror : kEventDiffuse;
+    event.albedo = material.albedo;
     event.eta = 1.0;
-    event.direction = mirror_direction(path.direction, normal);
+    event.direction = mirror_direction(path.direction, found.normal);
     if (is_glass_here) {
         Interface between = interface_at(path, found);
         event.eta = between.far / between.near;
-        Dielectric surface = dielectric(-dot(path.direction, normal), event.eta);
+        Dielectric surface = dielectric(-dot(path.direction, found.normal), event.eta);
         bool reflects = u.y < surface.reflectance || surface.is_total;
         event.kind = reflects ? kEventMirror : kEventRefract;
         if (between.is_none) event.kind = kEventPass;
-        if (!reflects) event.direction = refracted_direction(path.direction, normal, event.eta, surface);
+        if (!reflects) event.direction = refracted_direction(path.direction, found.normal, event.eta, surface);
         if (between.is_none) event.direction = path.direction;
     }
     return event;

@@ -7,10 +7,14 @@
 #include "shared/photon_area.h"
 
 layout(constant_id = 1) const uint has_spheres = 0u;
+layout(constant_id = 12) const uint few_spheres = 0u;  // how many there are, or 0 for more than fit
 layout(constant_id = 31) const uint clips_discs = 1u;
 
 layout(scalar) readonly buffer Spheres {
     SphereRecord spheres[];
+};
+layout(scalar) uniform SphereTable {
+    SphereRecord sphere_table[kFewSpheres];
 };
 
 vec3 disc_normal(Hit hit) {
@@ -19,18 +23,27 @@ vec3 disc_normal(Hit hit) {
     return normalize(shape.normal + shape.curvature * (photon_position(hit) - shape.anchor));
 }
 
-// In [kLeastShare, 1]. Unit normals of either side will do.
-float disc_share(Hit hit, float radius) {
-    if (has_spheres == 0u || clips_discs == 0u || photon_surface(hit) == kNoSurface) return 1.0;
+// Shares of the discs of a common centre and two radii that one sphere leaves. Light goes through the first spheres.
+vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 radii) {
+    if (i == own || i < frame.glass_spheres) return vec2(1.0);
+    return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
+}
+
+// The shares of a hit's two discs, in [kLeastShare, 1].
+vec2 disc_shares(Hit hit, vec2 radii) {
+    vec2 shares = vec2(1.0);
+    if (has_spheres == 0u || clips_discs == 0u || photon_surface(hit) == kNoSurface) return shares;
     uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;
     vec3 normal = disc_normal(hit);
     vec3 point = photon_position(hit);
-    float share = 1.0;
-    for (uint i = frame.glass_spheres; i < frame.sphere_count; ++i) {  // light goes through the first ones
-        float taken = share_taken(spheres[i].shape, point, normal, radius);
-        share *= i == own ? 1.0 : 1.0 - taken;
+    if (few_spheres != 0u) {
+        for (uint i = 0u; i < few_spheres; ++i)
+            shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
+    } else {
+        for (uint i = 0u; i < frame.sphere_count; ++i)
+            shares *= shares_left(spheres[i].shape, i, own, point, normal, radii);
     }
-    return max(share, kLeastShare);
+    return max(shares, vec2(kLeastShare));
 }
 
 #endif

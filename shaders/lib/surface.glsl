@@ -79,16 +79,18 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     return nearest;
 }
 
-// Makes a hit of the crossing of sphere `i` at hit.t.
-void place_on_sphere(inout Hit hit, uint i, vec3 origin, vec3 direction) {
+// Makes a hit of the crossing of sphere `i` at hit.t. Returns the normal on the side that was hit.
+vec3 place_on_sphere(inout Hit hit, uint i, vec3 origin, vec3 direction) {
     vec3 position = origin + hit.t * direction;
     vec3 corner = floor(position);
     hit.cell = ivec3(corner);
     hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));
-    bool leaves = dot(sphere_normal(spheres[i].shape, position), direction) > 0.0;
+    vec3 outward = sphere_normal(spheres[i].shape, position);
+    bool leaves = dot(outward, direction) > 0.0;
     hit.face = leaves ? kFaceSphereInside : kFaceSphere;
     hit.material = spheres[i].material;
     hit.sphere = i;
+    return leaves ? -outward : outward;
 }
 
 // A ray off the surface of a hit. `direction` points out of it.

@@ -46,8 +46,7 @@ void main() {
     }
     PhotonSums sums = gather(photon_position(hit), photon_surface(hit), discs);
     if (!pixel.inside) return;
-    float share = disc_share(hit, sqrt(discs.squared));
-    float narrow_share = disc_share(hit, sqrt(discs.narrow_squared));
-    store_light(pixel.index, sums, discs, share, narrow_share);
+    vec2 shares = disc_shares(hit, vec2(sqrt(discs.squared), sqrt(discs.narrow_squared)));
+    store_light(pixel.index, sums, discs, shares.x, shares.y);
     if (own_radii != 0u) radii[pixel.index] = shrunk_radius(radius, float(sums.met), photon.alpha);
 }

@@ -29,5 +29,6 @@ void main() {
     PhotonSums sums;
     sums.wide = u64vec3(totals[first], totals[first + 1u], totals[first + 2u]);
     sums.narrow = u64vec3(totals[first + 3u], totals[first + 4u], totals[first + 5u]);
-    store_light(pixel.index, sums, common_discs(), disc_share(hit, photon.radius), disc_share(hit, photon.narrow_radius));
+    vec2 shares = disc_shares(hit, vec2(photon.radius, photon.narrow_radius));
+    store_light(pixel.index, sums, common_discs(), shares.x, shares.y);
 }

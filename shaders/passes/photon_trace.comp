@@ -63,15 +63,14 @@ bool bounce(inout Photon photon, PathHit found) {
     bool is_kept = photon.is_scattered ? keeps_indirect != 0u : is_caustic && keeps_caustics != 0u;
     if (is_diffuse && is_kept)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
-    vec3 normal = surface_normal(found.hit);
-    vec3 scattered = cosine_about(normal, vec2(draw(photon, 2u), draw(photon, 3u)));
+    vec3 scattered = cosine_about(found.normal, vec2(draw(photon, 2u), draw(photon, 3u)));
     PathRay off_surface = path_from(found.hit, scattered);
     off_surface.medium = photon.path.medium;
     if (is_diffuse) next = off_surface;
     photon.is_scattered = photon.is_scattered || is_diffuse;
     photon.path = next;
     if (event.kind == kEventPass) return true;
-    photon.throughput *= materials[found.hit.material].albedo;
+    photon.throughput *= event.albedo;
     float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;
     bool survives = draw(photon, 4u) < survival && (keeps_indirect != 0u || !is_diffuse);
     photon.throughput /= survives ? survival : 1.0;

@@ -27,6 +27,7 @@ PathHit first_hit(Pixel pixel) {
     PathHit found = no_hit();
     found.hit = first_hits[pixel.index];
     if (!is_surface(found.hit)) return found;
+    found.normal = surface_normal(found.hit);
     found.far_medium = is_glass(found.hit.material) && !is_on_sphere(found.hit) ? found.hit.material : kNoMedium;
     found.stays = found.hit.face == kFaceInside && found.far_medium != kNoMedium;
     return found;
@@ -66,7 +67,7 @@ void main() {
                                               rng_float(key.seed, key.stream, key.index, 2u * pair + 1u));
         PathEvent event = path_event(path, found, u);
         if (event.kind == kEventDiffuse) break;
-        if (event.kind != kEventPass) weight *= materials[found.hit.material].albedo;
+        if (event.kind != kEventPass) weight *= event.albedo;
         if (event.kind == kEventRefract) weight *= radiance_scale(event.eta);
         if (bounce >= kSureBounces) {
             float survival = roulette_survival(weight);
