@@ -23,6 +23,8 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 constexpr double kStoreMargin = 1.5;
 constexpr double kMostStored = 64.0;
 constexpr double kDefaultRadius = 1.0;
+// Over the rounding of a photon's power on the device, four products: no photon may seem to pass the most.
+constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
 double stored_per_photon(double most_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
@@ -82,6 +84,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
         plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);
     if (plan.sun_photons != 0)
         plan.most_power = glm::max(plan.most_power, sun_power / static_cast<double>(plan.sun_photons));
+    plan.most_power *= kPowerMargin;
     return plan;
 }
 
