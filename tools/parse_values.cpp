@@ -117,6 +117,19 @@ double parse_error_target(std::string_view text) {
     return is_percent ? number->first / 100.0 : number->first;
 }
 
+Shard parse_shard(std::string_view text) {
+    const char* const end = text.data() + text.size();
+    std::uint32_t number = 0;
+    std::uint32_t count = 0;
+    const auto first = std::from_chars(text.data(), end, number);
+    const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+    const auto second = has_slash ? std::from_chars(first.ptr + 1, end, count) : first;
+    const bool is_read = has_slash && second.ec == std::errc() && second.ptr == end;
+    if (!is_read || number < 1 || number > count)
+        refuse(fmt::format("--shard: '{}' is not I/N with I from 1 to N, such as 2/4", text));
+    return {number - 1, count};
+}
+
 AoMethod parse_ao_method(std::string_view name) {
     static constexpr std::array<std::pair<std::string_view, AoMethod>, 3> kNames = {
         {{"auto", AoMethod::automatic}, {"brute", AoMethod::brute}, {"hash", AoMethod::hash}}};

@@ -31,6 +31,9 @@ namespace voxilux {
 // "1%" or "0.01", as a share above 0.
 [[nodiscard]] double parse_error_target(std::string_view text);
 
+// "2/4": the second of four shards.
+[[nodiscard]] Shard parse_shard(std::string_view text);
+
 // sobol, halton or white.
 [[nodiscard]] AoMethod parse_ao_method(std::string_view name);
 [[nodiscard]] Sequence parse_sequence(std::string_view name);

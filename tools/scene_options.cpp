@@ -19,6 +19,12 @@ constexpr std::uint64_t kMostMib = std::numeric_limits<std::uint64_t>::max() >> 
 
 void add_sampling_flags(CLI::App& command, SceneOptions& options) {
     command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
+    command
+        .add_option("--iterations", options.iterations,
+                    "iterations of photons: the samples per pixel of such a render")
+        ->type_name("N")
+        ->excludes("--spp")
+        ->group(kSampling);
     command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
         ->type_name("N")
         ->group(kSampling);
@@ -97,7 +103,7 @@ Scene load_scene_with(const SceneOptions& options) {
     Scene scene = load_scene(options.input, {.overrides = options.overrides});
     RenderSettings& settings = scene.settings;
     settings.size = size.value_or(settings.size);
-    settings.spp = options.spp.value_or(settings.spp);
+    settings.spp = options.iterations.value_or(options.spp.value_or(settings.spp));
     settings.ao_rays = options.ao_rays.value_or(settings.ao_rays);
     settings.ao_radius = options.ao_radius.value_or(settings.ao_radius);
     settings.seed = options.seed.value_or(settings.seed);

@@ -19,6 +19,7 @@ struct SceneOptions {
     std::optional<std::string> size;
     std::optional<std::string> camera;
     std::optional<std::uint32_t> spp;
+    std::optional<std::uint32_t> iterations;  // another name of spp
     std::optional<std::uint32_t> ao_rays;
     std::optional<float> ao_radius;
     std::optional<std::uint32_t> seed;

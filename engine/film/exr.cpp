@@ -129,6 +129,8 @@ Imf::Header make_header(const Image& image, const ExrOptions& options) {
         const bool is_half = channel.precision == Image::Precision::half;
         header.channels().insert(name, Imf::Channel(is_half ? Imf::HALF : Imf::FLOAT));
     }
+    for (const auto& [name, words] : image.words)
+        header.channels().insert(name, Imf::Channel(Imf::UINT));
     return header;
 }
 
@@ -136,6 +138,7 @@ Imf::Header make_header(const Image& image, const ExrOptions& options) {
 struct Planes {
     std::map<std::string, std::vector<half>> halves;
     std::map<std::string, std::vector<float>> singles;
+    std::map<std::string, std::vector<unsigned int>> words;
 };
 
 Planes make_planes(const Image& image, WriteReport& report) {
@@ -155,6 +158,10 @@ Planes make_planes(const Image& image, WriteReport& report) {
                 plane.push_back(storable(v, largest, report));
         }
     }
+    for (const auto& [name, words] : image.words) {
+        VX_ASSERT_EQ(words.size(), pixel_count(image));
+        planes.words[name] = words;
+    }
     return planes;
 }
 
@@ -171,6 +178,8 @@ void write_planes(Imf::OStream& stream, const Imf::Header& header, Planes& plane
         frame.insert(name, slice_of(Imf::HALF, plane, window));
     for (auto& [name, plane] : planes.singles)
         frame.insert(name, slice_of(Imf::FLOAT, plane, window));
+    for (auto& [name, plane] : planes.words)
+        frame.insert(name, slice_of(Imf::UINT, plane, window));
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(frame);
     file.writePixels(window.max.y - window.min.y + 1);

@@ -23,6 +23,9 @@ inline constexpr std::size_t kMaxExrFrameBytes = std::size_t{1} << 30;  // of a 
 inline constexpr std::size_t kMaxExrGrowth = 2064;
 inline constexpr std::size_t kFreeExrBytes = std::size_t{64} << 20;  // allowed whatever the size of the file
 
+// Layer of the exact sums that parts of a render carry beside their picture, in UINT channels.
+inline constexpr const char* kSumsLayer = "sums.";
+
 // Where the image lies in the full frame, in pixels. Full sizes of 0 mean that the image is the whole frame.
 struct ExrWindow {
     int x = 0;
@@ -46,15 +49,19 @@ struct WriteReport {
     std::uint64_t non_finite = 0;  // NaN, stored as 0; infinities, stored as the largest finite number
 };
 
-// Writes a scanline EXR (ZIP, 16 rows a block), each channel in its own precision, row 0 on top; text
-// attributes of the image become string attributes. Needs at least one pixel and one channel. The file
-// appears whole or not at all. Throws Error(cannot_write) with the reason.
+// Writes a scanline EXR (ZIP, 16 rows a block), each channel in its own precision, planes of whole numbers as
+// UINT, row 0 on top; text attributes of the image become string attributes. Needs at least one pixel and one
+// channel. The file appears whole or not at all. Throws Error(cannot_write) with the reason.
 WriteReport write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
 
 // The first part of an EXR: all channels as float over the display window, zero outside the data window;
-// string attributes. Throws Error(input_refused) for whatever cannot be read, deep and subsampled data
-// included.
+// string attributes. The sums of a part are left out. Throws Error(input_refused) for whatever cannot be
+// read, deep and subsampled data included.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
+
+// The first part of an EXR as it was written: the data window alone, UINT channels as whole numbers. Throws
+// as read_exr.
+[[nodiscard]] Image read_exr_part(const std::filesystem::path& path);
 
 // As read_exr, from bytes in memory; `name` stands for the file in messages.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes, const std::string& name);

@@ -112,43 +112,60 @@ void read_attributes(const Imf::Header& header, Image& image) {
     }
 }
 
-void read_channels(Imf::InputPart& part, Image& image) {
+// What is read of a file.
+enum class Area {
+    frame,  // the display window, sums left out
+    data,   // the data window, whole numbers as such
+};
+
+template <class T>
+Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& box) {
+    static_assert(sizeof(T) == 4);
+    const Window data = window_of(box);
+    plane.resize(static_cast<std::size_t>(data.width * data.height));
+    return Imf::Slice::Make(type, plane.data(), box, sizeof(T),
+                            sizeof(T) * static_cast<std::size_t>(data.width));
+}
+
+void read_channels(Imf::InputPart& part, Area area, Image& image) {
     const Imf::Header& header = part.header();
     const Imath::Box2i box = header.dataWindow();
-    const Window data = window_of(box);
-    const Window display = window_of(header.displayWindow());
     std::map<std::string, std::vector<float>> planes;
     Imf::FrameBuffer frame;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-        std::vector<float>& plane = planes[c.name()];
-        plane.resize(static_cast<std::size_t>(data.width * data.height));
-        frame.insert(c.name(), Imf::Slice::Make(Imf::FLOAT, plane.data(), box, sizeof(float),
-                                                sizeof(float) * static_cast<std::size_t>(data.width)));
-        image.channels[c.name()].precision =
-            c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
+        const std::string name = c.name();
+        const bool is_whole_number = c.channel().type == Imf::UINT;
+        if (is_whole_number && area == Area::data) {
+            frame.insert(name, slice_of(Imf::UINT, image.words[name], box));
+        } else if (!is_whole_number || !name.starts_with(kSumsLayer)) {
+            frame.insert(name, slice_of(Imf::FLOAT, planes[name], box));
+            image.channels[name].precision =
+                c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
+        }
     }
     part.setFrameBuffer(frame);
     part.readPixels(box.min.y, box.max.y);
-    const bool is_whole = header.dataWindow() == header.displayWindow();
+    const bool is_whole = area == Area::data || header.dataWindow() == header.displayWindow();
     for (auto& [name, plane] : planes)
-        image.channels[name].pixels = is_whole ? std::move(plane) : place(plane, data, display);
+        image.channels[name].pixels =
+            is_whole ? std::move(plane)
+                     : place(plane, window_of(header.dataWindow()), window_of(header.displayWindow()));
 }
 
-}  // namespace
-
-Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+Image decode(std::span<const std::byte> bytes, const std::string& name, Area area) {
     try {
         // The library sizes tables from the header while it opens a file; this makes it look at the header
         // first.
         Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
         MemoryStream stream(bytes, name);
         Imf::MultiPartInputFile file(stream, 0, false);
-        check_header(file.header(0), bytes.size());
-        const Window display = window_of(file.header(0).displayWindow());
-        Image image{.width = static_cast<int>(display.width), .height = static_cast<int>(display.height)};
+        const Imf::Header& header = file.header(0);
+        check_header(header, bytes.size());
+        const Window window = window_of(area == Area::data ? header.dataWindow() : header.displayWindow());
+        Image image{.width = static_cast<int>(window.width), .height = static_cast<int>(window.height)};
         Imf::InputPart part(file, 0);
         read_attributes(part.header(), image);
-        read_channels(part, image);
+        read_channels(part, area, image);
         return image;
     } catch (const std::exception& cause) {
         std::string reason = cause.what();
@@ -157,8 +174,18 @@ Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
     }
 }
 
+}  // namespace
+
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+    return decode(bytes, name, Area::frame);
+}
+
 Image read_exr(const std::filesystem::path& path) {
     return decode_exr(read_file(path, kMaxExrFileBytes), path.string());
+}
+
+Image read_exr_part(const std::filesystem::path& path) {
+    return decode(read_file(path, kMaxExrFileBytes), path.string(), Area::data);
 }
 
 }  // namespace voxilux

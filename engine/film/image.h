@@ -26,7 +26,8 @@ struct Image {
     int width = 0;
     int height = 0;
     std::map<std::string, Channel> channels;
-    std::map<std::string, std::string> attributes;  // text attributes of the EXR header
+    std::map<std::string, std::vector<std::uint32_t>> words;  // planes of whole numbers, [height][width]
+    std::map<std::string, std::string> attributes;            // text attributes of the EXR header
     bool display_referred =
         false;  // colours are in [0,1] and each is the decoded value of an 8-bit sRGB code
 };

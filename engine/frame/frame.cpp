@@ -119,7 +119,7 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     record_film_add(plan, slice, {"normal", 3}, surface.normal, rec);
     if (plan.has(Effect::ao)) record_film_add(plan, slice, {"ao", 1}, ao, rec);
     if (plan.has(Effect::sun)) record_film_add(plan, slice, {"sun", 1}, sun, rec);
-    if (sample == 0) record_aov_position(plan, slice, hits, rec);
+    if (sample == number.first) record_aov_position(plan, slice, hits, rec);
 }
 
 }  // namespace voxilux

@@ -18,6 +18,7 @@ namespace voxilux {
 struct SampleNumber {
     std::uint32_t sample = 0;  // of the frame
     FrameState state;          // what earlier frames and samples left behind
+    std::uint32_t first = 0;   // the sample that gives the film its positions and depths
 };
 
 // One sample of every pixel of a slice, from camera rays to the film.

@@ -89,7 +89,7 @@ void list_ao_buffers(RenderPlan& plan) {
 }  // namespace
 
 void list_passes(RenderPlan& plan) {
-    const std::uint64_t slices = slices_of_a_sample(plan) * plan.settings.spp;
+    const std::uint64_t slices = slices_of_a_sample(plan) * plan.samples();
     const auto add = [&](bool on, const char* label, std::uint64_t count) {
         if (on && count > 0) plan.passes.push_back({label, count});
     };

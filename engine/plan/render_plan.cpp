@@ -61,6 +61,18 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
     plan.settings.size = end - first;
 }
 
+void check_shard(const RenderPlan& plan) {
+    if (plan.shard.is_whole()) return;
+    if (plan.has_ao_cells()) {
+        throw Error(ExitCode::usage,
+                    "--shard: samples that share occlusion depend on those before; use --ao brute");
+    }
+    if (plan.samples() == 0) {
+        throw Error(ExitCode::usage, fmt::format("--shard {}/{}: a render of {} samples has no such shard",
+                                                 plan.shard.index + 1, plan.shard.count, plan.settings.spp));
+    }
+}
+
 void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
@@ -74,7 +86,7 @@ void split_image(RenderPlan& plan, const DeviceLimits& limits) {
 
 void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
-                                  static_cast<std::uint64_t>(plan.settings.size.y) * plan.settings.spp;
+                                  static_cast<std::uint64_t>(plan.settings.size.y) * plan.samples();
     plan.rays.primary = plan.has(Effect::voxels) || plan.has(Effect::spheres) ? samples : 0;
     const std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max() / plan.settings.ao_rays;
     plan.rays.ao = plan.has(Effect::ao) ? std::min(samples, most_samples) * plan.settings.ao_rays : 0;
@@ -150,6 +162,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_settings(scene.settings);
     RenderPlan plan;
     plan.settings = scene.settings;
+    plan.shard = request.shard;
     place_window(plan, request.crop);
     plan.effects = decide_effects(facts, request.effects);
     plan.world = world;
@@ -176,6 +189,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .moves_voxels = request.moves_voxels,
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
+    check_shard(plan);
     split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);
@@ -193,6 +207,10 @@ std::string describe(const RenderPlan& plan) {
     if (plan.image_size != s.size) {
         text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
                             plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
+    }
+    if (!plan.shard.is_whole()) {
+        text += fmt::format("shard     {} of {}: {} of the samples\n", plan.shard.index + 1, plan.shard.count,
+                            plan.samples());
     }
     text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
     if (plan.has(Effect::voxels)) {

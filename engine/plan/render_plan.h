@@ -9,6 +9,7 @@
 #include "plan/effects.h"
 #include "plan/plan_ao.h"
 #include "plan/plan_photons.h"
+#include "plan/shard.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
 #include "shared/gpu_types.h"
@@ -69,6 +70,7 @@ struct PixelWindow {
 // Everything that is decided before the first command: pure data, printable, comparable, made with no device.
 struct RenderPlan {
     RenderSettings settings;    // `size` is that of the picture: of the window, when there is one
+    Shard shard;                // of the samples
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
     EffectStates effects;
@@ -92,6 +94,8 @@ struct RenderPlan {
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
     [[nodiscard]] bool has_photons() const { return has(Effect::caustics) || has(Effect::indirect); }
+    // Samples per pixel that this render takes: those of its shard.
+    [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
@@ -110,6 +114,7 @@ struct PlanRequest {
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
+    Shard shard;                            // of the samples to render
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop

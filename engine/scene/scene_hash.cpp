@@ -167,11 +167,12 @@ void add_camera(Hasher& hasher, const Camera& camera) {
     hasher.add(camera.fov_y_deg);
 }
 
-void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderSettings& settings) {
+void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderSettings& settings,
+              std::uint32_t spp) {
     hasher.add(camera.has_value());
     add_camera(hasher, camera.value_or(Camera{}));
     hasher.add(settings.size);
-    hasher.add(settings.spp);
+    hasher.add(spp);
     hasher.add(settings.ao_rays);
     hasher.add(settings.ao_radius);
     hasher.add(settings.seed);
@@ -219,22 +220,31 @@ void add_placements(Hasher& hasher, const std::vector<VoxPlacement>& placements)
     }
 }
 
-}  // namespace
-
-std::uint64_t scene_hash(const Scene& scene) {
+std::uint64_t hash_with(const Scene& scene, std::uint32_t spp) {
     Hasher hasher;
     add_materials(hasher, scene.materials);
     add_models(hasher, scene.models);
     add_instances(hasher, scene.instances);
     add_spheres(hasher, scene.spheres);
     add_light(hasher, scene.sun, scene.sky);
-    add_view(hasher, scene.camera, scene.settings);
+    add_view(hasher, scene.camera, scene.settings, spp);
     if (!scene.animation.is_still()) {
         add_camera_motion(hasher, scene.animation);
         add_animated_files(hasher, scene.animation);
         add_placements(hasher, scene.animation.placements);
     }
     return hasher.digest();
+}
+
+}  // namespace
+
+std::uint64_t scene_hash(const Scene& scene) {
+    return hash_with(scene, scene.settings.spp);
+}
+
+// No scene has 0 samples, so that this is the hash of no other scene.
+std::uint64_t sample_hash(const Scene& scene) {
+    return hash_with(scene, 0);
 }
 
 }  // namespace voxilux

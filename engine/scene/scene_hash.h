@@ -10,4 +10,7 @@ namespace voxilux {
 // the same for scenes that differ only in names and warnings. An animated scene's covers all of its frames.
 [[nodiscard]] std::uint64_t scene_hash(const Scene& scene);
 
+// The same, for any number of samples per pixel: of the scenes whose samples may be added up.
+[[nodiscard]] std::uint64_t sample_hash(const Scene& scene);
+
 }  // namespace voxilux

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <functional>
 
+#include "film/film_sums.h"
 #include "frame/frame_state.h"
-#include "session/film_readback.h"
 #include "session/prepared_scene.h"
 #include "session/render_session.h"
 #include "session/slices.h"
@@ -19,6 +19,7 @@ namespace voxilux {
 struct FrameInputs {
     const PreparedScene& prepared;
     const RenderOptions& options;  // its own time limit
+    const FilmStart& film;         // what the film holds already
     gpu::FrameParams params;
     bool is_cpu = true;
     std::chrono::steady_clock::time_point start;
@@ -30,19 +31,25 @@ class FrameRun {
     // Clears the film. `upload` holds what must be on the device before, when there is something new.
     FrameRun(const FrameInputs& inputs, Recording upload, Executor& executor, FrameState& state);
 
-    // Renders until the frame is done or one of the options stops it.
-    void run(const std::function<void(const Progress&)>& on_progress);
+    // Called after a slice and while the film may be read.
+    using OnProgress = std::function<void(const Progress&)>;
 
-    // The picture, and the numbers that this class knows.
-    [[nodiscard]] RenderStatistics finish(Image& image);
+    // Renders until the frame is done or one of the options stops it. `save` is called as often as
+    // RenderOptions::checkpoint_s says.
+    void run(const OnProgress& on_progress, const std::function<void()>& save);
+
+    // What the film holds now: the picture, and the numbers that this class knows.
+    [[nodiscard]] RenderOutcome outcome();
 
   private:
     bool should_stop();
     bool reached_error_target();
+    void save_when_due(const std::function<void()>& save);
+    [[nodiscard]] FilmSums with_start(FilmSums film) const;
     double render_slice(const Slice& slice);
     void add_tally(const RunResult& result, const Slice& slice);
     double add_times(const RunResult& result);
-    void report_progress(const Slice& slice, const std::function<void(const Progress&)>& on_progress) const;
+    void report_progress(const Slice& slice, const OnProgress& on_progress) const;
     [[nodiscard]] double share_done(const Slice& slice) const;
 
     const FrameInputs& inputs_;
@@ -50,10 +57,13 @@ class FrameRun {
     Executor& executor_;
     FrameState& state_;
     SliceGovernor governor_;
-    RowSamples row_samples_;
+    std::vector<std::uint32_t> row_samples_;  // of the shard that each row has received
     RenderStatistics statistics_;
     std::optional<double> last_error_;
-    std::uint32_t sample_ = 0;
+    std::uint32_t sample_ = 0;  // that is being rendered, as the render counts them
+    std::uint32_t first_row_ = 0;
+    double share_at_start_ = 0.0;
+    double next_save_s_ = 0.0;
 };
 
 }  // namespace voxilux

@@ -70,25 +70,35 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;
+    const FilmStart film = options.resume ? options.resume(*scene_, prepared_->plan) : FilmStart{};
     const FrameInputs inputs{.prepared = *prepared_,
                              .options = options,
+                             .film = film,
                              .params = frame_params(prepared_->plan, *scene_, prepared_->march_world),
                              .is_cpu = device_.limits().is_cpu,
                              .start = start};
-    RenderOutcome outcome{.plan = prepared_->plan};
     FrameRun run(inputs, std::move(upload), *executor_, state_);
-    run.run(on_progress);
-    RenderStatistics& statistics = outcome.statistics;
-    statistics = run.finish(outcome.image);
+    run.run(on_progress, [&] {
+        RenderOutcome so_far = run.outcome();
+        complete(so_far, load_s, start);
+        options_.on_checkpoint(*scene_, so_far);
+    });
+    RenderOutcome outcome = run.outcome();
     ++state_.frames_done;
+    complete(outcome, load_s, start);
+    outcome.statistics.validation = new_messages();
+    return outcome;
+}
+
+// Adds what the run of the frame does not know.
+void RenderSession::complete(RenderOutcome& outcome, double load_s, Clock::time_point start) {
+    RenderStatistics& statistics = outcome.statistics;
     statistics.device = device_.info();
     statistics.load_s = load_s;
-    statistics.validation = new_messages();
     statistics.warnings = scene_->warnings;
     warn_about_camera(*scene_, *prepared_, statistics.warnings);
     statistics.wall_s = seconds_since(start);
     measure_process(statistics);
-    return outcome;
 }
 
 std::vector<std::string> RenderSession::new_messages() {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "film/error_estimate.h"
-#include "film/film.h"
+#include "film/film_sums.h"
 #include "film/image.h"
 #include "frame/frame_state.h"
 #include "plan/render_plan.h"
@@ -21,6 +21,17 @@
 
 namespace voxilux {
 
+// What a film holds before its first sample: that of a checkpoint, or nothing.
+struct FilmStart {
+    FilmSums sums;                 // no planes: an empty film
+    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t rows_ahead = 0;  // rows from the top that have one more
+    std::map<std::string, std::uint64_t> work;
+    std::map<std::string, std::uint64_t> faults;
+};
+
+struct RenderOutcome;
+
 struct RenderOptions {
     PlanRequest plan;
     DeviceRequest device;
@@ -28,6 +39,12 @@ struct RenderOptions {
     std::optional<double> time_limit_s;  // of render_scene; a whole first sample is finished all the same
     std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
     const std::atomic<bool>* interrupted = nullptr;
+    // The film that the frame of this plan goes on from, asked once per frame; a new one when there is none.
+    std::function<FilmStart(const Scene&, const RenderPlan&)> resume;
+    // Gets what is rendered so far, as if the render ended now.
+    std::function<void(const Scene&, const RenderOutcome&)> on_checkpoint;
+    double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
+    bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
     // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
@@ -60,7 +77,7 @@ struct RenderStatistics {
     std::map<std::string, std::uint64_t> faults;
     std::vector<MemoryRow> memory;
     std::uint64_t pipelines = 0;
-    std::uint32_t samples = 0;     // whole ones
+    std::uint32_t samples = 0;     // whole ones, of the shard
     std::uint64_t live_cells = 0;  // of occlusion, at the end
     ErrorEstimate error;
     StopReason stop = StopReason::finished;
@@ -72,6 +89,8 @@ struct RenderOutcome {
     Image image;
     RenderPlan plan;
     RenderStatistics statistics;
+    std::optional<FilmSums> film;  // see RenderOptions::keeps_film
+    std::uint32_t rows_ahead = 0;  // rows from the top that have one sample more than statistics.samples
 };
 
 // Renders one frame of a scene after the other. The device, its pipelines and buffers are kept from frame to
@@ -99,6 +118,7 @@ class RenderSession {
 
   private:
     [[nodiscard]] bool update_world(const Scene& scene);
+    void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();
 
     RenderOptions options_;

@@ -32,19 +32,6 @@ Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
     return rows;
 }
 
-Json error_json(const ErrorEstimate& error) {
-    if (!error.is_known())
-        return {{"metric", error.metric},
-                {"estimate", nullptr},
-                {"low", nullptr},
-                {"high", nullptr},
-                {"confidence", nullptr}};
-    Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
-    json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
-    json["confidence"] = error.confidence;
-    return json;
-}
-
 Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) {
     const glm::ivec2 first = plan.first_pixel;
     const glm::ivec2 size = plan.settings.size;
@@ -54,6 +41,8 @@ Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) 
                  {"seed", plan.settings.seed},
                  {"size", {plan.image_size.x, plan.image_size.y}}};
     if (plan.image_size != size) json["crop"] = {first.x, first.y, first.x + size.x, first.y + size.y};
+    if (!plan.shard.is_whole())
+        json["shard"] = fmt::format("{} of {}", plan.shard.index + 1, plan.shard.count);
     return json;
 }
 
@@ -137,14 +126,20 @@ Json traversal_json(const RenderPlan& plan) {
 // one slot.
 constexpr std::array<const char*, 2> kUnrepeatableWork{"ao_probes", "ao_swaps"};
 
-Json repeatable_work_json(const RenderStatistics& statistics) {
-    Json json = statistics.work;
-    for (const char* name : kUnrepeatableWork)
-        json.erase(name);
+}  // namespace
+
+Json error_json(const ErrorEstimate& error) {
+    if (!error.is_known())
+        return {{"metric", error.metric},
+                {"estimate", nullptr},
+                {"low", nullptr},
+                {"high", nullptr},
+                {"confidence", nullptr}};
+    Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
+    json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
+    json["confidence"] = error.confidence;
     return json;
 }
-
-}  // namespace
 
 Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     const RenderStatistics& statistics = outcome.statistics;
@@ -205,12 +200,19 @@ Json sequence_json(const Scene& scene, std::uint64_t scene_hash, const SequenceR
 }
 
 Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) {
-    Json json = head_json(scene, outcome.plan, "render");
-    json["samples"] = outcome.statistics.samples;
-    json["work"] = repeatable_work_json(outcome.statistics);
-    json["effects"] = effects_json(outcome.plan, nullptr);
-    json["error"] = error_json(outcome.statistics.error);
-    json["faults"] = outcome.statistics.faults;
+    return reproducible_report(report_json(scene, outcome));
+}
+
+Json reproducible_report(const Json& report) {
+    Json json;
+    for (const char* key : {"version", "command", "scene_hash", "seed", "size", "crop", "shard", "samples",
+                            "work", "effects", "error", "faults"}) {
+        if (report.contains(key)) json[key] = report.at(key);
+    }
+    for (const char* name : kUnrepeatableWork)
+        json["work"].erase(name);
+    for (Json& effect : json["effects"])
+        effect.erase("ms");
     return json;
 }
 
@@ -230,8 +232,10 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
 std::string describe(const RenderOutcome& outcome) {
     const RenderStatistics& s = outcome.statistics;
     std::string text = fmt::format("device    {} ({})\n", s.device.name, s.device.driver);
-    text += fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.settings.spp,
-                        name_of(s.stop));
+    text +=
+        fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.samples(), name_of(s.stop));
+    const Shard& shard = outcome.plan.shard;
+    if (!shard.is_whole()) text += fmt::format("shard     {} of {}\n", shard.index + 1, shard.count);
     text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU; first pixels after {:.2f} s\n", s.wall_s,
                         s.cpu_s, s.first_pixel_s);
     for (const PassTime& pass : s.passes)

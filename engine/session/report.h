@@ -33,6 +33,12 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 [[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene,
                                                               const RenderOutcome& outcome);
 
+// The same part of any report.
+[[nodiscard]] nlohmann::ordered_json reproducible_report(const nlohmann::ordered_json& report);
+
+// The report's `error`.
+[[nodiscard]] nlohmann::ordered_json error_json(const ErrorEstimate& error);
+
 // The plan in the same terms, before anything ran.
 [[nodiscard]] nlohmann::ordered_json plan_json(const Scene& scene, const RenderPlan& plan);
 

@@ -42,8 +42,9 @@ void SliceGovernor::adapt(std::uint32_t rows_done, double max_ms) {
     rows_ = wanted >= kGroupRows && wanted < most_rows_ ? wanted / kGroupRows * kGroupRows : wanted;
 }
 
-bool SliceGovernor::for_each_slice(const std::function<bool(const Slice&, double&)>& render) {
-    for (std::uint32_t row = 0; row < height_;) {
+bool SliceGovernor::for_each_slice(const std::function<bool(const Slice&, double&)>& render,
+                                   std::uint32_t first_row) {
+    for (std::uint32_t row = first_row; row < height_;) {
         const std::uint32_t band = row / band_rows_;
         const std::uint32_t band_end = std::min(height_, (band + 1) * band_rows_);
         const Slice slice{.band = band,

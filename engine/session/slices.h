@@ -16,7 +16,9 @@ class SliceGovernor {
 
     // Calls `render` for each slice of the picture from top to bottom until it returns false; `render` gets
     // the slice and returns the longest dispatch in milliseconds through `max_ms`. False when it was stopped.
-    bool for_each_slice(const std::function<bool(const Slice&, double& max_ms)>& render);
+    // The first slice starts at row `first_row`.
+    bool for_each_slice(const std::function<bool(const Slice&, double& max_ms)>& render,
+                        std::uint32_t first_row = 0);
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
 

@@ -124,18 +124,50 @@ INSTANTIATE_TEST_SUITE_P(
             "compare_limit", {"compare", "a", "b", "--max-flip", "-1"}, "--max-flip: -1 is not 0 or above"}),
     name_of);
 
-// Flags of effects and tools that do not exist yet must not be taken silently.
+Words with_exr(Words more) {
+    Words words = {"render", scene_file("turntable"), "-o", "a.exr", "-o", "b.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
 INSTANTIATE_TEST_SUITE_P(
-    later, UsageError,
-    testing::Values(Refused{"shard", with({"--shard", "1/2"}), "no flag --shard"},
-                    Refused{"resume", with({"--resume"}), "no flag --resume"},
-                    Refused{"iterations", with({"--iterations", "3"}), "no flag --iterations"},
-                    Refused{"photons", with({"--photons", "3"}), "no flag --photons"},
-                    Refused{"radius", with({"--radius", "3"}), "no flag --radius"},
-                    Refused{"alpha", with({"--alpha", "0.7"}), "no flag --alpha"},
-                    Refused{"traversal", with({"--traversal", "octree"}), "no traversal 'octree'"},
-                    Refused{"metric", with({"--metric", "flip"}), "no flag --metric"}),
+    parts, UsageError,
+    testing::Values(
+        Refused{"shard_0", with_exr({"--shard", "0/2"}), "--shard: '0/2' is not I/N with I from 1 to N"},
+        Refused{"shard_over", with_exr({"--shard", "3/2"}), "--shard: '3/2' is not I/N"},
+        Refused{"shard_open", with_exr({"--shard", "1/"}), "--shard: '1/' is not I/N"},
+        Refused{"shard_more", with_exr({"--shard", "1/2x"}), "--shard: '1/2x' is not I/N"},
+        Refused{"shard_signed", with_exr({"--shard", "-1/2"}), "--shard"},
+        Refused{"shard_of_a_png", with({"--shard", "1/2"}),
+                "--shard: its part of the picture goes into an EXR"},
+        Refused{"shard_of_a_range", with_exr({"--shard", "1/2", "--frames", "1-3"}),
+                "--shard is for one picture"},
+        Refused{"shard_with_error", with_exr({"--shard", "1/2", "--error", "1%"}), "--shard and --error"},
+        Refused{"shard_of_cells", with_exr({"--shard", "1/2", "--ao", "hash"}),
+                "--shard: samples that share"},
+        Refused{"shard_without_samples", with_exr({"--shard", "4/4", "--spp", "3"}),
+                "--shard 4/4: a render of 3 samples has no such shard"},
+        Refused{"resume_of_a_png", with({"--resume"}), "checkpoints lie beside an EXR"},
+        Refused{"resume_of_a_range", with_exr({"--resume", "--frames", "1-3"}),
+                "--resume is for one picture"},
+        Refused{"resume_of_cells", with_exr({"--resume", "--ao", "hash"}), "--resume: pixels that share"},
+        Refused{"checkpoint_of_a_png", with({"--checkpoint", "5"}), "checkpoints lie beside an EXR"},
+        Refused{"checkpoint_below_0", with_exr({"--checkpoint=-1"}),
+                "--checkpoint: -1 is not a number of seconds"},
+        Refused{"merge_of_nothing", {"merge", "-o", "a.exr"}, "PART is required"},
+        Refused{"merge_without_output", {"merge", "a.exr"}, "--output is required"},
+        Refused{"merge_to_a_jpeg", {"merge", "a.exr", "-o", "b.jpg"}, "the ending must be .exr or .png"}),
     name_of);
+
+// Flags of effects and tools that do not exist yet must not be taken silently.
+INSTANTIATE_TEST_SUITE_P(later, UsageError,
+                         testing::Values(Refused{"photons", with({"--photons", "3"}), "no flag --photons"},
+                                         Refused{"radius", with({"--radius", "3"}), "no flag --radius"},
+                                         Refused{"alpha", with({"--alpha", "0.7"}), "no flag --alpha"},
+                                         Refused{"traversal", with({"--traversal", "octree"}),
+                                                 "no traversal 'octree'"},
+                                         Refused{"metric", with({"--metric", "flip"}), "no flag --metric"}),
+                         name_of);
 
 TEST(UsageErrorOf, unnamed_picture_never_replaces_a_file) {
     const ScratchFolder scratch;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "frame/frame.h"
 #include "output_files.h"
+#include "render/render_part.h"
 #include "session/report.h"
 
 namespace voxilux {
@@ -39,7 +40,9 @@ CLI::App* add_plan(CLI::App& app, RenderCommand& command) {
 }
 
 int run_plan(const RenderCommand& command) {
-    PlanRequest request = request_of(command, output_files(command));
+    const std::vector<std::string> outputs = output_files(command);
+    check_part_flags(command, outputs);
+    PlanRequest request = request_of(command, outputs);
     check_writable(command.json);
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);

@@ -11,6 +11,7 @@
 #include "render/progress_line.h"
 #include "render/render_frames.h"
 #include "render/render_output.h"
+#include "render/render_part.h"
 #include "scene/scene_hash.h"
 #include "session/report.h"
 
@@ -63,6 +64,7 @@ RenderOptions render_options(const RenderCommand& command, const std::vector<std
     if (command.time_limit) options.time_limit_s = parse_duration(*command.time_limit);
     if (command.error) options.error_target = parse_error_target(*command.error);
     options.interrupted = &interrupted;
+    set_part_options(command, outputs, options);
     return options;
 }
 
@@ -72,7 +74,9 @@ int render_picture(const RenderCommand& command, RenderSession& session, const R
     job.progress.finish();
     if (outcome.statistics.stop == StopReason::interrupted && outcome.statistics.first_pixel_s == 0.0)
         throw Error(ExitCode::interrupted, "interrupted before the first pixels; nothing was written");
+    leave_checkpoint(command, job.outputs, session.scene(), outcome);
     write_pictures(command, job.outputs, session.scene(), outcome);
+    remove_checkpoint(command, job.outputs, outcome);
     for (const std::string& message : session.end())
         outcome.statistics.validation.push_back(message);
     print_validation(outcome);
@@ -95,9 +99,10 @@ CLI::App* add_render(CLI::App& app, RenderCommand& command) {
 
 int run_render(const RenderCommand& command) {
     const std::vector<std::string> outputs = output_files(command);
+    check_part_flags(command, outputs);
     RenderOptions options = render_options(command, outputs);
     ProgressLine progress(command.progress, command.quiet);
-    (void)tone_options(command);
+    (void)tone_options(command.tone, command.exposure_ev);
     check_outputs(command, outputs);
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);

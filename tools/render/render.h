@@ -12,6 +12,9 @@ struct RenderCommand {
     std::string device;
     std::optional<std::string> time_limit;
     std::optional<std::string> error;
+    std::optional<std::string> shard;
+    std::optional<double> checkpoint_s;  // 0: none
+    bool resume = false;
     std::string progress = "auto";
     std::string tone = "filmic";
     float exposure_ev = 0.0f;

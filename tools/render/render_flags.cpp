@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "output_files.h"
 #include "render/render.h"
+#include "render/render_part.h"
 
 namespace voxilux {
 namespace {
@@ -9,6 +10,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStop = "When to stop";
 constexpr const char* kOutput = "Output";
+constexpr const char* kParts = "Parts and checkpoints";
 constexpr const char* kDevice = "Device";
 
 void add_output_flags(CLI::App& command, RenderCommand& options) {
@@ -63,6 +65,23 @@ void add_device_flags(CLI::App& command, RenderCommand& options) {
     command.add_flag("--no-validation", options.no_validation, "run without them")->group(kDevice);
 }
 
+void add_part_flags(CLI::App& command, RenderCommand& options) {
+    command
+        .add_option("--shard", options.shard,
+                    "render every Nth sample from the Ith on, for voxilux merge; the EXR has its exact sums")
+        ->type_name("I/N")
+        ->group(kParts);
+    command
+        .add_option("--checkpoint", options.checkpoint_s,
+                    "write FILE.exr.part as often while FILE.exr is rendered; 0 is never (default 60)")
+        ->type_name("SECONDS")
+        ->group(kParts);
+    command
+        .add_flag("--resume", options.resume,
+                  "go on from FILE.exr.part, which a killed, interrupted or timed out render left")
+        ->group(kParts);
+}
+
 bool is_exr(const std::string& file) {
     return has_ending(file, ".exr");
 }
@@ -82,6 +101,7 @@ void add_render_flags(CLI::App& command, RenderCommand& options) {
                     "stop in time, such as 90s, 2m or 1h30m; the picture is whole")
         ->type_name("T")
         ->group(kStop);
+    add_part_flags(command, options);
     add_device_flags(command, options);
 }
 
@@ -96,12 +116,14 @@ std::vector<std::string> output_files(const RenderCommand& command) {
 
 Scene scene_to_render(const RenderCommand& command) {
     Scene scene = load_scene_with(command.scene);
-    if (command.error && !command.scene.spp) scene.settings.spp = kMostSamplesForError;
+    if (command.error && !command.scene.spp && !command.scene.iterations)
+        scene.settings.spp = kMostSamplesForError;
     return scene;
 }
 
 PlanRequest request_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
     PlanRequest request = plan_request(command.scene);
+    request.shard = shard_of(command);
     request.effects.wants_aov = std::ranges::any_of(outputs, is_exr);
     return request;
 }

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "film/exr.h"
 #include "film/png.h"
 #include "output_files.h"
 #include "parse_values.h"
+#include "render/render_part.h"
 #include "session/report.h"
 
 namespace voxilux {
@@ -42,6 +42,8 @@ glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
     return matrix;
 }
 
+}  // namespace
+
 ExrOptions exr_options(const RenderCommand& command, const Scene& scene, const RenderPlan& plan) {
     const Camera camera = camera_of(scene);
     const glm::dmat4 to_camera = world_to_camera(camera);
@@ -53,28 +55,32 @@ ExrOptions exr_options(const RenderCommand& command, const Scene& scene, const R
             .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
 }
 
-}  // namespace
+nlohmann::ordered_json report_of_picture(const RenderCommand& command, const Scene& scene,
+                                         const RenderOutcome& outcome) {
+    return command.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
+}
 
-ToneMapOptions tone_options(const RenderCommand& command) {
-    if (!std::isfinite(command.exposure_ev))
-        throw Error(ExitCode::usage,
-                    fmt::format("--exposure: {} is not a number of stops", command.exposure_ev));
-    return {.curve = parse_tone(command.tone), .exposure_ev = command.exposure_ev};
+ToneMapOptions tone_options(const std::string& curve, float exposure_ev) {
+    if (!std::isfinite(exposure_ev))
+        throw Error(ExitCode::usage, fmt::format("--exposure: {} is not a number of stops", exposure_ev));
+    return {.curve = parse_tone(curve), .exposure_ev = exposure_ev};
 }
 
 void write_pictures(const RenderCommand& command, const std::vector<std::string>& outputs, const Scene& scene,
                     RenderOutcome& outcome) {
-    const nlohmann::ordered_json report =
-        command.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
-    outcome.image.attributes["voxilux.report"] = report.dump();
+    outcome.image.attributes[kReportAttribute] = report_of_picture(command, scene, outcome).dump();
+    // A shard writes its sums beside its picture.
+    const bool is_whole = outcome.plan.shard.is_whole();
+    const Image part = is_whole ? Image{} : image_of(part_to_write(command, scene, outcome));
     for (const std::string& file : outputs) {
         if (has_ending(file, ".exr")) {
             const WriteReport written =
-                write_exr(file, outcome.image, exr_options(command, scene, outcome.plan));
+                write_exr(file, is_whole ? outcome.image : part, exr_options(command, scene, outcome.plan));
             outcome.statistics.faults["exr_clamped"] += written.clamped;
             outcome.statistics.faults["exr_non_finite"] += written.non_finite;
         } else {
-            const DisplayImage display = to_display(outcome.image, tone_options(command));
+            const DisplayImage display =
+                to_display(outcome.image, tone_options(command.tone, command.exposure_ev));
             outcome.statistics.faults["png_nan"] += display.nan;
             write_png(file, display.image);
         }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "film/exr.h"
 #include "film/tonemap.h"
 #include "render/render.h"
 #include "session/render_session.h"
@@ -11,7 +13,13 @@
 namespace voxilux {
 
 // Throws Error(usage) for a curve or an exposure that is none.
-[[nodiscard]] ToneMapOptions tone_options(const RenderCommand& command);
+[[nodiscard]] ToneMapOptions tone_options(const std::string& curve, float exposure_ev);
+
+// How the pictures of the command's scene are written, and the report that they carry.
+[[nodiscard]] ExrOptions exr_options(const RenderCommand& command, const Scene& scene,
+                                     const RenderPlan& plan);
+[[nodiscard]] nlohmann::ordered_json report_of_picture(const RenderCommand& command, const Scene& scene,
+                                                       const RenderOutcome& outcome);
 
 // Writes the picture into every file and counts what did not fit their formats among the faults. `scene` is
 // the still one that was rendered.

@@ -1,0 +1,208 @@
+#include "film/film_sums.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "base/assert.h"
+#include "film/exr.h"
+#include "film/film.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::array<const char*, 3> kXyz{"X", "Y", "Z"};
+constexpr std::array<const char*, 3> kRgb{"R", "G", "B"};
+constexpr std::size_t kMostComponents = 4;
+
+std::size_t pixels_of(const FilmSums& film) {
+    return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
+}
+
+bool is_beauty(const std::string& plane) {
+    return plane == "beauty_a" || plane == "beauty_b";
+}
+
+std::string channel_of(const std::string& plane, std::size_t component, std::size_t components) {
+    if (plane == "normal") return fmt::format("N.{}", kXyz[component]);
+    if (plane == "position") return fmt::format("P.{}", kXyz[component]);
+    if (plane == "depth") return "Z";
+    return fmt::format("{}.{}", plane, components == 1 ? "Y" : kRgb[component]);
+}
+
+std::vector<std::uint64_t> spread_rows(const FilmSums& film, const std::vector<std::uint32_t>& rows) {
+    VX_ASSERT_EQ(rows.size(), static_cast<std::size_t>(film.height));
+    std::vector<std::uint64_t> counts;
+    counts.reserve(pixels_of(film));
+    for (const std::uint32_t n : rows)
+        counts.insert(counts.end(), static_cast<std::size_t>(film.width), n);
+    return counts;
+}
+
+// The two halves with the samples of each pixel.
+struct Halves {
+    std::vector<std::uint64_t> even;
+    std::vector<std::uint64_t> odd;
+    FilmHalf a;
+    FilmHalf b;
+
+    explicit Halves(const FilmSums& film)
+        : even(spread_rows(film, film.even)),
+          odd(spread_rows(film, film.odd)),
+          a{film.sums.at("beauty_a"), even},
+          b{film.sums.at("beauty_b"), odd} {}
+    Halves(const Halves&) = delete;
+    Halves& operator=(const Halves&) = delete;
+};
+
+void add_means(const FilmSums& film, const std::string& name, Image& image) {
+    const std::vector<std::int64_t>& sums = film.sums.at(name);
+    const std::size_t components = sums.size() / pixels_of(film);
+    const std::size_t row_sums = static_cast<std::size_t>(film.width) * components;
+    for (std::size_t i = 0; i < components; ++i) {
+        std::vector<float> means;
+        means.reserve(pixels_of(film));
+        for (std::size_t row = 0; row < film.even.size(); ++row) {
+            const auto of_row = std::span(sums).subspan(row * row_sums, row_sums);
+            const std::uint64_t count = std::uint64_t{film.even[row]} + film.odd[row];
+            const std::vector<float> part = mean_plane(of_row, components, i, count);
+            means.insert(means.end(), part.begin(), part.end());
+        }
+        image.channels[channel_of(name, i, components)] = {Image::Precision::single, std::move(means)};
+    }
+}
+
+void add_first(const FilmSums& film, const std::string& name, Image& image) {
+    const std::vector<float>& values = film.firsts.at(name);
+    const std::size_t components = values.size() / pixels_of(film);
+    for (std::size_t i = 0; i < components; ++i) {
+        std::vector<float> channel(pixels_of(film));
+        for (std::size_t pixel = 0; pixel < channel.size(); ++pixel)
+            channel[pixel] = values[pixel * components + i];
+        image.channels[channel_of(name, i, components)] = {Image::Precision::single, std::move(channel)};
+    }
+}
+
+// Rows that have no sample yet take what the other film saw first.
+void add_firsts(FilmSums& film, const FilmSums& more) {
+    for (auto& [name, values] : film.firsts) {
+        const std::vector<float>& others = more.firsts.at(name);
+        VX_ASSERT_EQ(values.size(), others.size());
+        const std::size_t row_values = values.size() / film.even.size();
+        for (std::size_t row = 0; row < film.even.size(); ++row) {
+            if (film.even[row] + film.odd[row] != 0) continue;
+            const auto first = static_cast<std::ptrdiff_t>(row * row_values);
+            std::copy_n(others.begin() + first, row_values, values.begin() + first);
+        }
+    }
+}
+
+std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+std::string word_plane(const std::string& plane, std::size_t component, const char* half) {
+    return fmt::format("{}{}.{}.{}", kSumsLayer, plane, component, half);
+}
+
+// The components of a plane that an image has words for.
+std::size_t stored_components(const Image& image, const std::string& plane) {
+    std::size_t components = 0;
+    while (components < kMostComponents && image.words.contains(word_plane(plane, components, "lo")) &&
+           image.words.contains(word_plane(plane, components, "hi")))
+        ++components;
+    return components;
+}
+
+std::vector<std::int64_t> joined_words(const Image& image, const std::string& plane, std::size_t components) {
+    std::vector<std::int64_t> sums(pixel_count(image) * components);
+    for (std::size_t i = 0; i < components; ++i) {
+        const std::vector<std::uint32_t>& low = image.words.at(word_plane(plane, i, "lo"));
+        const std::vector<std::uint32_t>& high = image.words.at(word_plane(plane, i, "hi"));
+        for (std::size_t pixel = 0; pixel < low.size(); ++pixel)
+            sums[pixel * components + i] =
+                static_cast<std::int64_t>((std::uint64_t{high[pixel]} << 32) | low[pixel]);
+    }
+    return sums;
+}
+
+void load_first(const Image& image, const std::string& name, std::size_t components, FilmSums& film) {
+    std::vector<float> values(pixel_count(image) * components);
+    for (std::size_t i = 0; i < components; ++i) {
+        const auto found = image.channels.find(channel_of(name, i, components));
+        if (found == image.channels.end()) return;
+        for (std::size_t pixel = 0; pixel < found->second.pixels.size(); ++pixel)
+            values[pixel * components + i] = found->second.pixels[pixel];
+    }
+    film.firsts[name] = std::move(values);
+}
+
+}  // namespace
+
+void add_film(FilmSums& film, const FilmSums& more) {
+    VX_ASSERT(film.width == more.width && film.height == more.height);
+    VX_ASSERT_EQ(film.sums.size(), more.sums.size());
+    add_firsts(film, more);
+    for (auto& [name, sums] : film.sums) {
+        const std::vector<std::int64_t>& others = more.sums.at(name);
+        VX_ASSERT_EQ(sums.size(), others.size());
+        std::ranges::transform(sums, others, sums.begin(), wrapped_sum);
+    }
+    std::ranges::transform(film.even, more.even, film.even.begin(), std::plus());
+    std::ranges::transform(film.odd, more.odd, film.odd.begin(), std::plus());
+}
+
+Image picture_of(const FilmSums& film) {
+    const Halves halves(film);
+    Image image = film_image(film.width, film.height, halves.a, halves.b);
+    for (const auto& [name, sums] : film.sums) {
+        if (!is_beauty(name)) add_means(film, name, image);
+    }
+    for (const auto& [name, values] : film.firsts)
+        add_first(film, name, image);
+    return image;
+}
+
+ErrorEstimate error_of(const FilmSums& film) {
+    const Halves halves(film);
+    return estimate_error(film.width, film.height, halves.a, halves.b);
+}
+
+void store_sums(const FilmSums& film, Image& image) {
+    for (const auto& [name, sums] : film.sums) {
+        const std::size_t components = sums.size() / pixels_of(film);
+        VX_ASSERT(components <= kMostComponents);
+        for (std::size_t i = 0; i < components; ++i) {
+            std::vector<std::uint32_t> low(pixels_of(film)), high(pixels_of(film));
+            for (std::size_t pixel = 0; pixel < low.size(); ++pixel) {
+                const auto bits = static_cast<std::uint64_t>(sums[pixel * components + i]);
+                low[pixel] = static_cast<std::uint32_t>(bits);
+                high[pixel] = static_cast<std::uint32_t>(bits >> 32);
+            }
+            image.words[word_plane(name, i, "lo")] = std::move(low);
+            image.words[word_plane(name, i, "hi")] = std::move(high);
+        }
+    }
+}
+
+Result<FilmSums> load_sums(const Image& image) {
+    FilmSums film{.width = image.width, .height = image.height};
+    const std::string first_words = ".0.lo";
+    for (const auto& [name, words] : image.words) {
+        if (!name.starts_with(kSumsLayer) || !name.ends_with(first_words)) continue;
+        const std::size_t prefix = std::string_view(kSumsLayer).size();
+        const std::string plane = name.substr(prefix, name.size() - prefix - first_words.size());
+        const std::size_t components = stored_components(image, plane);
+        if (components > 0) film.sums[plane] = joined_words(image, plane, components);
+    }
+    for (const char* half : {"beauty_a", "beauty_b"}) {
+        if (!film.sums.contains(half) || film.sums.at(half).size() != 3 * pixel_count(image))
+            return Failure{fmt::format("it has no sums of {}", half)};
+    }
+    load_first(image, "position", 3, film);
+    load_first(image, "depth", 1, film);
+    return film;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "film/error_estimate.h"
+#include "film/image.h"
+
+namespace voxilux {
+
+// A whole film on the host: all that its pictures are made from. Sums are fixed point (film.h) and exact, so
+// that films of different samples can be added in any order.
+struct FilmSums {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint32_t> even;  // per row, samples with an even number: those in plane beauty_a
+    std::vector<std::uint32_t> odd;   // those in beauty_b
+    std::map<std::string, std::vector<std::int64_t>> sums;  // by film plane, [height][width][components]
+    std::map<std::string, std::vector<float>> firsts;       // as seen by the first sample: position, depth
+
+    bool operator==(const FilmSums&) const = default;
+};
+
+// Sums of squares stop here instead of wrapping round; it means "too large to tell".
+inline constexpr std::int64_t kSquaresFull = INT64_MAX;
+
+// Adds the samples of another film of the same size and planes. Where both have positions and depths those of
+// `film` stay.
+void add_film(FilmSums& film, const FilmSums& more);
+
+// The pictures: those of film_image(), and for every other plane its mean over all samples, named
+// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample.
+[[nodiscard]] Image picture_of(const FilmSums& film);
+
+// The error of the beauty, from the halves.
+[[nodiscard]] ErrorEstimate error_of(const FilmSums& film);
+
+// Puts the sums into the whole-number planes of an image: SUMS.PLANE.COMPONENT.lo and .hi (kSumsLayer).
+void store_sums(const FilmSums& film, Image& image);
+
+// The film that store_sums() and picture_of() put into an image, without the samples of its rows; or why
+// there is none.
+[[nodiscard]] Result<FilmSums> load_sums(const Image& image);
+
+}  // namespace voxilux
