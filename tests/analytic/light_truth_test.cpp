@@ -72,6 +72,7 @@ const LightCase kCases[] = {
     {.scene = "surgery", .size = {16, 16}},
     {.scene = "random", .size = {16, 16}, .iterations = 32, .truth_spp = 128},
     {.scene = "glass_in_glass"},
+    {.scene = "glass_block", .radius = 0.1},
 };
 
 class LightTruth : public testing::TestWithParam<LightCase> {};

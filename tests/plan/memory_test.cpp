@@ -171,9 +171,10 @@ TEST(PlanSettings, setting_out_of_range_is_refused_with_its_value) {
 }
 
 TEST(PlanNotes, what_the_picture_lacks_is_said) {
-    const RenderPlan plan = test::plan_of(test::repository_scene("emitters"));
+    const RenderPlan plan =
+        test::plan_of(test::repository_scene("spheres", {"material.red.surface=\"glass\""}));
     ASSERT_EQ(plan.notes.size(), 1u);
-    EXPECT_EQ(plan.notes[0], "emitters glow but do not light other surfaces yet");
+    EXPECT_EQ(plan.notes[0], "light of the sky reaches surfaces past glass and mirrors as through a wall");
     EXPECT_TRUE(test::plan_of(test::repository_scene("night")).notes.empty());
 }
 
