@@ -63,19 +63,25 @@ Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, N
 PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                             std::uint32_t iteration, Recording& rec) {
     if (!plan.has_photons()) return {constant_value(0.0f, rec, 3), constant_value(0.0f, rec, 3)};
-    const gpu::PhotonParams params = photon_params(
-        {.radius = gpu::photon_radius(plan.photons.radius, plan.settings.photons.alpha, iteration),
-         .extent = plan.world.lights.extent,
-         .most_power = plan.photons.most_power,
-         .buckets = plan.photons.buckets,
-         .capacity = plan.photons.capacity,
-         .photon_count = plan.photons.count(),
-         .iteration = iteration});
+    const PhotonSettings& settings = plan.settings.photons;
+    const double radius = settings.classic
+                              ? plan.photons.radius
+                              : gpu::photon_radius(plan.photons.radius, settings.alpha, iteration);
+    const gpu::PhotonParams params = photon_params({.radius = radius,
+                                                    .extent = plan.world.lights.extent,
+                                                    .most_power = plan.photons.most_power,
+                                                    .buckets = plan.photons.buckets,
+                                                    .capacity = plan.photons.capacity,
+                                                    .photon_count = plan.photons.count(),
+                                                    .iteration = iteration,
+                                                    .alpha = settings.alpha});
     record_photon_clear(plan, params, rec);
     record_photon_emit(plan, rec);
     record_photon_trace(plan, rec);
+    if (settings.scatter) return record_photon_splat(plan, params, slice, hits, rec);
     record_photon_sort(plan, params, rec);
-    return record_photon_gather(plan, slice, hits, rec);
+    return record_photon_gather(plan, slice, hits, settings.classic ? PhotonRadii::own : PhotonRadii::common,
+                                rec);
 }
 
 }  // namespace

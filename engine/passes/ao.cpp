@@ -117,6 +117,7 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
                       .constants = surface_constants(plan)};
     dispatch.bindings.insert(dispatch.bindings.end(), {{"LastSlots", planes.last},
                                                        {"Spheres", spheres_buffer(plan, recording)},
+                                                       {"SphereTable", sphere_table_buffer(plan, recording)},
                                                        {"Opens", use_buffer(plan, "ao.opens", recording)},
                                                        {"Located", merged ? unused : planes.now},
                                                        {"Own", use_buffer(plan, "ao.own", recording)}});

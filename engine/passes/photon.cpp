@@ -35,6 +35,56 @@ void record_photon_scan(const RenderPlan& plan, const gpu::PhotonParams& params,
     record_scan_level(plan, 2, runs, recording);
 }
 
+// Of every pass over visible points.
+std::vector<Binding> point_bindings(const RenderPlan& plan, const Plane& hits, Recording& recording) {
+    return {{"Frame", use_buffer(plan, "frame", recording)},
+            {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+            {"Hits", hits.buffer}};
+}
+
+PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
+    return {{use_buffer(plan, "photon.light", recording)}, {use_buffer(plan, "photon.narrow", recording)}};
+}
+
+// Adds what a pass needs that turns sums into light.
+void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& dispatch,
+                 Recording& recording) {
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Spheres", spheres_buffer(plan, recording)},
+                                                       {"Light", planes.light.buffer},
+                                                       {"NarrowLight", planes.narrow.buffer}});
+    dispatch.constants.push_back({"has_spheres", plan.has(Effect::spheres) ? 1u : 0u});
+}
+
+// Sorts the visible points into buckets.
+void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
+                   const Plane& hits, Recording& recording) {
+    const std::string ranks = use_buffer(plan, "photon.ranks", recording);
+    Dispatch point{.label = "photon.point",
+                   .shader = "photon_point",
+                   .extent = pixel_extent(plan, slice),
+                   .bindings = point_bindings(plan, hits, recording)};
+    point.bindings.insert(
+        point.bindings.end(),
+        {{"BucketCounts", use_buffer(plan, "photon.counts", recording)}, {"PointRanks", ranks}});
+    recording.dispatch(std::move(point));
+    record_photon_scan(plan, params, recording);
+    Dispatch place{.label = "photon.place",
+                   .shader = "photon_place",
+                   .extent = pixel_extent(plan, slice),
+                   .bindings = point_bindings(plan, hits, recording)};
+    place.bindings.insert(place.bindings.end(),
+                          {{"PointRanks", ranks},
+                           {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
+                           {"SortedPoints", use_buffer(plan, "photon.points", recording)}});
+    recording.dispatch(std::move(place));
+}
+
+// Invocations of a pass over the pixels of a slice in tiles of 8x8.
+Extent tile_extent(const RenderPlan& plan, const Slice& slice) {
+    const auto columns = static_cast<std::uint32_t>(plan.settings.size.x);
+    return {(columns + 7) / 8 * ((slice.row_count + 7) / 8) * 64, 1, 1};
+}
+
 }  // namespace
 
 gpu::PhotonParams photon_params(const PhotonSetup& setup) {
@@ -54,6 +104,7 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     params.capacity = setup.capacity;
     params.photon_count = setup.photon_count;
     params.iteration = setup.iteration;
+    params.alpha = static_cast<float>(setup.alpha);
     return params;
 }
 
@@ -79,20 +130,50 @@ void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params,
 }
 
 PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                                  Recording& recording) {
-    const PhotonPlanes planes{{use_buffer(plan, "photon.light", recording)},
-                              {use_buffer(plan, "photon.narrow", recording)}};
-    recording.dispatch({.label = "photon.gather",
-                        .shader = "photon_gather",
-                        .extent = pixel_extent(plan, slice),
-                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
-                                     {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                                     {"Hits", hits.buffer},
-                                     {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                                     {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
-                                     {"SortedPowers", use_buffer(plan, "photon.powers", recording)},
-                                     {"Light", planes.light.buffer},
-                                     {"NarrowLight", planes.narrow.buffer}}});
+                                  PhotonRadii radii, Recording& recording) {
+    const bool own = radii == PhotonRadii::own;
+    const PhotonPlanes planes = photon_planes(plan, recording);
+    Dispatch dispatch{.label = "photon.gather",
+                      .shader = "photon_gather",
+                      .extent = tile_extent(plan, slice),
+                      .bindings = point_bindings(plan, hits, recording)};
+    dispatch.bindings.insert(dispatch.bindings.end(),
+                             {{"Tally", use_buffer(plan, "tally", recording)},
+                              {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
+                              {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
+                              {"SortedPowers", use_buffer(plan, "photon.powers", recording)}});
+    dispatch.bindings.push_back(
+        {"PixelRadii", own ? use_buffer(plan, "photon.radii", recording) : placeholder_buffer(recording)});
+    dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
+    let_resolve(plan, planes, dispatch, recording);
+    recording.dispatch(std::move(dispatch));
+    return planes;
+}
+
+PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
+                                 const Plane& hits, Recording& recording) {
+    record_points(plan, params, slice, hits, recording);
+    const std::string totals = use_buffer(plan, "photon.totals", recording);
+    const std::string head = use_buffer(plan, "photon.head", recording);
+    recording.clear(totals);
+    recording.dispatch_indirect({.label = "photon.splat",
+                                 .shader = "photon_splat",
+                                 .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+                                              {"Tally", use_buffer(plan, "tally", recording)},
+                                              {"PhotonHeads", head},
+                                              {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                                              {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
+                                              {"SortedPoints", use_buffer(plan, "photon.points", recording)},
+                                              {"PhotonTotals", totals}}},
+                                head);
+    const PhotonPlanes planes = photon_planes(plan, recording);
+    Dispatch resolve{.label = "photon.resolve",
+                     .shader = "photon_resolve",
+                     .extent = pixel_extent(plan, slice),
+                     .bindings = point_bindings(plan, hits, recording)};
+    resolve.bindings.push_back({"PhotonTotals", totals});
+    let_resolve(plan, planes, resolve, recording);
+    recording.dispatch(std::move(resolve));
     return planes;
 }
 

@@ -16,6 +16,7 @@ struct PhotonSetup {
     std::uint32_t capacity = 0;  // photons that fit in the store
     std::uint32_t photon_count = 0;  // emitted in an iteration
     std::uint32_t iteration = 1;
+    double alpha = 2.0 / 3.0;  // of pixels with radii of their own
 };
 
 // The parameters of an iteration. The radius is not below kLeastPhotonRadius, and the narrow one is 1/sqrt(2)
@@ -34,8 +35,17 @@ struct PhotonPlanes {
     Plane narrow;
 };
 
+// Whose radius a gather takes: the iteration's, or each pixel's own, which starts at the iteration's and
+// shrinks (persistent buffer photon.radii). Then the grid is that of the first radius in all iterations.
+enum class PhotonRadii { common, own };
+
 // The irradiance at each hit from the sorted photons around it. The slice is the whole picture.
 [[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                                                Recording& recording);
+                                                PhotonRadii radii, Recording& recording);
+
+// The same, to the bit, from photons that look for the points around them instead: `scatter`. Photons need
+// not be sorted (constant sorts_photons of the pass that stores them is 0).
+[[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
+                                               const Slice& slice, const Plane& hits, Recording& recording);
 
 }  // namespace voxilux

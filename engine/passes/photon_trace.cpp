@@ -36,6 +36,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
     dispatch.constants.insert(dispatch.constants.end(),
                               {{"keeps_caustics", plan.has(Effect::caustics) ? 1u : 0u},
                                {"keeps_indirect", plan.has(Effect::indirect) ? 1u : 0u},
+                               {"sorts_photons", settings.scatter ? 0u : 1u},
                                {"lanes", plan.photons.lanes},
                                {"depth_limit", settings.roulette ? 0u : settings.depth}});
     dispatch.bindings.push_back({"Starts", use_buffer(plan, "photon.rays", recording)});

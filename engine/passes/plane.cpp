@@ -63,6 +63,11 @@ std::string spheres_buffer(const RenderPlan& plan, Recording& recording) {
     return use_or_placeholder(plan, plan.has(Effect::spheres), "sphere.records", recording);
 }
 
+std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording) {
+    if (plan.has(Effect::spheres)) return use_buffer(plan, "sphere.records", recording);
+    return use_constant("constant.spheres", gpu::kFewSpheres * sizeof(gpu::SphereRecord), 0, recording);
+}
+
 WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
     const bool on = plan.has(Effect::voxels);
     return {.roots = use_or_placeholder(plan, on, "world.roots", recording),
@@ -71,8 +76,11 @@ WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
+    const bool spheres = plan.has(Effect::spheres);
+    const bool few = spheres && plan.sphere_count <= gpu::kFewSpheres;
     return {{"has_voxels", plan.has(Effect::voxels) ? 1u : 0u},
-            {"has_spheres", plan.has(Effect::spheres) ? 1u : 0u}};
+            {"has_spheres", spheres ? 1u : 0u},
+            {"few_spheres", few ? plan.sphere_count : 0u}};
 }
 
 Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
@@ -84,6 +92,7 @@ Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const Surf
                       .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                    {"Tally", use_buffer(plan, "tally", recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
+                                   {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Hits", hits.buffer},
                                    {pass.output_block, output.buffer}},
                       .constants = surface_constants(plan)};

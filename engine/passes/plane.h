@@ -51,6 +51,8 @@ struct Slice {
 // The materials and the spheres, or the placeholder when the plan has none.
 [[nodiscard]] std::string materials_buffer(const RenderPlan& plan, Recording& recording);
 [[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);
+// The spheres as the uniform block SphereTable.
+[[nodiscard]] std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording);
 
 // A pass that reads hits and writes one float for each.
 struct SurfacePass {

@@ -6,6 +6,7 @@ std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording)
     return {{"Frame", use_buffer(plan, "frame", recording)},
             {"Tally", use_buffer(plan, "tally", recording)},
             {"Spheres", spheres_buffer(plan, recording)},
+            {"SphereTable", sphere_table_buffer(plan, recording)},
             {"Materials", materials_buffer(plan, recording)}};
 }
 

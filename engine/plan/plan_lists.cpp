@@ -1,5 +1,6 @@
 #include "plan/plan_lists.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "plan/film_planes.h"
@@ -38,9 +39,14 @@ void list_photon_passes(const RenderPlan& plan, std::uint64_t slices, const AddP
     const bool on = plan.has_photons();
     add(on, "photon.emit", slices);
     add(on, "photon.trace", slices);
+    const bool scatter = plan.settings.photons.scatter;
+    add(on && scatter, "photon.point", slices);
     add(on, "photon.scan", 3 * slices);
-    add(on, "photon.sort", slices);
-    add(on, "photon.gather", slices);
+    add(on && scatter, "photon.place", slices);
+    add(on && scatter, "photon.splat", slices);
+    add(on && scatter, "photon.resolve", slices);
+    add(on && !scatter, "photon.sort", slices);
+    add(on && !scatter, "photon.gather", slices);
 }
 
 void list_photon_buffers(RenderPlan& plan) {
@@ -56,10 +62,19 @@ void list_photon_buffers(RenderPlan& plan) {
     list("photon.counts", photons.buckets * sizeof(gpu::uint));
     list("photon.runs", gpu::scan_runs(photons.buckets) * sizeof(gpu::uint));
     list("photon.starts", (photons.buckets + 1) * sizeof(gpu::uint));
-    list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
-    list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
-    list("photon.light", plan.slice_pixels() * sizeof(gpu::vec3));
-    list("photon.narrow", plan.slice_pixels() * sizeof(gpu::vec3));
+    const std::uint64_t pixels = plan.slice_pixels();
+    list("photon.light", pixels * sizeof(gpu::vec3));
+    list("photon.narrow", pixels * sizeof(gpu::vec3));
+    if (plan.settings.photons.classic)
+        plan.buffers.push_back({"photon.radii", pixels * sizeof(gpu::PixelRadius), true});
+    if (plan.settings.photons.scatter) {
+        list("photon.ranks", pixels * sizeof(gpu::uint));
+        list("photon.points", pixels * sizeof(gpu::PhotonPoint));
+        list("photon.totals", pixels * 6 * sizeof(std::uint64_t));
+    } else {
+        list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
+        list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
+    }
 }
 
 void list_ao_buffers(RenderPlan& plan) {
@@ -128,7 +143,7 @@ void list_buffers(RenderPlan& plan) {
     const bool grows = plan.has(Effect::voxels) && plan.world.growth.steps > 0;
     transient(grows, "world.homes", plan.world.growth.home_bytes);
     by_address(grows, "world.grown", plan.world.growth.grown_bytes, false);
-    persistent(plan.has(Effect::spheres), "sphere.records", plan.sphere_count * sizeof(gpu::SphereRecord));
+    persistent(plan.has(Effect::spheres), "sphere.records", std::max(plan.sphere_count, gpu::kFewSpheres) * sizeof(gpu::SphereRecord));
     persistent(traced, "materials", plan.material_count * sizeof(gpu::SurfaceMaterial));
     transient(plan.has(Effect::voxels), "primary.starts", plan.slice_tiles() * sizeof(float));
     transient(plan.has(Effect::voxels), "primary.hits", pixels * sizeof(gpu::Hit));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "scene/surface_shares.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
 
@@ -14,7 +15,10 @@ namespace {
 
 // Photons that one invocation traces on a CPU: a path's length varies, and what eight invocations do together
 // takes as long as the longest of them; over so many paths the sums of the lengths are within a few percent.
-constexpr std::uint32_t kPhotonsPerLane = 32;
+constexpr double kPhotonsPerLane = 32.0;
+// Turns of all loops that one invocation may be expected to take: a quarter of what lavapipe allows.
+constexpr double kLaneTurns = 16384.0;
+constexpr double kMarchTurns = 32.0;  // of a ray through voxels
 constexpr std::uint32_t kFewestPhotons = 1u << 14;
 constexpr std::uint32_t kMostPhotons = 1u << 24;
 constexpr std::uint32_t kMostBuckets = 1u << 22;
@@ -31,6 +35,12 @@ double stored_per_photon(double most_albedo, const PhotonSettings& settings, boo
     const double endless = 1.0 / std::max(1.0 - most_albedo, 1.0 / kMostStored);
     const double deep = settings.roulette ? kMostStored : static_cast<double>(settings.depth);
     return std::min(kStoreMargin * endless, deep);
+}
+
+std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
+    const double spheres = needs.spheres > gpu::kFewSpheres ? needs.spheres : 1.0;
+    const double turns = (spheres + (needs.has_voxels ? kMarchTurns : 0.0)) * segments;
+    return static_cast<std::uint32_t>(std::clamp(kLaneTurns / turns, 1.0, kPhotonsPerLane));
 }
 
 std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixels) {
@@ -51,10 +61,12 @@ LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec
         const glm::dvec3 far = glm::abs(sphere.centre - glm::dvec3(origin)) + sphere.radius;
         facts.extent = std::max({facts.extent, far.x, far.y, far.z});
     }
-    for (const Material& material : scene.materials)
-        facts.most_albedo = std::max(
-            facts.most_albedo,
-            static_cast<double>(std::max({material.albedo.x, material.albedo.y, material.albedo.z})));
+    for (const Material& material : scene.materials) {
+        const SurfaceShares shares = surface_shares(material);
+        if (shares.mirror + shares.glass >= 1.0f) continue;
+        const float albedo = std::max({material.albedo.x, material.albedo.y, material.albedo.z});
+        facts.most_albedo = std::max(facts.most_albedo, static_cast<double>(albedo));
+    }
     return facts;
 }
 
@@ -69,9 +81,10 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const std::uint32_t wanted = wanted_photons(settings, needs.pixels);
     plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + lamps))));
     plan.lamp_photons = wanted - plan.sun_photons;
-    plan.lanes = limits.is_cpu ? (wanted + kPhotonsPerLane - 1) / kPhotonsPerLane : wanted;
-    const double stored =
-        wanted * stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
+    const double met = stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
+    const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
+    plan.lanes = (wanted + per_lane - 1) / per_lane;
+    const double stored = wanted * met;
     if (stored * sizeof(gpu::StoredPhoton) > static_cast<double>(limits.max_binding_bytes))
         throw Error(ExitCode::input_refused,
                     fmt::format("{} photons in an iteration need room for {:.0f}, more than {} bytes of {}; "

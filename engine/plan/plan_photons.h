@@ -17,7 +17,7 @@ struct LightFacts {
     glm::dvec3 most_power{0.0};  // most that all photons together would carry if each were as the strongest
     SunDisc sun_disc;
     double extent = 0.0;       // largest magnitude of a coordinate that a photon can meet, local to the world
-    double most_albedo = 0.0;  // of a used material
+    double most_albedo = 0.0;  // of a diffuse material
 
     bool operator==(const LightFacts&) const = default;
 };
@@ -47,6 +47,8 @@ struct PhotonNeeds {
     bool keeps_indirect = false;
     glm::vec3 sun_irradiance{0.0f};
     std::uint64_t pixels = 0;
+    std::uint32_t spheres = 0;
+    bool has_voxels = false;
 };
 
 // Throws Error(input_refused) when the photons of an iteration would not fit in a binding.

@@ -178,7 +178,9 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                      .has_sun = plan.has(Effect::sun),
                                      .keeps_indirect = plan.has(Effect::indirect),
                                      .sun_irradiance = scene.sun.irradiance,
-                                     .pixels = pixels_of(plan.settings)},
+                                     .pixels = pixels_of(plan.settings),
+                                     .spheres = plan.sphere_count,
+                                     .has_voxels = plan.has(Effect::voxels)},
                                     limits);
     }
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),

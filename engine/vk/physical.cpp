@@ -114,12 +114,15 @@ bool has_timestamps(VkPhysicalDevice device, int family) {
     return family >= 0 && queue_families(device)[static_cast<std::size_t>(family)].timestampValidBits > 0;
 }
 
-bool has_ballots(VkPhysicalDevice device) {
+bool has_subgroup_operations(VkPhysicalDevice device) {
+    constexpr VkSubgroupFeatureFlags kNeeded =
+        VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
     VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 two{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
     vkGetPhysicalDeviceProperties2(device, &two);
     return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-           (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+           (subgroups.supportedOperations & kNeeded) == kNeeded;
 }
 
 void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info) {
@@ -136,7 +139,8 @@ void judge(VkPhysicalDevice device, std::uint32_t api_version, DeviceInfo& info)
     query_features(device, chain);
     for (const std::string& lack : missing_features(chain, true))
         require(false, lack);
-    require(has_ballots(device), "no ballots of subgroups in compute shaders");
+    require(has_subgroup_operations(device),
+            "no votes, sums, ballots or shuffles of subgroups in compute shaders");
     for (const std::string& lack : missing_features(chain, false))
         info.lacks.push_back(lack);
     if (!has_timestamps(device, family)) info.lacks.emplace_back("no timestamps: passes show 0 ms");

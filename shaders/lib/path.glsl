@@ -148,20 +148,11 @@ void find_voxel(PathRay path, inout PathHit found) {
 
 void find_sphere(PathRay path, inout PathHit found) {
     vec3 origin = local_position(path.cell, path.fraction);
-    float t = found.hit.t;
-    uint nearest = kNoSphere;
-    for (uint i = 0u; i < frame.sphere_count; ++i) {
-        Sphere shape = spheres[i].shape;
-        float own_t = sphere_time_from(shape, origin, path.direction, t);
-        float other_t = sphere_time(shape, origin, path.direction, t);
-        float crossing = i == path.own ? own_t : other_t;
-        nearest = crossing < t ? i : nearest;
-        t = crossing;
-    }
-    if (nearest == kNoSphere) return;
+    NearestSphere nearest = nearest_sphere(origin, path.direction, found.hit.t, path.own);
+    if (nearest.i == kNoSphere) return;
     found = no_hit();
-    found.hit.t = t;
-    place_on_sphere(found.hit, nearest, origin, path.direction);
+    found.hit.t = nearest.t;
+    place_on_sphere(found.hit, nearest.i, origin, path.direction);
 }
 
 // What a ray meets first.

@@ -15,12 +15,14 @@ layout(scalar) writeonly buffer NarrowLight {
 
 // In quanta.
 struct PhotonSums {
+    uint met;        // photons within the radius, where pixels have their own
     u64vec3 wide;    // within the radius
     u64vec3 narrow;  // within the narrow radius
 };
 
 PhotonSums no_photons() {
     PhotonSums sums;
+    sums.met = 0u;
     sums.wide = u64vec3(0u);
     sums.narrow = u64vec3(0u);
     return sums;
@@ -40,10 +42,23 @@ vec3 irradiance(u64vec3 sum, float area) {
     return density;
 }
 
-// Writes what the sums of a pixel mean, when `share` of its disc is there to receive photons.
-void store_light(uint index, PhotonSums sums, float share) {
-    precise float area = 3.14159274 * photon.radius * photon.radius * share;
-    precise float narrow_area = 3.14159274 * photon.narrow_radius * photon.narrow_radius * share;
+// Squared radii of a point's two discs.
+struct Discs {
+    float squared;
+    float narrow_squared;
+};
+
+Discs common_discs() {
+    Discs discs;
+    discs.squared = photon.radius * photon.radius;
+    discs.narrow_squared = photon.narrow_radius * photon.narrow_radius;
+    return discs;
+}
+
+// Writes what the sums of a pixel mean, when these shares of its discs are there to receive photons.
+void store_light(uint index, PhotonSums sums, Discs discs, float share, float narrow_share) {
+    precise float area = 3.14159274 * discs.squared * share;
+    precise float narrow_area = 3.14159274 * discs.narrow_squared * narrow_share;
     light[index] = irradiance(sums.wide, area);
     narrow_light[index] = irradiance(sums.narrow, narrow_area);
 }

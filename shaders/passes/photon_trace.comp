@@ -12,6 +12,7 @@
 
 #include "lib/path.glsl"
 
+#include "lib/loops.glsl"
 #include "lib/photon_store.glsl"
 
 layout(constant_id = 42) const uint keeps_caustics = 1u;  // light that mirrors and glass alone have sent
@@ -108,4 +109,5 @@ void main() {
     }
     count(kWorkPathSegments, segments);
     count(kFaultPathTooLong, too_long);
+    count(kFaultLoopCut, are_loops_spent(2u + (segments & 1u)) ? 1u : 0u);
 }

@@ -27,13 +27,9 @@ void main() {
     if (!is_surface(hit)) hit.t = kUnbounded;
     Ray ray = camera_ray(frame, pixel.x, pixel.y);
     vec3 origin = local_position(ray.cell, ray.fraction);
-    uint nearest = kNoSphere;
-    for (uint i = 0u; i < frame.sphere_count; ++i) {
-        float t = sphere_time(spheres[i].shape, origin, ray.direction, hit.t);
-        nearest = t < hit.t ? i : nearest;
-        hit.t = t;
-    }
-    if (nearest != kNoSphere) place_on_sphere(hit, nearest, origin, ray.direction);
+    NearestSphere nearest = nearest_sphere(origin, ray.direction, hit.t, kNoSphere);
+    hit.t = nearest.t;
+    if (nearest.i != kNoSphere) place_on_sphere(hit, nearest.i, origin, ray.direction);
     if (!is_surface(hit)) hit.t = 0.0;
     hits[pixel.index] = hit;
 }

@@ -93,6 +93,10 @@ VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
+// Spheres that are tested in an unrolled loop. 16 kB, what every device takes as a uniform block, hold 455;
+// beyond 16 the loop gets too long to be unrolled.
+VX_CONST(uint, kFewSpheres, 16u);
+
 // Length of a ray that only asks what its first cell holds, voxels: shorter than any way out of a cell but
 // none.
 VX_CONST(float, kProbeLength, 1.0e-30f);
@@ -115,9 +119,15 @@ VX_CONST(float, kPhotonReach, 1.00000095367431640625f);  // 1 + 2^-20
 // Number of the farthest cell of photons; what lies beyond is in it, too.
 VX_CONST(float, kFarthestPhotonCell, 1.073741824e9f);  // 2^30
 // Cells along x in the width of a cell along y and z: fewer photons to look at, more buckets.
-VX_CONST(float, kPhotonCellParts, 4.0f);
-// Photons of a gather that are added in 32 bits before they go to 64: 2^11 of less than 2^21.
-VX_CONST(uint, kPhotonBatch, 2048u);
+VX_CONST(float, kPhotonCellParts, 2.0f);
+// Visible points gather together when they are no farther apart than this many radii.
+VX_CONST(float, kGatherSpread, 4.0f);
+// A sphere cuts the disc of a point only where the sine of the angle between their surfaces is above this:
+// nearly parallel surfaces lie on each other or are apart, and where they cross is rounding.
+VX_CONST(float, kLeastSlope, 0.001f);
+// A disc counts as no less than this share of it: what a corner of three walls leaves. In narrower corners
+// cuts are not independent, and dividing by less would amplify noise.
+VX_CONST(float, kLeastShare, 0.25f);
 // Workgroups along x of an indirect dispatch; the others go along y. The least limit that Vulkan allows.
 VX_CONST(uint, kMostGroups, 65535u);
 

@@ -1,12 +1,12 @@
-// Where photons are kept so that a disc finds them: in the buckets of a hash table, sorted by bucket. A row
-// is a line of cells along x on one surface; its cells go into neighbouring buckets, so that the part of a
-// row which a disc touches is one run of the sorted photons. Cells are at least as wide as the disc along y
-// and z, which therefore touches at most four rows, and narrow along x, where a run is cut to the disc.
+// Where photons are kept so that a disc finds them: sorted by cell into the buckets of a hash table. A row is
+// a line of cells along x on one surface; its cells go into neighbouring buckets, so the part of a row that a
+// box touches is one run of the sorted photons. A box as wide as a disc touches at most two cells along y and
+// along z; along x, cells are narrower, so that a run fits the disc better.
 //
-// Different rows may share buckets. The runs of a disc are cut such that no bucket is visited twice; whoever
-// reads them compares surface and distance, so pictures do not depend on the size of the table.
+// Different rows may share buckets: whoever reads a row leaves out the photons of others (photon_cell()), so
+// each is met once, and pictures do not depend on the size of the table.
 // Source: Hachisuka and Jensen 2010, "Parallel Progressive Photon Mapping on GPUs", for the hashed grid; rows
-// and the cuts are ours.
+// are ours.
 #ifndef VX_PHOTON_CELL_H
 #define VX_PHOTON_CELL_H
 
@@ -67,79 +67,25 @@ VX_FN uint photon_bucket(vec3 position, uint surface, PhotonGrid grid) {
     return (photon_row(y, z, surface) + uint(x)) & grid.mask;
 }
 
-// A run of buckets, which may go on at the table's start.
+// Neighbouring buckets, from `begin` to before `end`, places in the table of starts; it goes on at the
+// table's beginning when it wraps.
 struct BucketRun {
-    uint first;
-    uint count;
+    uint begin;
+    uint end;
+    bool wraps;
 };
 
-// The runs of four rows.
-struct BucketRuns {
-    BucketRun a;
-    BucketRun b;
-    BucketRun c;
-    BucketRun d;
-};
-
-// What is left of the run of `length` buckets from `home` on, of which `run` is a part, without the equally
-// long run from `other` on. `length` is at most half the table.
-VX_FN BucketRun cut_run(BucketRun run, uint home, uint other, uint length, uint mask) {
-    const uint ahead = (home - other) & mask;
-    const uint behind = (other - home) & mask;
-    uint begin = (run.first - home) & mask;
-    uint end = begin + run.count;
-    if (ahead < length)
-        begin = max(begin, length - ahead);
-    else if (behind < length)
-        end = min(end, behind);
-    BucketRun left;
-    left.first = (home + begin) & mask;
-    left.count = end > begin ? end - begin : 0u;
-    return left;
-}
-
-// The buckets of all photons of a surface that may lie within `radius` of a position, each once. `radius` is
-// at most that of the grid.
-VX_FN BucketRuns photon_runs(vec3 position, float radius, uint surface, PhotonGrid grid) {
-    // Wider by more than the rounding of a distance. Subtraction rounds monotonically, so no photon that the
-    // distance admits lies beyond.
-    VX_PRECISE float reach = radius * kPhotonReach;
-    const int x0 = photon_cell(position.x - reach, grid.x_cells_per_voxel);
-    const int x1 = photon_cell(position.x + reach, grid.x_cells_per_voxel);
-    const int y0 = photon_cell(position.y - reach, grid.cells_per_voxel);
-    const int y1 = photon_cell(position.y + reach, grid.cells_per_voxel);
-    const int z0 = photon_cell(position.z - reach, grid.cells_per_voxel);
-    const int z1 = photon_cell(position.z + reach, grid.cells_per_voxel);
+// The buckets of the cells x0 to x1 of a row, each once.
+VX_FN BucketRun bucket_run(int y, int z, int x0, int x1, uint surface, PhotonGrid grid) {
+    const uint size = grid.mask + 1u;
     const uint length = uint(x1 - x0) + 1u;
-    BucketRuns runs;
-    if (length > (grid.mask + 1u) / 2u) {
-        runs.a.first = 0u;
-        runs.a.count = grid.mask + 1u;
-        runs.b = runs.a;
-        runs.b.count = 0u;
-        runs.c = runs.b;
-        runs.d = runs.b;
-        return runs;
-    }
-    const uint home_a = (photon_row(y0, z0, surface) + uint(x0)) & grid.mask;
-    const uint home_b = (photon_row(y1, z0, surface) + uint(x0)) & grid.mask;
-    const uint home_c = (photon_row(y0, z1, surface) + uint(x0)) & grid.mask;
-    const uint home_d = (photon_row(y1, z1, surface) + uint(x0)) & grid.mask;
-    // Rows that are the same have the same home, and the later ones are cut to nothing.
-    runs.a.first = home_a;
-    runs.a.count = length;
-    runs.b.first = home_b;
-    runs.b.count = length;
-    runs.c.first = home_c;
-    runs.c.count = length;
-    runs.d.first = home_d;
-    runs.d.count = length;
-    runs.b = cut_run(runs.b, home_b, home_a, length, grid.mask);
-    runs.c = cut_run(cut_run(runs.c, home_c, home_a, length, grid.mask), home_c, home_b, length, grid.mask);
-    runs.d = cut_run(runs.d, home_d, home_a, length, grid.mask);
-    runs.d = cut_run(runs.d, home_d, home_b, length, grid.mask);
-    runs.d = cut_run(runs.d, home_d, home_c, length, grid.mask);
-    return runs;
+    const bool is_whole = length >= size;
+    BucketRun run;
+    run.begin = is_whole ? 0u : (photon_row(y, z, surface) + uint(x0)) & grid.mask;
+    const uint end = run.begin + (is_whole ? size : length);
+    run.wraps = end > size;
+    run.end = run.wraps ? end - size : end;
+    return run;
 }
 
 #ifdef __cplusplus

@@ -24,6 +24,13 @@ struct PhotonParams {
     uint capacity;        // photons that fit in the store
     uint photon_count;    // emitted in an iteration
     uint iteration;       // from 1
+    float alpha;          // share of the new photons that a pixel with a radius of its own keeps
+};
+
+// The radius of a pixel that shrinks with the photons it has met (sppm.h).
+struct PixelRadius {
+    float squared;  // voxels^2
+    float photons;  // that count as met
 };
 
 // A photon where it met a diffuse surface: as it was stored, and as it was sorted.
@@ -33,6 +40,13 @@ struct StoredPhoton {
     uvec2 power;    // packed (photon_power.h)
     uint bucket;
     uint rank;  // among those of the bucket, in order of arrival
+};
+
+// A visible point that photons look for.
+struct PhotonPoint {
+    vec3 position;  // local to the world, voxels
+    uint surface;   // photon_surface()
+    uint pixel;     // of the slice
 };
 
 // Head of the store: the workgroups of passes over all photons in it, as an indirect dispatch reads them, and

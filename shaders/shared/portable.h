@@ -42,6 +42,7 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
+using std::acos;
 using std::cos;
 using std::isinf;
 using std::isnan;

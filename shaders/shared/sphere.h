@@ -104,20 +104,24 @@ VX_FN SphereHit sphere_intersect(Sphere sphere, vec3 origin, vec3 direction, flo
 }
 
 // The time of sphere_intersect() from t_min = 0, without the normal; t_max where there is no crossing before.
-VX_FN float sphere_time(Sphere sphere, vec3 origin, vec3 direction, float t_max) {
-    SphereCrossing crossing = sphere_crossing(sphere, origin, direction);
-    float t = t_max;
-    t = crossing.is_met && crossing.t_h >= 0.0f && crossing.t_h < t ? crossing.t_h : t;
-    return crossing.is_met && crossing.t_c >= 0.0f && crossing.t_c < t ? crossing.t_c : t;
-}
-
-// The same for a ray that starts on the sphere: the crossing at its start is known and left out, whatever the
-// rounding of the start. A ray that goes outwards has no other one.
-VX_FN float sphere_time_from(Sphere sphere, vec3 origin, vec3 direction, float t_max) {
-    VX_PRECISE vec3 gradient = sphere.normal + sphere.curvature * (origin - sphere.anchor);
+// `starts_on` says that the ray starts on the sphere: that crossing is known and left out, whatever the
+// rounding of the start.
+VX_FN float sphere_time(Sphere sphere, vec3 origin, vec3 direction, float t_max, bool starts_on) {
+    VX_PRECISE vec3 q = origin - sphere.anchor;
+    VX_PRECISE vec3 gradient = sphere.normal + sphere.curvature * q;
     VX_PRECISE float b = dot(gradient, direction);
-    VX_PRECISE float t = -2.0f * b / sphere.curvature;  // k t^2 + 2 b t = 0
-    return t > 0.0f && t < t_max ? t : t_max;
+    VX_PRECISE float distance_form = sphere.curvature * dot(q, q) + 2.0f * dot(q, sphere.normal);
+    float c = starts_on ? 0.0f : distance_form;
+    VX_PRECISE vec3 across = gradient - b * direction;
+    float discriminant = starts_on ? b * b : sphere_discriminant(b, sphere.curvature * c, across);
+    float root = sqrt(max(discriminant, 0.0f));
+    VX_PRECISE float h = -(b + (b >= 0.0f ? root : -root));
+    VX_PRECISE float t_h = h / sphere.curvature;
+    VX_PRECISE float t_c = c / h;
+    float t = t_max;
+    t = t_h >= 0.0f && t_h < t ? t_h : t;
+    t = t_c >= 0.0f && t_c < t && !starts_on ? t_c : t;
+    return discriminant >= 0.0f ? t : t_max;
 }
 
 // Whether a point is inside: k |q|^2 + 2 q.normal < 0. On the surface rounding decides.

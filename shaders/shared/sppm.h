@@ -5,6 +5,7 @@
 #define VX_SPPM_H
 
 #include "limits.h"
+#include "photon_types.h"
 #include "portable.h"
 #include "sampling.h"
 
@@ -26,6 +27,22 @@ inline double photon_radius(double first, double alpha, std::uint32_t iteration)
 VX_FN float photon_kernel(float distance_squared, float radius) {
     VX_PRECISE float radius_squared = radius * radius;
     return distance_squared <= radius_squared ? kInversePi / radius_squared : 0.0f;
+}
+
+// Radius of a pixel after it met so many more photons: N' = N + alpha M, r'^2 = r^2 N' / (N + M). The flux
+// that the paper keeps beside them, tau' = (tau + phi) r'^2 / r^2, is not needed: its density tau / (pi r^2)
+// grows in each iteration by that of the new photons, phi / (pi r^2) with the radius before, so the mean of
+// those densities is the paper's estimate. Source: Hachisuka and Jensen 2009, "Stochastic Progressive Photon
+// Mapping", ACM TOG 28(5), eq. 6 to 9.
+VX_FN PixelRadius shrunk_radius(PixelRadius before, float met, float alpha) {
+    PixelRadius after = before;
+    if (!(met > 0.0f)) return after;
+    VX_PRECISE float kept = before.photons + alpha * met;
+    VX_PRECISE float all_met = before.photons + met;
+    VX_PRECISE float ratio = kept / all_met;
+    after.photons = kept;
+    after.squared = max(before.squared * ratio, kLeastPhotonRadius * kLeastPhotonRadius);
+    return after;
 }
 
 // Probability with which a path of this throughput goes on; what goes on is divided by it. It is the largest

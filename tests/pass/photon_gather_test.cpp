@@ -1,7 +1,9 @@
 // The passes that turn stored photons into light, against sums over all photons in double precision.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -110,6 +112,214 @@ TEST(PhotonGather, light_is_the_sum_over_all_photons_of_the_surface_within_the_r
             expect_no_faults(outcome);
         }
     }
+}
+
+bool same_light(const PhotonOutcome& a, const PhotonOutcome& b) {
+    const auto same = [](const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& y) {
+        return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(glm::vec3)) == 0;
+    };
+    return same(a.light, b.light) && same(a.narrow, b.narrow);
+}
+
+TEST(PhotonSplat, light_equals_the_gather_to_the_bit) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        PhotonJob job = random_job(seed, {-3, 200, seed == 3 ? -1e4f : 0.0f}, 6.0, 2);
+        const PhotonOutcome gathered = test::run_photons(job);
+        EXPECT_TRUE(same_light(gathered, test::run_splat(job))) << seed;
+        for (std::size_t i = 0; i < 50; ++i)
+            job.photons[i].is_stored ^= 1u;
+        EXPECT_FALSE(same_light(gathered, test::run_splat(job))) << seed;
+    }
+}
+
+TEST(PhotonGather, tables_of_any_size_give_the_same_bits) {
+    PhotonJob job = random_job(4, {0, 0, 0}, 10.0, 3);
+    job.photons.resize(1500);
+    const PhotonOutcome want = test::run_photons(job);
+    EXPECT_EQ(wrong_points(job, want), 0);
+    for (const std::uint32_t buckets : {1u, 2u, 4u, 16u, 64u, 1u << 16}) {
+        job.setup.buckets = buckets;
+        const PhotonOutcome gathered = test::run_photons(job);
+        expect_no_faults(gathered);
+        EXPECT_TRUE(same_light(want, gathered)) << buckets;
+        EXPECT_TRUE(same_light(want, test::run_splat(job))) << buckets;
+    }
+}
+
+// What a device cuts off is never silent: lavapipe ends loops after 65535 turns.
+TEST(PhotonGather, sums_are_whole_or_a_fault_is_counted) {
+    PhotonJob job = random_job(4, {0, 0, 0}, 10.0, 1);
+    job.setup.radius = 100.0;
+    job.setup.capacity = 100000;
+    job.photons.resize(50);
+    job.points.resize(16);
+    const std::vector<gpu::PhotonIn> few = job.photons;
+    while (job.photons.size() < 90000)
+        job.photons.insert(job.photons.end(), few.begin(), few.end());
+    const PhotonOutcome outcome = test::run_photons(job);
+    const bool is_whole = wrong_points(job, outcome) == 0;
+    EXPECT_NE(is_whole, outcome.tally[gpu::kFaultLoopCut] > 0);
+    job.photons.resize(30000);
+    expect_no_faults(test::run_photons(job));
+}
+
+TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
+    PhotonJob job = random_job(9, {0, 0, 0}, 5.0, 2);
+    for (gpu::PhotonIn& photon : job.photons)
+        photon.is_stored = 1;
+    const auto count = static_cast<std::uint32_t>(job.photons.size());
+    for (const std::uint32_t capacity : {count, count - 1, 64u, 1u}) {
+        job.setup.capacity = capacity;
+        const PhotonOutcome outcome = test::run_photons(job);
+        EXPECT_EQ(outcome.tally[gpu::kFaultPhotonStoreFull], count - capacity);
+        EXPECT_EQ(outcome.tally[gpu::kWorkPhotonsStored], capacity);
+        EXPECT_EQ(outcome.head.count, count);
+        std::vector<std::array<std::uint64_t, 3>> sorted;
+        for (std::size_t i = 0; i < capacity; ++i)
+            sorted.push_back({outcome.places[2 * i], outcome.places[2 * i + 1], outcome.powers[i]});
+        std::ranges::sort(sorted);
+        // Every sorted record is a photon of the job, none twice.
+        EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end()) << capacity;
+        EXPECT_EQ(wrong_points(job, outcome) == 0, capacity == count);
+    }
+}
+
+TEST(PhotonGather, no_photons_are_no_light) {
+    PhotonJob job = random_job(9, {0, 0, 0}, 5.0, 2);
+    for (gpu::PhotonIn& photon : job.photons)
+        photon.is_stored = 0;
+    const PhotonOutcome outcome = test::run_photons(job);
+    expect_no_faults(outcome);
+    for (std::size_t i = 0; i < outcome.light.size(); ++i)
+        ASSERT_EQ(outcome.light[i] + outcome.narrow[i], glm::vec3(0.0f));
+    EXPECT_TRUE(same_light(outcome, test::run_splat(job)));
+}
+
+TEST(PhotonGather, all_photons_in_one_place_are_summed_exactly) {
+    PhotonJob job = random_job(9, {0, 0, 0}, 1.0, 1);
+    for (gpu::PhotonIn& photon : job.photons)
+        photon.position = glm::vec3(0.25f);
+    for (std::size_t i = 0; i < job.points.size(); ++i)
+        job.points[i] = sphere_point(glm::vec3(0.25f), i % 2 == 0 ? 0 : 1);
+    const PhotonOutcome outcome = test::run_photons(job);
+    EXPECT_EQ(wrong_points(job, outcome), 0);
+    EXPECT_GT(outcome.light[0].x, 0.0f);
+    EXPECT_EQ(outcome.light[1], glm::vec3(0.0f));
+}
+
+TEST(PhotonGather, a_radius_below_the_least_is_the_least) {
+    PhotonJob job = random_job(9, {0, 0, 0}, 3e-4, 1);
+    job.setup.radius = 0.0;
+    const PhotonOutcome outcome = test::run_photons(job);
+    EXPECT_EQ(wrong_points(job, outcome), 0);
+    EXPECT_EQ(photon_params(job.setup).radius, gpu::kLeastPhotonRadius);
+    for (const glm::vec3& light : outcome.light)
+        ASSERT_TRUE(std::isfinite(light.x + light.y + light.z));
+}
+
+TEST(PhotonGather, bad_powers_and_places_are_counted_and_never_spread) {
+    PhotonJob job = random_job(9, {0, 0, 0}, 5.0, 2);
+    job.photons.resize(100);
+    for (gpu::PhotonIn& photon : job.photons)
+        photon.is_stored = 1;
+    job.photons[3].power.x = std::nanf("");
+    job.photons[14].power.y = -1.0f;
+    job.photons[15].power.z = INFINITY;
+    job.photons[92].power.x = 3.5f;  // above the largest
+    job.photons[65].position.y = std::nanf("");
+    job.photons[35].position.x = -INFINITY;
+    const PhotonOutcome outcome = test::run_photons(job);
+    EXPECT_EQ(outcome.tally[gpu::kFaultPhotonPower], 6u);
+    for (const glm::vec3& light : outcome.light)
+        ASSERT_TRUE(std::isfinite(light.x + light.y + light.z));
+}
+
+// Photons on the two sides of a wall one voxel thick, and on the floor and the wall of a corner, meet no
+// points but those of their own face.
+TEST(PhotonGather, light_leaks_neither_through_a_wall_nor_round_a_corner) {
+    PhotonJob job;
+    job.setup = {.radius = 3.0, .extent = 32.0, .most_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        gpu::Hit hit{.cell = {4, 4, 4}, .face = face, .fraction = glm::vec3(0.5f)};
+        hit.fraction[static_cast<int>(face / 2)] = static_cast<float>(face % 2);
+        job.points.push_back(hit);
+    }
+    for (std::size_t lit = 0; lit < 6; ++lit) {
+        job.photons = {{gpu::photon_position(job.points[lit]), gpu::photon_surface(job.points[lit]),
+                        glm::vec3(0.5f), 1u}};
+        const PhotonOutcome outcome = test::run_photons(job);
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_EQ(outcome.light[i].x > 0.0f, i == lit) << i << ", " << lit;
+    }
+}
+
+// A floor and a wall of the scenes' kind, the point half a radius from the wall: what the wall takes of the
+// disc is missing from the area.
+TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_leaves) {
+    PhotonJob job;
+    job.setup = {.radius = 2.0, .extent = 20.0, .most_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
+    job.points = {sphere_point({1.0f, 5.0f, 0.0f}, 0)};
+    job.photons = {{{1.25f, 5.0f, 0.0f}, gpu::photon_surface(job.points[0]), glm::vec3(0.5f), 1u}};
+    const PhotonOutcome open = test::run_photons(job);
+    job.spheres = {{gpu::sphere_anchored_near({0, 0, 1e4}, 1e4, {0, 0, 0}), 0},
+                   {gpu::sphere_anchored_near({1e4, 0, 0}, 1e4, {0, 0, 0}), 0}};
+    const PhotonOutcome walled = test::run_photons(job);
+    const double left =
+        2.0 / 3.0 + std::sqrt(3.0) / (4.0 * std::numbers::pi);  // of a line at half the radius
+    EXPECT_NEAR(double{walled.light[0].x} / double{open.light[0].x} * left, 1.0, 1e-3);
+    EXPECT_GT(walled.narrow[0].x, open.narrow[0].x);
+    EXPECT_TRUE(same_light(walled, test::run_splat(job)));
+}
+
+TEST(PhotonGather, workgroups_of_any_shape_give_the_same_bits) {
+    const PhotonJob job = random_job(12, {0, 0, 0}, 6.0, 2);
+    const PhotonOutcome want = test::run_photons(job);
+    for (const std::array<std::uint32_t, 2> size :
+         {std::array{16u, 16u}, std::array{4u, 2u}, std::array{3u, 5u}}) {
+        Executor executor(test_device(), all_shaders(), {.group_size = size, .poison_transients = true});
+        EXPECT_TRUE(same_light(want, test::run_photons(job, executor))) << size[0];
+        EXPECT_TRUE(same_light(want, test::run_splat(job, executor))) << size[0];
+    }
+}
+
+// Photons of a surface within a squared radius of a point.
+double photons_within(const PhotonJob& job, const gpu::Hit& hit, double squared) {
+    double count = 0.0;
+    for (const gpu::PhotonIn& photon : job.photons) {
+        const glm::dvec3 away = glm::dvec3(photon.position) - glm::dvec3(gpu::photon_position(hit));
+        const bool counts = photon.is_stored != 0 && photon.surface == gpu::photon_surface(hit);
+        count += counts && glm::dot(away, away) <= squared ? 1.0 : 0.0;
+    }
+    return count;
+}
+
+// The paper's statistics in double precision, flux included: its estimate is the mean of what the passes
+// gave.
+TEST(PhotonGather, radii_of_pixels_shrink_as_the_paper_says_and_the_mean_is_its_estimate) {
+    PhotonJob job = random_job(21, {0, 0, 0}, 10.0, 1);
+    job.radii = PhotonRadii::own;
+    job.points.resize(64);
+    std::vector<double> squared(64, job.setup.radius * job.setup.radius), met(64, 0.0), flux(64, 0.0),
+        sum(64, 0.0);
+    for (std::uint32_t iteration = 1; iteration <= 4; ++iteration) {
+        job.photons = random_job(100 + iteration, {0, 0, 0}, 10.0, 1).photons;
+        job.setup.iteration = iteration;
+        const PhotonOutcome outcome = test::run_photons(job);
+        for (std::size_t i = 0; i < 64; ++i) {
+            const double m = photons_within(job, job.points[i], squared[i]);
+            const double phi =
+                light_at(job, job.points[i], std::sqrt(squared[i])).light.x * std::numbers::pi * squared[i];
+            const double ratio = m > 0.0 ? (met[i] + job.setup.alpha * m) / (met[i] + m) : 1.0;
+            flux[i] = (flux[i] + phi) * ratio;
+            squared[i] *= ratio;
+            met[i] += job.setup.alpha * m;
+            sum[i] += double{outcome.light[i].x};
+            ASSERT_NEAR(double{outcome.radii[i].squared} / squared[i], 1.0, 1e-5) << i << ", " << iteration;
+            const double estimate = flux[i] / (std::numbers::pi * squared[i]);
+            ASSERT_NEAR(sum[i], estimate, 1e-5 * estimate) << i << ", " << iteration;
+        }
+    }
+    EXPECT_LT(squared[0], 0.9 * job.setup.radius * job.setup.radius);
 }
 
 TEST(PhotonGather, a_moved_photon_is_found) {

@@ -15,7 +15,7 @@ std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
 }
 
 // What the pass that traces photons would have done.
-void record_append(const RenderPlan& plan, const PhotonJob& job, Recording& recording) {
+void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Recording& recording) {
     const auto count = static_cast<std::uint32_t>(job.photons.size());
     recording.declare(
         {.name = "t.photons", .size_bytes = std::max<std::size_t>(count, 1) * sizeof(gpu::PhotonIn)});
@@ -30,6 +30,7 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, Recording& reco
                                      {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
                                      {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
                                      {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
+                        .constants = {{"sorts_photons", sorts ? 1u : 0u}},
                         .push = to_bytes(count)});
 }
 
@@ -42,10 +43,50 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     frame.sphere_count = static_cast<gpu::uint>(job.spheres.size());
     recording.upload(use_buffer(plan, "frame", recording), to_bytes(frame));
     recording.clear(use_buffer(plan, "tally", recording));
+    if (!job.spheres.empty())
+        recording.upload(use_buffer(plan, "sphere.records", recording),
+                         std::as_bytes(std::span(job.spheres)));
     recording.declare(
         {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
     recording.clear("t.points", 0xFFFFFFFFu);
     recording.upload("t.points", std::as_bytes(std::span(job.points)));
+}
+
+PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
+    PhotonOutcome outcome;
+    outcome.light = values_of<glm::vec3>(result, planes.light.buffer);
+    outcome.narrow = values_of<glm::vec3>(result, planes.narrow.buffer);
+    outcome.head = values_of<gpu::PhotonHead>(result, "photon.head").front();
+    if (result.readbacks.contains("photon.places")) {
+        outcome.places = values_of<std::uint64_t>(result, "photon.places");
+        outcome.powers = values_of<std::uint64_t>(result, "photon.powers");
+    }
+    if (result.readbacks.contains("photon.radii"))
+        outcome.radii = values_of<gpu::PixelRadius>(result, "photon.radii");
+    const auto tally = values_of<gpu::uint>(result, "tally");
+    std::copy_n(tally.begin(), outcome.tally.size(), outcome.tally.begin());
+    outcome.times = result.passes;
+    return outcome;
+}
+
+PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
+    const RenderPlan plan = photon_plan(job);
+    const gpu::PhotonParams params = photon_params(job.setup);
+    const Slice slice{.row_count = rows_of(job)};
+    Recording recording;
+    record_inputs(plan, job, recording);
+    record_photon_clear(plan, params, recording);
+    record_append(plan, job, !scatters, recording);
+    if (!scatters) record_photon_sort(plan, params, recording);
+    const PhotonPlanes planes = scatters
+                                    ? record_photon_splat(plan, params, slice, {"t.points"}, recording)
+                                    : record_photon_gather(plan, slice, {"t.points"}, job.radii, recording);
+    for (const std::string& buffer :
+         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally")})
+        recording.readback(buffer);
+    for (const char* buffer : {"photon.places", "photon.powers", "photon.radii"})
+        if (recording.find(buffer) != nullptr) recording.readback(buffer);
+    return outcome_of(executor.run(recording), planes);
 }
 
 }  // namespace
@@ -60,46 +101,35 @@ RenderPlan photon_plan(const PhotonJob& job) {
     const std::uint64_t buckets = job.setup.buckets;
     RenderPlan plan;
     plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
-    plan.buffers = {{"frame", sizeof(gpu::FrameParams)},
-                    {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
-                    {"photon.frame", sizeof(gpu::PhotonParams)},
-                    {"photon.head", sizeof(gpu::PhotonHead)},
-                    {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
-                    {"photon.counts", buckets * 4},
-                    {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
-                    {"photon.starts", (buckets + 1) * 4},
-                    {"photon.places", capacity * 16},
-                    {"photon.powers", capacity * 8},
-                    {"photon.light", pixels * 12},
-                    {"photon.narrow", pixels * 12}};
+    plan.effects[static_cast<std::size_t>(Effect::spheres)].on = !job.spheres.empty();
+    plan.sphere_count = static_cast<std::uint32_t>(job.spheres.size());
+    plan.buffers = {
+        {"frame", sizeof(gpu::FrameParams)},
+        {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
+        {"sphere.records", std::max<std::size_t>(job.spheres.size(), 1) * sizeof(gpu::SphereRecord)},
+        {"photon.frame", sizeof(gpu::PhotonParams)},
+        {"photon.head", sizeof(gpu::PhotonHead)},
+        {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
+        {"photon.counts", buckets * 4},
+        {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
+        {"photon.starts", (buckets + 1) * 4},
+        {"photon.places", capacity * 16},
+        {"photon.powers", capacity * 8},
+        {"photon.ranks", pixels * 4},
+        {"photon.radii", pixels * sizeof(gpu::PixelRadius), true},
+        {"photon.points", pixels * sizeof(gpu::PhotonPoint)},
+        {"photon.totals", pixels * 48},
+        {"photon.light", pixels * 12},
+        {"photon.narrow", pixels * 12}};
     return plan;
 }
 
 PhotonOutcome run_photons(const PhotonJob& job, Executor& executor) {
-    const RenderPlan plan = photon_plan(job);
-    const gpu::PhotonParams params = photon_params(job.setup);
-    Recording recording;
-    record_inputs(plan, job, recording);
-    record_photon_clear(plan, params, recording);
-    record_append(plan, job, recording);
-    record_photon_sort(plan, params, recording);
-    const PhotonPlanes planes =
-        record_photon_gather(plan, {.row_count = rows_of(job)}, {"t.points"}, recording);
-    for (const std::string& buffer :
-         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally"),
-          std::string("photon.places"), std::string("photon.powers")})
-        recording.readback(buffer);
-    const RunResult result = executor.run(recording);
-    PhotonOutcome outcome;
-    outcome.light = values_of<glm::vec3>(result, planes.light.buffer);
-    outcome.narrow = values_of<glm::vec3>(result, planes.narrow.buffer);
-    outcome.places = values_of<std::uint64_t>(result, "photon.places");
-    outcome.powers = values_of<std::uint64_t>(result, "photon.powers");
-    outcome.head = values_of<gpu::PhotonHead>(result, "photon.head").front();
-    const auto tally = values_of<gpu::uint>(result, "tally");
-    std::copy_n(tally.begin(), outcome.tally.size(), outcome.tally.begin());
-    outcome.times = result.passes;
-    return outcome;
+    return run_job(job, false, executor);
+}
+
+PhotonOutcome run_splat(const PhotonJob& job, Executor& executor) {
+    return run_job(job, true, executor);
 }
 
 }  // namespace voxilux::test

@@ -22,6 +22,7 @@ struct PhotonJob {
     std::uint32_t width = 16;
     std::vector<gpu::SphereRecord> spheres;
     PhotonSetup setup;
+    PhotonRadii radii = PhotonRadii::common;
 };
 
 // What the passes wrote.
@@ -30,6 +31,7 @@ struct PhotonOutcome {
     std::vector<glm::vec3> narrow;
     std::vector<std::uint64_t> places;
     std::vector<std::uint64_t> powers;
+    std::vector<gpu::PixelRadius> radii;
     gpu::PhotonHead head{};
     std::array<gpu::uint, gpu::kTallyCount> tally{};
     std::vector<PassTime> times;
@@ -41,7 +43,8 @@ struct PhotonOutcome {
 // A plan that holds the buffers of a job and nothing else.
 [[nodiscard]] RenderPlan photon_plan(const PhotonJob& job);
 
-// Appends, sorts and gathers.
+// Appends, sorts and gathers, or appends and splats.
 [[nodiscard]] PhotonOutcome run_photons(const PhotonJob& job, Executor& executor = test_executor());
+[[nodiscard]] PhotonOutcome run_splat(const PhotonJob& job, Executor& executor = test_executor());
 
 }  // namespace voxilux::test

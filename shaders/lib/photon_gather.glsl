@@ -1,0 +1,183 @@
+// The sums of photons around the visible points of a subgroup. Points of one surface that are near each other gather
+// together: each invocation fetches a photon, and each photon that may matter is shown to all of them in turn. Photons
+// are so loaded once for a subgroup; on software devices, where loads cost most, that halves the time. Include lib/address.glsl and lib/frame_access.glsl first.
+#ifndef VX_PHOTON_GATHER_GLSL
+#define VX_PHOTON_GATHER_GLSL
+
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+
+#include "lib/loops.glsl"
+#include "lib/photon_light.glsl"
+#include "lib/tally_access.glsl"
+
+layout(constant_id = 32) const uint own_radii = 0u;
+
+layout(scalar) readonly buffer BucketStarts {
+    uint bucket_starts[];
+};
+layout(scalar) readonly buffer SortedPlaces {
+    uint64_t sorted_places[];
+};
+layout(scalar) readonly buffer SortedPowers {
+    uint64_t sorted_powers[];
+};
+
+// The pixel of an invocation of a list of 8x8 tiles; eight invocations in a row are a block of 4x2 pixels.
+Pixel tile_pixel() {
+    uint tile = linear_id() / 64u;
+    uint tiles_x = (frame.column_count + 7u) / 8u;
+    uint tiles_y = (frame.row_count + 7u) / 8u;
+    uint lane = gl_LocalInvocationID.x % 64u;
+    uint x = (lane & 3u) | ((lane >> 1u) & 4u);
+    uint y = ((lane >> 2u) & 1u) | ((lane >> 3u) & 6u);
+    uint column = (tile % tiles_x) * 8u + x;
+    uint row = interleaved_row(tile / tiles_x, tiles_y) * 8u + y;
+    Pixel pixel;
+    pixel.x = frame.first_column + column;
+    pixel.y = frame.first_row + row;
+    pixel.index = row * frame.column_count + column;
+    pixel.inside = tile < tiles_x * tiles_y && column < frame.column_count && row < frame.row_count;
+    return pixel;
+}
+
+// Points that gather together, the same for all of a subgroup. The box holds their discs.
+struct GatherBox {
+    vec3 low;
+    vec3 high;
+    uint surface;
+};
+
+// A line of cells of a box, and where the photons of its buckets are; they may go on at the store's start.
+struct GatherRow {
+    int y;
+    int z;
+    uint first;
+    uint count;
+};
+
+// Rows of a box, `columns` of them side by side along y.
+GatherRow gather_row(GatherBox box, uint number, uint columns, uint total) {
+    GatherRow row;
+    row.y = photon_cell(box.low.y, photon.grid.cells_per_voxel) + int(number % columns);
+    row.z = photon_cell(box.low.z, photon.grid.cells_per_voxel) + int(number / columns);
+    int x0 = photon_cell(box.low.x, photon.grid.x_cells_per_voxel);
+    int x1 = photon_cell(box.high.x, photon.grid.x_cells_per_voxel);
+    BucketRun run = bucket_run(row.y, row.z, x0, x1, box.surface, photon.grid);
+    row.first = bucket_starts[run.begin];
+    row.count = bucket_starts[run.end] + (run.wraps ? total : 0u) - row.first;
+    return row;
+}
+
+// Whether a photon is one that the points of a box look for in a row. Rows may share buckets, so a photon counts only in
+// its own.
+bool is_in_row(GatherBox box, int y, int z, vec3 position, uint surface) {
+    bool is_inside = all(greaterThanEqual(position, box.low)) && all(lessThanEqual(position, box.high));
+    return is_inside && surface == box.surface &&
+           photon_cell(position.y, photon.grid.cells_per_voxel) == y &&
+           photon_cell(position.z, photon.grid.cells_per_voxel) == z;
+}
+
+// A photon that an invocation has fetched for its subgroup.
+struct Fetched {
+    vec3 position;
+    uvec2 power;
+    bool is_wanted;
+};
+
+// Rows, one for each invocation of a subgroup, and the photons in them numbered through.
+struct GatherList {
+    GatherRow row;
+    uint end;    // photons in the rows up to this one
+    uint count;  // in all rows
+    uint lanes;  // invocations that fetch, a power of two up to 32: the bits of a word
+    uint total;  // photons in the store
+};
+
+Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
+    uint at = 0u;  // the invocation whose row holds photon n
+    for (uint step = 16u; step > 0u; step /= 2u) {
+        uint next = subgroupShuffle(list.end, (at + step - 1u) & (list.lanes - 1u));
+        at += step < list.lanes && n >= next ? step : 0u;
+    }
+    uint i = subgroupShuffle(list.row.first + list.row.count - list.end, at) + n;
+    i = i >= list.total ? i - list.total : i;
+    i = n < list.count ? i : 0u;
+    uvec2 xy = unpack32(sorted_places[2u * i]);
+    uvec2 zs = unpack32(sorted_places[2u * i + 1u]);
+    Fetched fetched;
+    fetched.power = unpack32(sorted_powers[i]);
+    fetched.position = uintBitsToFloat(uvec3(xy, zs.x));
+    int y = subgroupShuffle(list.row.y, at);
+    int z = subgroupShuffle(list.row.z, at);
+    fetched.is_wanted = n < list.count && is_in_row(box, y, z, fetched.position, zs.y);
+    return fetched;
+}
+
+// Adds the photons of a list to the sums of the points that take part.
+void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout PhotonSums sums) {
+    for (uint first = 0u; first < list.count; first += list.lanes) {
+        Fetched fetched = fetch_photon(box, list, first + gl_SubgroupInvocationID);
+        uint wanted = subgroupBallot(fetched.is_wanted).x;
+        uvec3 wide = uvec3(0u);  // 2^5 photons of less than 2^21 quanta
+        uvec3 narrow = uvec3(0u);
+        for (uint left = wanted; left != 0u; left &= left - 1u) {
+            uint from = findLSB(left);
+            float squared = photon_distance_squared(point, subgroupShuffle(fetched.position, from));
+            uvec3 quanta = unpack_power(subgroupShuffle(fetched.power, from));
+            wide += squared <= discs.squared ? quanta : uvec3(0u);
+            if (own_radii != 0u) sums.met += squared <= discs.squared ? 1u : 0u;
+            narrow += squared <= discs.narrow_squared ? quanta : uvec3(0u);
+        }
+        add_quanta(sums, wide, narrow);
+    }
+}
+
+// Cells of a box along y or z.
+uint cells_between(float low, float high) {
+    int cells = photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel) + 1;
+    return uint(max(cells, 0));  // none of an empty box
+}
+
+// Adds the photons of a box. Its rows are looked up side by side, one by each invocation.
+void add_box(GatherBox box, vec3 point, Discs discs, inout PhotonSums sums) {
+    uint columns = cells_between(box.low.y, box.high.y);
+    uint rows = columns * cells_between(box.low.z, box.high.z);
+    GatherList list;
+    list.total = bucket_starts[photon.grid.mask + 1u];
+    list.lanes = min(subgroupBallotBitCount(subgroupBallot(true)), 32u);
+    for (uint first = 0u; first < rows; first += list.lanes) {
+        uint number = first + gl_SubgroupInvocationID;
+        list.row = gather_row(box, number, columns, list.total);
+        list.row.count = number < rows && gl_SubgroupInvocationID < list.lanes ? list.row.count : 0u;
+        list.end = subgroupInclusiveAdd(list.row.count);
+        list.count = subgroupShuffle(list.end, list.lanes - 1u);
+        add_list(box, list, point, discs, sums);
+    }
+}
+
+// The sums at a point; kNoSurface gets none. All invocations of a subgroup call it together.
+PhotonSums gather(vec3 position, uint surface, Discs own) {
+    PhotonSums sums = no_photons();
+    float reach = photon.radius * kPhotonReach;
+    bool waits = surface != kNoSurface;
+    while (subgroupAny(waits)) {  // one waits less after each turn
+        uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
+        GatherBox box;
+        box.surface = subgroupShuffle(surface, leader);
+        vec3 away = abs(position - subgroupShuffle(position, leader));
+        bool takes = waits && surface == box.surface && max(max(away.x, away.y), away.z) <= kGatherSpread * photon.radius;
+        box.low = subgroupMin(takes ? position : vec3(kUnbounded)) - reach;
+        box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
+        Discs discs;  // of those that take part
+        discs.squared = takes ? own.squared : -1.0;
+        discs.narrow_squared = takes ? own.narrow_squared : -1.0;
+        add_box(box, position, discs, sums);
+        waits = waits && !takes && gl_SubgroupInvocationID != leader;
+    }
+    count(kFaultLoopCut, are_loops_spent(gl_SubgroupSize) && surface != kNoSurface ? 1u : 0u);
+    return sums;
+}
+
+#endif
