@@ -11,6 +11,8 @@
 namespace voxilux {
 namespace {
 
+constexpr double kLargestFloat = 3.4e38;
+
 // One of the three dispatches of the prefix sum, over `count` runs.
 void record_scan_level(const RenderPlan& plan, std::uint32_t level, std::uint32_t count,
                        Recording& recording) {
@@ -96,7 +98,9 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     params.grid = gpu::photon_grid(params.radius, static_cast<float>(setup.extent), setup.buckets);
     for (int c = 0; c < 3; ++c) {
         const double most = setup.most_power[c];
-        params.power_scale[c] = most > 0.0 ? static_cast<float>(gpu::kPhotonQuanta / most) : 0.0f;
+        const double scale = gpu::kPhotonQuanta / most;
+        // Light whose quanta a float cannot count is none.
+        params.power_scale[c] = scale < kLargestFloat ? static_cast<float>(scale) : 0.0f;
         params.power_unit[c] = static_cast<float>(most / gpu::kPhotonQuanta);
     }
     params.capacity = setup.capacity;

@@ -27,6 +27,8 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 constexpr double kStoreMargin = 1.5;
 constexpr double kMostStored = 64.0;
 constexpr double kDefaultRadius = 1.0;
+// Over the rounding of a photon's power on the device, four products: no photon may seem to pass the most.
+constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
 double stored_per_photon(double most_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
@@ -41,9 +43,11 @@ std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
     return static_cast<std::uint32_t>(std::clamp(kLaneTurns / turns, 1.0, kPhotonsPerLane));
 }
 
-std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixels) {
+// `most` of them fit in the store.
+std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixels, double most) {
     if (settings.count != 0) return settings.count;
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pixels, kFewestPhotons, kMostPhotons));
+    const auto wanted = std::clamp<std::uint64_t>(pixels, kFewestPhotons, kMostPhotons);
+    return static_cast<std::uint32_t>(std::min(static_cast<double>(wanted), std::floor(most)));
 }
 
 }  // namespace
@@ -76,14 +80,15 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const double sun = needs.has_sun ? sun_power.x + sun_power.y + sun_power.z : 0.0;
     const double lamps = needs.has_lamps ? needs.lights.power : 0.0;
     if (!(sun + lamps > 0.0)) return plan;
-    const std::uint32_t wanted = wanted_photons(settings, needs.pixels);
+    const double met = stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
+    const double room = static_cast<double>(limits.max_binding_bytes) / sizeof(gpu::StoredPhoton);
+    const std::uint32_t wanted = wanted_photons(settings, needs.pixels, room / met);
     plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + lamps))));
     plan.lamp_photons = wanted - plan.sun_photons;
-    const double met = stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
     const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
     plan.lanes = (wanted + per_lane - 1) / per_lane;
     const double stored = wanted * met;
-    if (stored * sizeof(gpu::StoredPhoton) > static_cast<double>(limits.max_binding_bytes))
+    if (stored > room)
         throw Error(ExitCode::input_refused,
                     fmt::format("{} photons in an iteration need room for {:.0f}, more than {} bytes of {}; "
                                 "use fewer of them and more iterations",
@@ -95,6 +100,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
         plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);
     if (plan.sun_photons != 0)
         plan.most_power = glm::max(plan.most_power, sun_power / static_cast<double>(plan.sun_photons));
+    plan.most_power *= kPowerMargin;
     return plan;
 }
 

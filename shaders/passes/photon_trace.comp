@@ -30,6 +30,7 @@ struct Photon {
     vec3 throughput;  // since then
     uint id;
     uint bounces;
+    bool has_passed;    // a border of glass that is no surface, behind which no shadow ray looks
     bool is_scattered;  // by a diffuse surface
 };
 
@@ -45,6 +46,7 @@ Photon start_photon(uint id) {
     photon.throughput = vec3(1.0);
     photon.id = id;
     photon.bounces = 0u;
+    photon.has_passed = false;
     photon.is_scattered = false;
     return photon;
 }
@@ -59,7 +61,7 @@ bool bounce(inout Photon photon, PathHit found) {
     PathEvent event = path_event(photon.path, found, vec2(draw(photon, 0u), draw(photon, 1u)));
     PathRay next = path_after(photon.path, found, event);
     bool is_diffuse = event.kind == kEventDiffuse;
-    bool is_caustic = photon.bounces > 0u && !photon.is_scattered;
+    bool is_caustic = (photon.bounces > 0u || photon.has_passed) && !photon.is_scattered;
     bool is_kept = photon.is_scattered ? keeps_indirect != 0u : is_caustic && keeps_caustics != 0u;
     if (is_diffuse && is_kept)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
@@ -69,6 +71,7 @@ bool bounce(inout Photon photon, PathHit found) {
     if (is_diffuse) next = off_surface;
     photon.is_scattered = photon.is_scattered || is_diffuse;
     photon.path = next;
+    photon.has_passed = photon.has_passed || event.kind == kEventPass;
     if (event.kind == kEventPass) return true;
     photon.throughput *= event.albedo;
     float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;

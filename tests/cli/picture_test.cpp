@@ -53,6 +53,29 @@ TEST(Reproducible, threads_groups_and_caches_change_no_byte) {
     EXPECT_EQ(once, render({"--reproducible", "--no-cache"})) << "no cache";
 }
 
+// Photons, glass, mirrors, emitting spheres and voxels.
+TEST(Reproducible, threads_and_groups_change_no_byte_of_light) {
+    for (const char* name : {"cornell", "glass_block"}) {
+        const auto picture = [&](Words more, std::map<std::string, std::string> environment = {}) {
+            const ScratchFolder scratch;
+            Words words = {
+                "render", scene_file(name),     "--size", "48x40", "--spp", "3", "-q", "--reproducible",
+                "-D",     "photons.count=20000"};
+            words.insert(words.end(), more.begin(), more.end());
+            words.insert(words.end(), {"-o", "a.exr"});
+            const Ending ending =
+                run(words, {.folder = scratch.path(), .environment = std::move(environment)});
+            EXPECT_EQ(ending.code, 0) << ending.err;
+            return bytes_of(scratch / "a.exr");
+        };
+        const std::string once = picture({});
+        EXPECT_GT(once.size(), 1000u);
+        EXPECT_EQ(once, picture({}, {{"LP_NUM_THREADS", "1"}})) << name;
+        EXPECT_EQ(once, picture({"--group-size", "16x16"})) << name;
+        EXPECT_NE(once, picture({"--seed", "1"})) << name << ", the twin";
+    }
+}
+
 TEST(Reproducible, another_seed_or_sequence_changes_both_pictures) {
     const Pictures once = render({"--reproducible"});
     for (const Words& words :

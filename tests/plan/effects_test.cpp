@@ -12,6 +12,7 @@ SceneFacts rich() {
     facts.voxel_count = 7;
     facts.sphere_count = 2;
     facts.has_voxels = facts.has_spheres = facts.sun_reaches = facts.has_sky = facts.has_emitters = true;
+    facts.has_glass = facts.has_metal = true;
     return facts;
 }
 
@@ -24,6 +25,18 @@ SceneFacts without(bool SceneFacts::*need) {
 SceneFacts without_surfaces() {
     SceneFacts facts = without(&SceneFacts::has_voxels);
     facts.has_spheres = false;
+    return facts;
+}
+
+SceneFacts without_polish() {
+    SceneFacts facts = without(&SceneFacts::has_glass);
+    facts.has_metal = false;
+    return facts;
+}
+
+SceneFacts without_light() {
+    SceneFacts facts = without(&SceneFacts::has_emitters);
+    facts.sun_reaches = false;
     return facts;
 }
 
@@ -58,10 +71,30 @@ TEST(Effects, every_row_gives_its_reason) {
         {"sun nothing", state(Effect::sun, without_surfaces()), false, "there is nothing to light"},
         {"sky needed", state(Effect::sky, rich()), true, "constant sky radiance"},
         {"sky", state(Effect::sky, without(&SceneFacts::has_sky)), false, "the sky is black"},
-        {"emission needed", state(Effect::emission, rich()), true,
-         "emissive materials are seen directly; they do not light others yet"},
+        {"emission needed", state(Effect::emission, rich()), true, "emissive materials are seen directly"},
         {"emission", state(Effect::emission, without(&SceneFacts::has_emitters)), false,
          "no used material emits"},
+        {"specular needed", state(Effect::specular, rich()), true, "camera rays follow mirrors and glass"},
+        {"specular glass", state(Effect::specular, without(&SceneFacts::has_metal)), true,
+         "camera rays follow glass"},
+        {"specular mirror", state(Effect::specular, without(&SceneFacts::has_glass)), true,
+         "camera rays follow mirrors"},
+        {"specular", state(Effect::specular, without_polish()), false, "no used material is glass or mirror"},
+        {"direct needed", state(Effect::direct, rich()), true, "lamps light surfaces"},
+        {"direct", state(Effect::direct, without(&SceneFacts::has_emitters)), false,
+         "no used material emits"},
+        {"caustics needed", state(Effect::caustics, rich()), true, "photons: glass and mirrors gather light"},
+        {"caustics of the sun", state(Effect::caustics, without(&SceneFacts::has_emitters)), true,
+         "photons: glass and mirrors gather light"},
+        {"caustics rough", state(Effect::caustics, without_polish()), false,
+         "neither glass nor mirror is in the light's way"},
+        {"caustics dark", state(Effect::caustics, without_light()), false, "neither lamp nor sun shines"},
+        {"indirect needed", state(Effect::indirect, rich()), true,
+         "photons: surfaces send the light of lamps on"},
+        {"indirect dark", state(Effect::indirect, without_light()), false, "neither lamp nor sun shines"},
+        {"indirect nothing", state(Effect::indirect, without_surfaces()), false, "there is nothing to light"},
+        {"indirect of the sun", state(Effect::indirect, without(&SceneFacts::has_emitters)), false,
+         "no lamps: occlusion of the sky stands for light between surfaces"},
         {"aov needed", state(Effect::aov, rich()), true, "the output is an EXR"},
         {"aov", state(Effect::aov, rich(), Switch::automatic, false), false, "the output holds colour only"},
     };
@@ -91,6 +124,30 @@ TEST(Effects, unneeded_effect_switched_on_runs_and_says_so) {
     EXPECT_EQ(ao.reason, "switched on by the user, though the sky is black: there is no light to occlude");
 }
 
+// Light that is not let out needs no photons, whatever the scene has.
+TEST(Effects, photons_need_lamps_or_sun_that_are_on) {
+    const auto all_off = [](std::initializer_list<Effect> off) {
+        EffectRequest request;
+        for (const Effect effect : off)
+            request.switches[effect] = Switch::off;
+        return decide_effects(rich(), request);
+    };
+    const auto get = [](const EffectStates& states, Effect effect) {
+        return states[static_cast<std::size_t>(effect)];
+    };
+    const EffectStates sunny = all_off({Effect::emission});
+    EXPECT_FALSE(get(sunny, Effect::direct).on);
+    EXPECT_TRUE(get(sunny, Effect::caustics).on);
+    EXPECT_TRUE(get(sunny, Effect::indirect).on);
+    const EffectStates dark = all_off({Effect::emission, Effect::sun});
+    EXPECT_EQ(get(dark, Effect::direct).reason, "lamps are switched off");
+    EXPECT_EQ(get(dark, Effect::caustics).reason, "neither lamp nor sun shines");
+    EXPECT_EQ(get(dark, Effect::indirect).reason, "neither lamp nor sun shines");
+    const EffectStates dull = all_off({Effect::specular});
+    EXPECT_EQ(get(dull, Effect::caustics).reason, "mirrors and glass are switched off");
+    EXPECT_TRUE(get(dull, Effect::indirect).on);
+}
+
 TEST(Effects, impossible_effect_cannot_be_switched_on) {
     const SceneFacts nothing;
     for (std::size_t i = 0; i < kEffectCount; ++i) {
@@ -113,7 +170,8 @@ TEST(Effects, unknown_effect_is_a_usage_error_that_names_the_known_ones) {
         EXPECT_EQ(error.code(), ExitCode::usage);
         EXPECT_STREQ(
             error.what(),
-            "--effect: there is no effect 'shadows'; known are voxels, spheres, ao, sun, sky, emission, aov");
+            "--effect: there is no effect 'shadows'; known are voxels, spheres, specular, ao, sun, sky, "
+            "emission, direct, caustics, indirect, aov");
     }
 }
 

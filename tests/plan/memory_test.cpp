@@ -170,10 +170,23 @@ TEST(PlanSettings, setting_out_of_range_is_refused_with_its_value) {
     EXPECT_EQ(refusal(Scene{}, PlanRequest{}, {}, ExitCode::input_refused), "accepted");
 }
 
+// As many photons as pixels, unless the device's store has no room for them; more are refused only when asked
+// for.
+TEST(PlanPhotons, large_picture_takes_as_many_photons_as_fit) {
+    const Scene scene = test::repository_scene("cornell", {"render.size=[4096, 4096]"});
+    const RenderPlan plan = test::plan_of(scene);
+    EXPECT_GT(plan.photons.count(), 100000u);
+    EXPECT_LT(plan.photons.count(), 4096u * 4096u);
+    Scene greedy = scene;
+    greedy.settings.photons.count = 4096 * 4096;
+    EXPECT_NE(refusal(greedy, PlanRequest{}, {}, ExitCode::input_refused), "accepted");
+}
+
 TEST(PlanNotes, what_the_picture_lacks_is_said) {
-    const RenderPlan plan = test::plan_of(test::repository_scene("emitters"));
+    const RenderPlan plan =
+        test::plan_of(test::repository_scene("spheres", {"material.red.surface=\"glass\""}));
     ASSERT_EQ(plan.notes.size(), 1u);
-    EXPECT_EQ(plan.notes[0], "emitters glow but do not light other surfaces yet");
+    EXPECT_EQ(plan.notes[0], "light of the sky reaches surfaces past glass and mirrors as through a wall");
     EXPECT_TRUE(test::plan_of(test::repository_scene("night")).notes.empty());
 }
 

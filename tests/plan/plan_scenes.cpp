@@ -50,6 +50,7 @@ void add(RecordedRender& render, Recording recording) {
     }
     for (const Command& command : recording.commands()) {
         const auto* dispatch = std::get_if<Dispatch>(&command);
+        if (const auto* indirect = std::get_if<DispatchIndirect>(&command)) dispatch = &indirect->dispatch;
         if (dispatch == nullptr) continue;
         ++render.dispatches[dispatch->label];
         render.shaders.insert(dispatch->shader);

@@ -98,8 +98,10 @@ const std::vector<Traces>& traces_of_effects() {
     static const std::vector<Traces> traces = {
         {Effect::voxels, {"primary.", "primary_", "world."}},
         {Effect::spheres, {"sphere.", "sphere_"}},
+        {Effect::specular, {"specular.", "specular_"}},
         {Effect::ao, {"ao.", "ao_", "film.ao."}},
         {Effect::sun, {"sun.", "sun_", "film.sun."}},
+        {Effect::direct, {"direct.", "direct_"}},
         {Effect::aov, {"aov.", "aov_", "film.albedo.", "film.normal.", "film.position.", "film.depth."}},
     };
     return traces;
@@ -135,6 +137,10 @@ void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request
             EXPECT_EQ(found, std::vector<std::string>{}) << name_of(traces.effect) << " is off";
         }
     }
+    const bool has_photons = prepared.plan.has(Effect::caustics) || prepared.plan.has(Effect::indirect);
+    EXPECT_EQ(!found_traces(render, {"photon.", "photon_"}).empty(), has_photons);
+    const bool needs_lamps = prepared.plan.has(Effect::direct) || prepared.plan.photons.lamp_photons != 0;
+    EXPECT_EQ(!found_traces(render, {"light."}).empty(), needs_lamps);
 }
 
 TEST_P(RecordedPlan, absent_effect_leaves_no_command_buffer_or_shader) {

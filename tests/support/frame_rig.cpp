@@ -29,9 +29,11 @@ Slice slice_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t ro
 }  // namespace
 
 FrameRig::FrameRig(const Scene& scene, Executor& executor, std::optional<Traversal> traversal)
+    : FrameRig(scene, PlanRequest{.effects = {.wants_aov = true}, .traversal = traversal}, executor) {}
+
+FrameRig::FrameRig(const Scene& scene, const PlanRequest& request, Executor& executor)
     : executor_(executor),
-      prepared_(prepare_scene(scene, {.effects = {.wants_aov = true}, .traversal = traversal},
-                              test_device().limits())),
+      prepared_(prepare_scene(scene, request, test_device().limits())),
       params_(frame_params(prepared_.plan, scene, prepared_.march_world)) {
     EXPECT_EQ(prepared_.plan.band_count, 1u) << "a rig renders pictures of one band";
     Recording recording;

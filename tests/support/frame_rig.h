@@ -32,6 +32,7 @@ class FrameRig {
     // The plan chooses the structure of the world when `traversal` is none.
     explicit FrameRig(const Scene& scene, Executor& executor = test_executor(),
                       std::optional<Traversal> traversal = std::nullopt);
+    FrameRig(const Scene& scene, const PlanRequest& request, Executor& executor = test_executor());
 
     // Renders the sample in one piece into the film.
     FramePlanes render(std::uint32_t sample);

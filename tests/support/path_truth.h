@@ -1,11 +1,11 @@
 #pragma once
 
-// An independent truth for pictures of analytic spheres: a path tracer in double precision that shares no
-// code with the shaders. It is slow, plain and unbiased. Diffuse surfaces sample one lamp each, over the
-// solid angle of its disc; light that a path reaches behind a mirror or glass counts when the path hits the
-// lamp. So each path of light is found in exactly one way. Source: Kajiya 1986, "The Rendering Equation";
-// solid angle of a sphere: Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting",
-// section 3.2.
+// An independent truth for pictures of analytic spheres and voxels: a path tracer in double precision that
+// shares no code with the shaders. It is slow, plain and unbiased. Diffuse surfaces sample the sun, one
+// sphere over the solid angle of its disc, and one face of a voxel over its area; light that a path reaches
+// behind a mirror or glass counts when the path hits the lamp. So each path of light is found in exactly one
+// way. Source: Kajiya 1986, "The Rendering Equation"; solid angle of a sphere: Shirley, Wang and Zimmerman
+// 1996, "Monte Carlo Techniques for Direct Lighting", section 3.2.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,29 +15,9 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "support/truth_geometry.h"
 
 namespace voxilux::test {
-
-struct TruthSphere {
-    glm::dvec3 centre;
-    double radius;
-    Surface surface;
-    glm::dvec3 albedo;
-    glm::dvec3 emission;
-    double ior;
-    std::uint32_t material;
-};
-
-// A scene as the tracer sees it. Lamps shine outwards only. Glass reflects or refracts by Fresnel's equations
-// and takes its colour from either. A point inside several glass spheres is in the smallest of them; where
-// one material is on both sides of a surface there is none.
-struct TruthWorld {
-    std::vector<TruthSphere> spheres;
-    std::vector<std::size_t> lamps;  // of `spheres`
-    glm::dvec3 sky;
-    glm::dvec3 eye;
-    glm::dmat3 view;  // columns right, up, forward; the first two as long as the half height of the picture
-};
 
 struct TruthRequest {
     glm::ivec2 size{32, 32};  // pixels: box filter, so a small picture is the mean of the pixels of a big one
@@ -53,10 +33,6 @@ struct TruthPixel {
     glm::dvec3 mean;              // radiance
     glm::dvec3 variance_of_mean;  // estimated from the samples
 };
-
-// Throws std::invalid_argument for what the tracer does not know: voxels, a sun, a scene without
-// camera, rough metal or glass, blends and media.
-[[nodiscard]] TruthWorld truth_world(const Scene& scene);
 
 // Pixel (x, y), row 0 at the top; a pure function of its arguments.
 [[nodiscard]] TruthPixel trace_truth_pixel(const TruthWorld& world, const TruthRequest& request,
