@@ -146,6 +146,7 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
         plan.has(Effect::sun) ? record_sun_trace(plan, slice, hits, rec) : constant_value(0.0f, rec);
     const Plane color = record_shade_resolve(plan, slice, {hits, ao, sun}, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
+    if (plan.sums_squares) record_film_square(plan, slice, {"squares", 3}, color, rec);
 
     if (!plan.has(Effect::aov)) return;
     const SurfacePlanes surface = record_aov_surface(plan, slice, hits, rec);

@@ -76,6 +76,7 @@ struct RenderPlan {
     WorldFacts world;
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
+    bool sums_squares = false;    // of the beauty, for its variance
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
@@ -88,6 +89,9 @@ struct RenderPlan {
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
+    // Whether samples of a pixel are independent of each other, so that their variance tells the error of
+    // their mean. Those of a low-discrepancy sequence are not: they err less.
+    [[nodiscard]] bool has_independent_samples() const { return settings.sequence == Sequence::white; }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
     [[nodiscard]] std::uint64_t total_bytes() const;

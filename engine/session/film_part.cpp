@@ -66,8 +66,13 @@ Json part_json(const FilmPart& part) {
     Json done = Json::array();
     for (const auto& [shard, samples] : part.done)
         done.push_back({{"shard", shard + 1}, {"samples", samples}});
-    return {{"format", kFormat},           {"render", part.render}, {"spp", part.spp},
-            {"shards", part.shards},       {"done", done},          {"rows_ahead", part.rows_ahead},
+    return {{"format", kFormat},
+            {"render", part.render},
+            {"spp", part.spp},
+            {"shards", part.shards},
+            {"done", done},
+            {"rows_ahead", part.rows_ahead},
+            {"independent", part.film.is_independent},
             {"file", file_json(part.file)}};
 }
 
@@ -93,6 +98,7 @@ void read_json(const Json& json, FilmPart& part) {
     part.rows_ahead = json.at("rows_ahead").get<std::uint32_t>();
     check(!part.done.empty() && (part.rows_ahead == 0 || part.done.size() == 1), "its samples are damaged");
     check(part.rows_ahead < static_cast<std::uint32_t>(part.film.height), "its rows are damaged");
+    part.film.is_independent = json.at("independent").get<bool>();
     part.file = file_of(json.at("file"));
 }
 
