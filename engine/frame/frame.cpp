@@ -1,62 +1,22 @@
 #include "frame/frame.h"
 
-#include <cmath>
-#include <numbers>
-
-#include "base/error.h"
 #include "passes/ao.h"
 #include "passes/aov.h"
+#include "passes/direct.h"
 #include "passes/film_add.h"
+#include "passes/photon.h"
+#include "passes/photon_trace.h"
 #include "passes/primary.h"
 #include "passes/shade.h"
+#include "passes/specular.h"
 #include "passes/sphere.h"
 #include "passes/sun.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
-#include "scene/scene_camera.h"
-#include "shared/sampling.h"
-#include "shared/sequence.h"
+#include "shared/sppm.h"
 
 namespace voxilux {
 namespace {
-
-constexpr double kFarthestCamera = 8388608.0;  // 2^23 voxels: one ulp of a float there is a voxel
-
-double radians(double degrees) {
-    return degrees * std::numbers::pi / 180.0;
-}
-
-gpu::uint sequence_id(Sequence sequence) {
-    switch (sequence) {
-        case Sequence::sobol:
-            return gpu::kSequenceSobol;
-        case Sequence::halton:
-            return gpu::kSequenceHalton;
-        case Sequence::white:
-            return gpu::kSequenceWhite;
-    }
-    VX_ASSERT(false);
-}
-
-void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 origin, double aspect) {
-    const glm::dvec3 local = camera.position - glm::dvec3(origin);
-    const glm::dvec3 cell = glm::floor(local);
-    for (int a = 0; a < 3; ++a) {
-        if (!(std::abs(local[a]) < kFarthestCamera)) {
-            throw Error(
-                ExitCode::input_refused,
-                fmt::format("camera position ({}, {}, {}) is over {} voxels from the scene",
-                            camera.position.x, camera.position.y, camera.position.z, kFarthestCamera));
-        }
-    }
-    params.camera_cell = glm::ivec3(cell);
-    params.camera_fraction = glm::vec3(local - cell);
-    const glm::dmat3 basis = camera_basis(camera);
-    const double half_height = std::tan(radians(camera.fov_y_deg) / 2.0);
-    params.camera_right = glm::vec3(basis[0] * half_height * aspect);
-    params.camera_up = glm::vec3(basis[1] * half_height);
-    params.camera_forward = glm::vec3(basis[2]);
-}
 
 // Half an axis of the image plane, such that its product with a vector in that plane is the image coordinate.
 gpu::vec3 dual_axis(gpu::vec3 half_axis) {
@@ -100,31 +60,25 @@ Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, N
     return record_ao_cells(plan, slice, hits, ao_step(plan, now), rec);
 }
 
-}  // namespace
-
-gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world) {
-    const RenderSettings& settings = plan.settings;
-    gpu::FrameParams params{};
-    params.chunks = march_world.chunks_size;
-    params.world_origin = march_world.origin;
-    place_camera(params, camera_of(scene), march_world.origin,
-                 static_cast<double>(plan.image_size.x) / static_cast<double>(plan.image_size.y));
-    params.width = static_cast<gpu::uint>(plan.image_size.x);
-    params.height = static_cast<gpu::uint>(plan.image_size.y);
-    params.first_column = static_cast<gpu::uint>(plan.first_pixel.x);
-    params.column_count = static_cast<gpu::uint>(settings.size.x);
-    params.seed = settings.seed;
-    params.sequence = sequence_id(settings.sequence);
-    params.ao_rays = settings.ao_rays;
-    params.ao_radius = settings.ao_radius;
-    params.sky_radiance = plan.has(Effect::sky) ? scene.sky.radiance : glm::vec3(0.0f);
-    params.sun_direction = scene.sun.direction();
-    params.sun_irradiance = plan.has(Effect::sun) ? scene.sun.irradiance : glm::vec3(0.0f);
-    params.sun_cone_height =
-        gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
-    params.sphere_count = plan.has(Effect::spheres) ? plan.sphere_count : 0;
-    return params;
+PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                            std::uint32_t iteration, Recording& rec) {
+    if (!plan.has_photons()) return {constant_value(0.0f, rec, 3), constant_value(0.0f, rec, 3)};
+    const gpu::PhotonParams params = photon_params(
+        {.radius = gpu::photon_radius(plan.photons.radius, plan.settings.photons.alpha, iteration),
+         .extent = plan.world.lights.extent,
+         .most_power = plan.photons.most_power,
+         .buckets = plan.photons.buckets,
+         .capacity = plan.photons.capacity,
+         .photon_count = plan.photons.count(),
+         .iteration = iteration});
+    record_photon_clear(plan, params, rec);
+    record_photon_emit(plan, rec);
+    record_photon_trace(plan, rec);
+    record_photon_sort(plan, params, rec);
+    return record_photon_gather(plan, slice, hits, rec);
 }
+
+}  // namespace
 
 void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
                   const SampleNumber& number, Recording& rec) {
@@ -140,11 +94,23 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
                              ? record_primary_march(plan, slice, record_primary_beam(plan, slice, rec), rec)
                              : constant_miss(rec);
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, slice, voxels, rec) : voxels;
-    const Plane ao = plan.has(Effect::ao) ? record_ao(plan, slice, hits, {params, number}, rec)
+    const SpecularPlanes seen = plan.has(Effect::specular)
+                                    ? record_specular_trace(plan, slice, hits, rec)
+                                    : SpecularPlanes{hits, constant_value(1.0f, rec, 3)};
+    const Plane ao = plan.has(Effect::ao) ? record_ao(plan, slice, seen.hits, {params, number}, rec)
                                           : constant_value(1.0f, rec);
     const Plane sun =
-        plan.has(Effect::sun) ? record_sun_trace(plan, slice, hits, rec) : constant_value(0.0f, rec);
-    const Plane color = record_shade_resolve(plan, slice, {hits, ao, sun}, rec);
+        plan.has(Effect::sun) ? record_sun_trace(plan, slice, seen.hits, rec) : constant_value(0.0f, rec);
+    const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, slice, seen.hits, rec)
+                                                  : constant_value(0.0f, rec, 3);
+    const PhotonPlanes photons = record_photons(plan, slice, seen.hits, sample + 1, rec);
+    const ShadeInputs inputs{.hits = seen.hits,
+                             .ao = ao,
+                             .sun = sun,
+                             .direct = direct,
+                             .photons = photons.light,
+                             .weights = seen.weights};
+    const Plane color = record_shade_resolve(plan, slice, inputs, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
     if (plan.sums_squares) record_film_square(plan, slice, {"squares", 3}, color, rec);
 

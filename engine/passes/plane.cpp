@@ -43,9 +43,11 @@ Plane constant_miss(Recording& recording) {
     return {use_constant("constant.miss", sizeof(gpu::Hit), 0xFFFFFFFFu, recording), 0};
 }
 
-Plane constant_value(float value, Recording& recording) {
-    const std::string name = fmt::format("constant.{}", value);
-    return {use_constant(name, sizeof(float), std::bit_cast<std::uint32_t>(value), recording), 0};
+Plane constant_value(float value, Recording& recording, std::uint32_t components) {
+    const std::string name = components == 1 ? fmt::format("constant.{}", value)
+                                             : fmt::format("constant.{}x{}", value, components);
+    return {use_constant(name, components * sizeof(float), std::bit_cast<std::uint32_t>(value), recording),
+            0};
 }
 
 Extent pixel_extent(const RenderPlan& plan, const Slice& slice) {

@@ -24,8 +24,8 @@ std::string use_buffer(const RenderPlan& plan, const std::string& name, Recordin
 // One hit that is a miss, for a frame that marches nothing.
 [[nodiscard]] Plane constant_miss(Recording& recording);
 
-// One float.
-[[nodiscard]] Plane constant_value(float value, Recording& recording);
+// One float, or as many equal ones.
+[[nodiscard]] Plane constant_value(float value, Recording& recording, std::uint32_t components = 1);
 
 // The run of rows of the picture that a recording renders.
 struct Slice {

@@ -14,10 +14,16 @@ Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const Sha
                                      {"Materials", materials_buffer(plan, recording)},
                                      {"Ao", inputs.ao.buffer},
                                      {"Sun", inputs.sun.buffer},
+                                     {"Direct", inputs.direct.buffer},
+                                     {"Photons", inputs.photons.buffer},
+                                     {"Weights", inputs.weights.buffer},
                                      {"Color", color.buffer}},
                         .constants = {{"hits_stride", inputs.hits.stride},
                                       {"ao_stride", inputs.ao.stride},
-                                      {"sun_stride", inputs.sun.stride}}});
+                                      {"sun_stride", inputs.sun.stride},
+                                      {"direct_stride", inputs.direct.stride},
+                                      {"photons_stride", inputs.photons.stride},
+                                      {"weights_stride", inputs.weights.stride}}});
     return color;
 }
 

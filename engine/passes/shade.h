@@ -9,6 +9,9 @@ struct ShadeInputs {
     Plane hits;
     Plane ao;
     Plane sun;
+    Plane direct;   // irradiance / pi, of lamps
+    Plane photons;  // irradiance, of photons
+    Plane weights;  // of what is seen in mirrors and through glass
 };
 
 // Linear RGB radiance of each camera ray.

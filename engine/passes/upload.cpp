@@ -5,6 +5,7 @@
 #include "passes/plane.h"
 #include "passes/world.h"
 #include "plan/film_planes.h"
+#include "scene/surface_shares.h"
 
 namespace voxilux {
 namespace {
@@ -19,7 +20,12 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
     std::vector<gpu::SurfaceMaterial> materials(plan.material_count);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        materials[i] = {material.albedo, plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f)};
+        const SurfaceShares shares = plan.has(Effect::specular) ? surface_shares(material) : SurfaceShares{};
+        materials[i] = {.albedo = material.albedo,
+                        .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
+                        .mirror = shares.mirror,
+                        .glass = shares.glass,
+                        .ior = material.ior};
     }
     return materials;
 }
@@ -45,16 +51,19 @@ WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
 }  // namespace
 
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
-                         Recording& recording) {
+                         const LightList& lights, Recording& recording) {
     if (plan.has(Effect::voxels)) record_world_build(march_world, build_buffers(plan, recording), recording);
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
-        for (const Sphere& sphere : scene.spheres)
-            records.push_back(sphere_record(sphere, march_world.origin));
+        for (const std::uint32_t number : sphere_order(scene))
+            records.push_back(sphere_record(scene.spheres[number], march_world.origin));
         upload_all(plan, "sphere.records", records, recording);
     }
     if (plan.has(Effect::voxels) || plan.has(Effect::spheres))
         upload_all(plan, "materials", surface_materials(plan, scene), recording);
+    if (!plan.has(Effect::direct) && plan.photons.lamp_photons == 0) return;
+    upload_all(plan, "light.records", lights.records, recording);
+    upload_all(plan, "light.table", lights.table, recording);
 }
 
 void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording) {

@@ -6,9 +6,9 @@
 
 namespace voxilux {
 
-// Puts the scene on the device: world, materials, spheres, whatever the plan has.
+// Puts the scene on the device: world, materials, spheres, lamps, whatever the plan has.
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
-                         Recording& recording);
+                         const LightList& lights, Recording& recording);
 
 // Puts the parameters of one slice on the device and sets the tally to zero.
 void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording);

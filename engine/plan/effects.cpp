@@ -48,7 +48,35 @@ Verdict judge_sky(const SceneFacts& facts, const EffectRequest&) {
 
 Verdict judge_emission(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_emitters) return {false, false, "no used material emits"};
-    return {true, true, "emissive materials are seen directly; they do not light others yet"};
+    return {true, true, "emissive materials are seen directly"};
+}
+
+Verdict judge_specular(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_glass && !facts.has_metal) return {false, false, "no used material is glass or mirror"};
+    return {true, true,
+            fmt::format("camera rays follow {}", facts.has_glass && facts.has_metal ? "mirrors and glass"
+                                                 : facts.has_glass                  ? "glass"
+                                                                                    : "mirrors")};
+}
+
+Verdict judge_direct(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_emitters) return {false, false, "no used material emits"};
+    return {true, true, "lamps light surfaces"};
+}
+
+Verdict judge_caustics(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_glass && !facts.has_metal)
+        return {false, false, "neither glass nor mirror is in the light's way"};
+    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
+    return {true, true, "photons: glass and mirrors gather light"};
+}
+
+Verdict judge_indirect(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
+    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
+    if (!facts.has_emitters)
+        return {true, false, "no lamps: occlusion of the sky stands for light between surfaces"};
+    return {true, true, "photons: surfaces send the light of lamps on"};
 }
 
 Verdict judge_aov(const SceneFacts&, const EffectRequest& request) {
@@ -59,10 +87,14 @@ Verdict judge_aov(const SceneFacts&, const EffectRequest& request) {
 constexpr std::array<EffectRow, kEffectCount> kEffects = {{
     {Effect::voxels, "voxels", judge_voxels},
     {Effect::spheres, "spheres", judge_spheres},
+    {Effect::specular, "specular", judge_specular},
     {Effect::ao, "ao", judge_ao},
     {Effect::sun, "sun", judge_sun},
     {Effect::sky, "sky", judge_sky},
     {Effect::emission, "emission", judge_emission},
+    {Effect::direct, "direct", judge_direct},
+    {Effect::caustics, "caustics", judge_caustics},
+    {Effect::indirect, "indirect", judge_indirect},
     {Effect::aov, "aov", judge_aov},
 }};
 
@@ -75,6 +107,22 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
     if (choice == Switch::on && verdict.possible && !verdict.called_for)
         return {row.effect, true, fmt::format("switched on by the user, though {}", verdict.reason)};
     return {row.effect, verdict.possible && verdict.called_for, verdict.reason};
+}
+
+// Light that has not been let out, or finds no mirror, needs no photons.
+void drop_unlit(EffectStates& states) {
+    const auto state = [&](Effect effect) -> EffectState& {
+        return states[static_cast<std::size_t>(effect)];
+    };
+    const auto drop = [&](Effect effect, const char* reason) {
+        if (state(effect).on) state(effect) = {effect, false, reason};
+    };
+    if (!state(Effect::specular).on) drop(Effect::caustics, "mirrors and glass are switched off");
+    if (state(Effect::emission).on) return;
+    drop(Effect::direct, "lamps are switched off");
+    if (state(Effect::sun).on) return;
+    drop(Effect::caustics, "neither lamp nor sun shines");
+    drop(Effect::indirect, "neither lamp nor sun shines");
 }
 
 }  // namespace
@@ -97,6 +145,7 @@ EffectStates decide_effects(const SceneFacts& facts, const EffectRequest& reques
     EffectStates states;
     for (std::size_t i = 0; i < kEffectCount; ++i)
         states[i] = decide(kEffects[i], facts, request);
+    drop_unlit(states);
     return states;
 }
 

@@ -11,8 +11,20 @@
 namespace voxilux {
 
 // What a user would name. Order is the order of the frame.
-enum class Effect : std::uint8_t { voxels, spheres, ao, sun, sky, emission, aov };
-inline constexpr std::size_t kEffectCount = 7;
+enum class Effect : std::uint8_t {
+    voxels,
+    spheres,
+    specular,
+    ao,
+    sun,
+    sky,
+    emission,
+    direct,
+    caustics,
+    indirect,
+    aov
+};
+inline constexpr std::size_t kEffectCount = 11;
 
 // What the user says of an effect; automatic leaves it to the scene.
 enum class Switch : std::uint8_t { automatic, on, off };

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scene/surface_shares.h"
+
 namespace voxilux {
 namespace {
 
@@ -35,8 +37,9 @@ void measure_materials(const Scene& scene, SceneFacts& facts) {
         const Material& material = scene.materials[m];
         ++facts.material_count;
         facts.has_emitters |= any_positive(material.emission);
-        facts.has_glass |= material.surface == Surface::glass;
-        facts.has_metal |= material.surface == Surface::metal;
+        const SurfaceShares shares = surface_shares(material);
+        facts.has_glass |= shares.glass > 0.0f;
+        facts.has_metal |= shares.mirror > 0.0f;
     }
 }
 

@@ -26,8 +26,8 @@ struct SceneFacts {
     bool sun_reaches = false;   // switched on, above the horizon, irradiance > 0
     bool has_sky = false;       // radiance > 0
     bool has_emitters = false;  // a used material with emission > 0
-    bool has_glass = false;
-    bool has_metal = false;
+    bool has_glass = false;     // a used material that lets light through
+    bool has_metal = false;     // a used material with a polished share
 
     bool operator==(const SceneFacts&) const = default;
 };

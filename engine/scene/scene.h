@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/ao_settings.h"
+#include "scene/photon_settings.h"
 #include "scene/vox_file.h"
 
 namespace voxilux {
@@ -16,8 +17,7 @@ namespace voxilux {
 // Scene space: right handed, z up, one unit is one voxel, and a cell c covers [c, c+1) on each axis. It is
 // MagicaVoxel's world space. Colours are linear Rec. 709.
 
-// How light leaves a surface. Effects that do not exist yet treat the others as diffuse, and the plan says
-// so.
+// How light leaves a surface; surface_shares() says what the passes make of it.
 enum class Surface : std::uint8_t { diffuse, metal, glass, emit, blend, media };
 
 struct Material {
@@ -126,6 +126,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     Sequence sequence = Sequence::sobol;
     AoSettings ao;
+    PhotonSettings photons;
 
     bool operator==(const RenderSettings&) const = default;
 };

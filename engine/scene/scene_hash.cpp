@@ -149,6 +149,17 @@ void add_ao(Hasher& hasher, const AoSettings& ao) {
     hasher.add(ao.slots);
 }
 
+void add_photons(Hasher& hasher, const PhotonSettings& photons) {
+    hasher.add(photons.count);
+    hasher.add(photons.radius.has_value());
+    hasher.add(photons.radius.value_or(0.0));
+    hasher.add(photons.alpha);
+    hasher.add(photons.scatter);
+    hasher.add(photons.classic);
+    hasher.add(photons.roulette);
+    hasher.add(photons.depth);
+}
+
 void add_camera(Hasher& hasher, const Camera& camera) {
     hasher.add(camera.position);
     hasher.add(camera.yaw_deg);
@@ -167,6 +178,7 @@ void add_view(Hasher& hasher, const std::optional<Camera>& camera, const RenderS
     hasher.add(settings.seed);
     hasher.add(settings.sequence);
     add_ao(hasher, settings.ao);
+    add_photons(hasher, settings.photons);
 }
 
 void add_camera_motion(Hasher& hasher, const Animation& animation) {

@@ -27,6 +27,7 @@ struct TomlScene {
 // Error(input_refused).
 void read_render(TomlScene& in);
 void read_ao(TomlScene& in);
+void read_photons(TomlScene& in);
 void read_sun(TomlScene& in);
 void read_sky(TomlScene& in);
 void read_materials(TomlScene& in);

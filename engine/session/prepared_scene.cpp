@@ -24,12 +24,16 @@ PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, cons
         const VoxelWorld world = build_world(scene);
         choice = choose_traversal(take_census(world), request.traversal, request.memory_budget_bytes, limits);
         prepared.march_world = build_march_skeleton(world, choice.traversal);
+        prepared.lights = find_lights(scene, &world, world.origin());
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};
+        prepared.lights = find_lights(scene, nullptr, prepared.march_world.origin);
     }
     WorldFacts world_facts = measure_world(prepared.march_world);
     world_facts.traversal_reason = choice.reason;
+    world_facts.lights =
+        measure_lights(scene, prepared.lights, prepared.march_world.size(), prepared.march_world.origin);
     prepared.plan = plan_render(scene, prepared.facts, world_facts, request, limits);
     return prepared;
 }

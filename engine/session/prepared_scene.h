@@ -3,6 +3,7 @@
 #include "plan/render_plan.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
+#include "world/lights.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -11,6 +12,7 @@ namespace voxilux {
 struct PreparedScene {
     SceneFacts facts;
     MarchWorld march_world;
+    LightList lights;
     RenderPlan plan;
 };
 

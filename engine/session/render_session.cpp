@@ -65,7 +65,8 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
     scene_ = &player_.show(frame);
     Recording upload;
-    if (update_world(*scene_)) record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, upload);
+    if (update_world(*scene_))
+        record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, prepared_->lights, upload);
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;

@@ -19,13 +19,13 @@ uvec2 ray_number(uvec2 first, uint i) {
 // Share of a pixel's cosine-weighted rays off its hit that meet nothing within the radius; `first` numbers the
 // first of them in the pixel's stream.
 float trace_openness(Pixel pixel, Hit hit, uvec2 first) {
-    uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
+    uint own = own_sphere(hit);
     uint stream = pixel.y * frame.width + pixel.x;
     uint open = 0u;
     for (uint i = 0u; i < frame.ao_rays; ++i) {
         SampleKey key = sample_key(stream, ray_number(first, i), frame.seed);
         vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
-        vec3 direction = hit.face == kFaceSphere ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
+        vec3 direction = is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
         open += is_occluded(ray_from(hit, direction, frame.ao_radius), own) ? 0u : 1u;
     }
     return float(open) / float(frame.ao_rays);

@@ -23,21 +23,44 @@ vec3 local_position(ivec3 cell, vec3 fraction) {
 }
 
 bool is_surface(Hit hit) {
-    return hit.face <= kFaceSphere;
+    return hit.face <= kFaceSphereInside;
 }
 
+bool is_on_sphere(Hit hit) {
+    return has_spheres != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
+}
+
+// The sphere that a ray off a hit starts on.
+uint own_sphere(Hit hit) {
+    return is_on_sphere(hit) ? hit.sphere : kNoSphere;
+}
+
+// Unit, on the side that was hit.
 vec3 surface_normal(Hit hit) {
-    if (has_spheres != 0u && hit.face == kFaceSphere) {
+    if (is_on_sphere(hit)) {
         Sphere shape = spheres[hit.sphere].shape;
         vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
-        return normalize(shape.normal + shape.curvature * from_anchor);
+        vec3 outward = normalize(shape.normal + shape.curvature * from_anchor);
+        return hit.face == kFaceSphereInside ? -outward : outward;
     }
     return face_normal(hit.face);
 }
 
+// Makes a hit of the crossing of sphere `i` at hit.t.
+void place_on_sphere(inout Hit hit, uint i, vec3 origin, vec3 direction) {
+    vec3 position = origin + hit.t * direction;
+    vec3 corner = floor(position);
+    hit.cell = ivec3(corner);
+    hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));
+    bool leaves = dot(sphere_normal(spheres[i].shape, position), direction) > 0.0;
+    hit.face = leaves ? kFaceSphereInside : kFaceSphere;
+    hit.material = spheres[i].material;
+    hit.sphere = i;
+}
+
 // A ray off the surface of a hit. `direction` points out of it.
 Ray ray_from(Hit hit, vec3 direction, float t_max) {
-    if (has_spheres != 0u && hit.face == kFaceSphere) {
+    if (is_on_sphere(hit)) {
         Ray ray;
         ray.cell = hit.cell;
         ray.fraction = hit.fraction;
@@ -61,13 +84,15 @@ bool hits_voxels(Ray ray) {
     return hit.face != kFaceMiss;
 }
 
-// `own` is the sphere that the ray leaves outwards: convex, so the ray cannot meet it again.
+// `own` is the sphere that the ray starts on.
 bool hits_spheres(Ray ray, uint own) {
     if (has_spheres == 0u) return false;
     vec3 origin = local_position(ray.cell, ray.fraction);
     for (uint i = 0u; i < frame.sphere_count; ++i) {
-        if (i == own) continue;
-        if (sphere_intersect(spheres[i].shape, origin, ray.direction, 0.0, ray.t_max).hit) return true;
+        Sphere shape = spheres[i].shape;
+        float t = i == own ? sphere_time_from(shape, origin, ray.direction, ray.t_max)
+                           : sphere_time(shape, origin, ray.direction, ray.t_max);
+        if (t < ray.t_max) return true;
     }
     return false;
 }

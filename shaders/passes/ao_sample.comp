@@ -62,7 +62,7 @@ Stream stream_of(Pixel pixel, AoCell cell, uint slot, bool takes) {
 // Rays of a hit that meet nothing. There is one call of the march for all kinds of hits: software devices run every
 // branch for all invocations.
 uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
-    uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
+    uint own = own_sphere(hit);
     uint open = 0u;
     for (uint i = 0u; i < rays; ++i) {
         SampleKey key = sample_key(from.stream, ray_number(from.first, i), frame.seed);
@@ -72,8 +72,7 @@ uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
             vec3 point = ao_cell_point(cell, sample_2d(frame.sequence, key, kPairPixel));
             start.fraction = from.of_cell ? point : hit.fraction;
         }
-        vec3 direction = has_spheres != 0u && hit.face == kFaceSphere ? cosine_about(surface_normal(hit), u)
-                                                                      : cosine_on_face(hit.face, u);
+        vec3 direction = is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
         open += is_occluded(ray_from(start, direction, frame.ao_radius), own) ? 0u : 1u;
     }
     return open;

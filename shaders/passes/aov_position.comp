@@ -26,7 +26,7 @@ void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index * hits_stride];
-    bool is_hit = hit.face <= kFaceSphere;
+    bool is_hit = hit.face <= kFaceSphereInside;
     vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
     uint film_index = (pixel.y - frame.band_first_row) * frame.column_count + pixel.x - frame.first_column;
     position[film_index] = is_hit ? vec3(frame.world_origin + hit.cell) + hit.fraction : vec3(0.0);

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Radiance of each camera ray: emission, the constant sky through the ambient occlusion, and the sun, off Lambertian
-// surfaces. An effect that is off is a constant of stride 0.
+// Radiance of each camera ray: emission, and off Lambertian surfaces the constant sky through the ambient occlusion, the
+// sun, the lamps, and what photons brought. An effect that is off is a constant of stride 0.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -15,6 +15,9 @@
 layout(constant_id = 2) const uint hits_stride = 1u;
 layout(constant_id = 3) const uint ao_stride = 1u;
 layout(constant_id = 4) const uint sun_stride = 1u;
+layout(constant_id = 5) const uint direct_stride = 1u;
+layout(constant_id = 6) const uint photons_stride = 1u;
+layout(constant_id = 7) const uint weights_stride = 1u;
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
@@ -28,6 +31,15 @@ layout(scalar) readonly buffer Ao {
 layout(scalar) readonly buffer Sun {
     float sun[];
 };
+layout(scalar) readonly buffer Direct {
+    vec3 direct[];
+};
+layout(scalar) readonly buffer Photons {
+    vec3 photons[];
+};
+layout(scalar) readonly buffer Weights {
+    vec3 weights[];
+};
 layout(scalar) writeonly buffer Color {
     vec3 color[];
 };
@@ -36,14 +48,16 @@ void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index * hits_stride];
-    bool is_hit = hit.face <= kFaceSphere;
+    bool is_hit = hit.face <= kFaceSphereInside;
     vec3 radiance = frame.sky_radiance;
     if (is_hit) {
         SurfaceMaterial material = materials[hit.material];
         vec3 ambient = frame.sky_radiance * ao[pixel.index * ao_stride];
-        vec3 direct = frame.sun_irradiance * (sun[pixel.index * sun_stride] * kInversePi);
-        radiance = material.emission + material.albedo * (ambient + direct);
+        vec3 sunlight = frame.sun_irradiance * (sun[pixel.index * sun_stride] * kInversePi);
+        vec3 lamplight = direct[pixel.index * direct_stride] + kInversePi * photons[pixel.index * photons_stride];
+        vec3 emission = hit.face == kFaceSphereInside ? vec3(0.0) : material.emission;
+        radiance = emission + material.albedo * (ambient + sunlight + lamplight);
     }
     count(kWorkHits, is_hit ? 1u : 0u);
-    color[pixel.index] = radiance;
+    color[pixel.index] = radiance * weights[pixel.index * weights_stride];
 }

@@ -27,18 +27,13 @@ void main() {
     if (!is_surface(hit)) hit.t = kUnbounded;
     Ray ray = camera_ray(frame, pixel.x, pixel.y);
     vec3 origin = local_position(ray.cell, ray.fraction);
+    uint nearest = kNoSphere;
     for (uint i = 0u; i < frame.sphere_count; ++i) {
-        SphereHit found = sphere_intersect(spheres[i].shape, origin, ray.direction, 0.0, hit.t);
-        if (!found.hit || !(found.t < hit.t)) continue;
-        vec3 position = origin + found.t * ray.direction;
-        vec3 corner = floor(position);
-        hit.cell = ivec3(corner);
-        hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));
-        hit.face = kFaceSphere;
-        hit.t = found.t;
-        hit.material = spheres[i].material;
-        hit.sphere = i;
+        float t = sphere_time(spheres[i].shape, origin, ray.direction, hit.t);
+        nearest = t < hit.t ? i : nearest;
+        hit.t = t;
     }
+    if (nearest != kNoSphere) place_on_sphere(hit, nearest, origin, ray.direction);
     if (!is_surface(hit)) hit.t = 0.0;
     hits[pixel.index] = hit;
 }

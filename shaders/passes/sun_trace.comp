@@ -35,7 +35,7 @@ void main() {
         vec3 direction = uniform_cone(frame.sun_direction, frame.sun_cone_height, u);
         float cosine = dot(surface_normal(hit), direction);
         traced = cosine > 0.0;
-        uint own = hit.face == kFaceSphere ? hit.sphere : kNoSphere;
+        uint own = own_sphere(hit);
         if (traced && !is_occluded(ray_from(hit, direction, kUnbounded), own)) lit = cosine;
     }
     count(kWorkSunRays, traced ? 1u : 0u);

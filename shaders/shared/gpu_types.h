@@ -9,9 +9,10 @@
 VX_BEGIN
 
 // Faces of a cell are numbered -x +x -y +y -z +z. The other values of Hit::face:
-VX_CONST(uint, kFaceInside, 6u);   // the ray started inside a solid cell
-VX_CONST(uint, kFaceSphere, 7u);   // analytic sphere
-VX_CONST(uint, kFaceMiss, 0xFFu);  // nothing was hit
+VX_CONST(uint, kFaceInside, 6u);        // the ray started inside a solid cell
+VX_CONST(uint, kFaceSphere, 7u);        // analytic sphere, from outside
+VX_CONST(uint, kFaceSphereInside, 8u);  // the same from inside
+VX_CONST(uint, kFaceMiss, 0xFFu);       // nothing was hit
 
 struct Ray {
     ivec3 cell;      // of the origin, local to the world
@@ -27,7 +28,7 @@ struct Hit {
     vec3 fraction;  // hit point inside the cell, [0,1]; exact on the face's axis
     float t;        // distance from the camera in voxels
     uint material;  // index into Materials
-    uint sphere;    // index into Spheres when face is kFaceSphere
+    uint sphere;    // index into Spheres when face is kFaceSphere or kFaceSphereInside
 };
 
 // Camera rays start a tile at a time (beam.h): one float for each tile of a slice, row by row.
@@ -38,10 +39,20 @@ VX_FN uint beam_count(uint pixels) {
     return (pixels + kBeamPixels - 1u) / kBeamPixels;
 }
 
-// How light leaves a surface, as the passes read it.
+// How light leaves a surface, as the passes read it: a share of what arrives meets a mirror, a share clear
+// glass, and the rest a diffuse surface. All three multiply by the albedo.
 struct SurfaceMaterial {
     vec3 albedo;    // linear, [0,1]
-    vec3 emission;  // radiance
+    vec3 emission;  // radiance; where it is not 0 both shares are
+    float mirror;   // share, [0,1]
+    float glass;    // share; mirror + glass <= 1
+    float ior;      // of the glass
+};
+
+// A lamp, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
+struct LightRecord {
+    ivec3 cell;  // of a face: its voxel, local to the world
+    uint what;
 };
 
 // Analytic sphere; its anchor is local to the world.
@@ -77,6 +88,24 @@ struct FrameParams {
     vec3 sun_irradiance;    // on a surface facing the sun
     float sun_cone_height;  // cone_height of the sun's angular radius
     uint sphere_count;
+    uint glass_spheres;  // the first so many spheres have glass
+    uint light_count;
+    float light_power;  // of all lamps: brightness() times etendue, summed
+    // Photons of one sample: those of the lamps first, then those of the sun, which start on a disc that
+    // covers what the sun can reach.
+    uint lamp_photons;
+    uint sun_photons;
+    vec3 sun_disc_centre;   // local to the world
+    float sun_disc_radius;  // voxels
+};
+
+// Where a photon starts and what it carries.
+struct PhotonStart {
+    ivec3 cell;  // of the origin, local to the world
+    vec3 fraction;
+    vec3 direction;
+    uint sphere;  // that it starts on, or all bits set
+    vec3 power;
 };
 
 // What the passes of the ambient occlusion hash share beside FrameParams: one sample of one frame.

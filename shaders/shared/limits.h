@@ -93,6 +93,16 @@ VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
+// Length of a ray that only asks what its first cell holds, voxels: shorter than any way out of a cell but
+// none.
+VX_CONST(float, kProbeLength, 1.0e-30f);
+// Surfaces that one path may meet. Roulette ends all but those between perfect mirrors, which never end.
+VX_CONST(uint, kMostBounces, 4096u);
+// Steps of the loop of an invocation that traces photons one after the other.
+VX_CONST(uint, kMostPhotonSteps, 16777216u);
+// Surfaces that a path from the camera meets before roulette may end it: it costs more noise than time there.
+VX_CONST(uint, kSureBounces, 8u);
+
 // Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so that ratios lie in [1/4,
 // 4].
 VX_CONST(float, kMostEta, 16.0f);
@@ -100,6 +110,16 @@ VX_CONST(float, kMostEta, 16.0f);
 // Photons. Smallest radius of a gather, in voxels: the distance of neighbouring floats between 1024 and 2048.
 // A smaller disc would measure the rounding of positions.
 VX_CONST(float, kLeastPhotonRadius, 1.220703125e-4f);  // 2^-13
+// Factor by which a disc is widened when its cells are looked up: several roundings of a distance.
+VX_CONST(float, kPhotonReach, 1.00000095367431640625f);  // 1 + 2^-20
+// Number of the farthest cell of photons; what lies beyond is in it, too.
+VX_CONST(float, kFarthestPhotonCell, 1.073741824e9f);  // 2^30
+// Cells along x in the width of a cell along y and z: fewer photons to look at, more buckets.
+VX_CONST(float, kPhotonCellParts, 4.0f);
+// Photons of a gather that are added in 32 bits before they go to 64: 2^11 of less than 2^21.
+VX_CONST(uint, kPhotonBatch, 2048u);
+// Workgroups along x of an indirect dispatch; the others go along y. The least limit that Vulkan allows.
+VX_CONST(uint, kMostGroups, 65535u);
 
 VX_END
 

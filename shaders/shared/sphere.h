@@ -47,43 +47,89 @@ VX_FN float sphere_discriminant(float b, float kc, vec3 across) {
     return max(b * b, abs(kc)) < 1.0f ? near_form : far_form;
 }
 
-// The first crossing with t_min <= t <= t_max, entering or leaving. direction is unit. A ray that only
-// touches may miss; inputs that overflow or are not finite miss. The normal is across + s d with s = k t + b
-// = +-sqrt(discriminant), which has length 1 by construction and does not cancel as normal + k (p - anchor)
-// does for a far small sphere.
-VX_FN SphereHit sphere_intersect(Sphere sphere, vec3 origin, vec3 direction, float t_min, float t_max) {
-    SphereHit result;
-    result.hit = false;
-    result.t = t_max;
-    result.normal = vec3(0.0f, 0.0f, 1.0f);
+// A line that meets a sphere: it crosses at h / k, where k t + b = -s, and at c / h, where it is s. Neither
+// subtracts equal numbers. The normal there is across -+ s d with s = k t + b = +-sqrt(discriminant), which
+// has length 1 by construction and does not cancel as normal + k (p - anchor) does for a far small sphere.
+struct SphereCrossing {
+    vec3 across;
+    float s;
+    float t_h;
+    float t_c;
+    bool is_met;
+};
 
+VX_FN SphereCrossing sphere_crossing(Sphere sphere, vec3 origin, vec3 direction) {
     VX_PRECISE vec3 q = origin - sphere.anchor;
     VX_PRECISE vec3 gradient = sphere.normal + sphere.curvature * q;
     VX_PRECISE float b = dot(gradient, direction);
     VX_PRECISE float c = sphere.curvature * dot(q, q) + 2.0f * dot(q, sphere.normal);
     VX_PRECISE vec3 across = gradient - b * direction;
     float discriminant = sphere_discriminant(b, sphere.curvature * c, across);
-    if (!(discriminant >= 0.0f)) return result;
-
-    float root = sqrt(discriminant);
+    SphereCrossing crossing;
+    crossing.is_met = discriminant >= 0.0f;
+    float root = sqrt(max(discriminant, 0.0f));
     float s = b >= 0.0f ? root : -root;
     VX_PRECISE float h = -(b + s);
-    // Crossings at h / k, where k t + b = -s, and at c / h, where it is s: neither subtracts equal numbers.
     VX_PRECISE float t_h = h / sphere.curvature;
     VX_PRECISE float t_c = c / h;
-    bool h_inside = t_h >= t_min && t_h <= t_max;
-    bool c_inside = t_c >= t_min && t_c <= t_max;
-    bool take_h = h_inside && !(c_inside && t_c <= t_h);
+    crossing.across = across;
+    crossing.s = s;
+    crossing.t_h = t_h;
+    crossing.t_c = t_c;
+    return crossing;
+}
+
+// The first crossing with t_min <= t <= t_max, entering or leaving. direction is unit. A ray that only
+// touches may miss; inputs that overflow or are not finite miss.
+VX_FN SphereHit sphere_intersect(Sphere sphere, vec3 origin, vec3 direction, float t_min, float t_max) {
+    SphereHit result;
+    result.hit = false;
+    result.t = t_max;
+    result.normal = vec3(0.0f, 0.0f, 1.0f);
+    SphereCrossing crossing = sphere_crossing(sphere, origin, direction);
+    if (!crossing.is_met) return result;
+    bool h_inside = crossing.t_h >= t_min && crossing.t_h <= t_max;
+    bool c_inside = crossing.t_c >= t_min && crossing.t_c <= t_max;
+    bool take_h = h_inside && !(c_inside && crossing.t_c <= crossing.t_h);
     if (!take_h && !c_inside) return result;
 
-    VX_PRECISE vec3 normal = across + (take_h ? -s : s) * direction;
+    VX_PRECISE vec3 normal = crossing.across + (take_h ? -crossing.s : crossing.s) * direction;
     VX_PRECISE float length_squared = dot(normal, normal);
     // Counts as a hit only where the numbers held: NaN and infinity fail both comparisons.
     if (!(length_squared > 0.25f && length_squared < 4.0f)) return result;
     result.hit = true;
-    result.t = take_h ? t_h : t_c;
+    result.t = take_h ? crossing.t_h : crossing.t_c;
     result.normal = normal / sqrt(length_squared);
     return result;
+}
+
+// The time of sphere_intersect() from t_min = 0, without the normal; t_max where there is no crossing before.
+VX_FN float sphere_time(Sphere sphere, vec3 origin, vec3 direction, float t_max) {
+    SphereCrossing crossing = sphere_crossing(sphere, origin, direction);
+    float t = t_max;
+    t = crossing.is_met && crossing.t_h >= 0.0f && crossing.t_h < t ? crossing.t_h : t;
+    return crossing.is_met && crossing.t_c >= 0.0f && crossing.t_c < t ? crossing.t_c : t;
+}
+
+// The same for a ray that starts on the sphere: the crossing at its start is known and left out, whatever the
+// rounding of the start. A ray that goes outwards has no other one.
+VX_FN float sphere_time_from(Sphere sphere, vec3 origin, vec3 direction, float t_max) {
+    VX_PRECISE vec3 gradient = sphere.normal + sphere.curvature * (origin - sphere.anchor);
+    VX_PRECISE float b = dot(gradient, direction);
+    VX_PRECISE float t = -2.0f * b / sphere.curvature;  // k t^2 + 2 b t = 0
+    return t > 0.0f && t < t_max ? t : t_max;
+}
+
+// Whether a point is inside: k |q|^2 + 2 q.normal < 0. On the surface rounding decides.
+VX_FN bool is_in_sphere(Sphere sphere, vec3 point) {
+    VX_PRECISE vec3 q = point - sphere.anchor;
+    VX_PRECISE float f = sphere.curvature * dot(q, q) + 2.0f * dot(q, sphere.normal);
+    return f < 0.0f;
+}
+
+// Outward unit normal at a point of the sphere.
+VX_FN vec3 sphere_normal(Sphere sphere, vec3 point) {
+    return normalize(sphere.normal + sphere.curvature * (point - sphere.anchor));
 }
 
 VX_END

@@ -12,30 +12,38 @@ VX_CONST(uint, kFaultMarchExhausted, 1u);  // a march that met its step limit
 VX_CONST(uint, kFaultFilmClamped, 2u);     // a sample above kFilmMaxValue
 VX_CONST(uint, kFaultFilmNonFinite, 3u);   // a sample that is NaN or infinite; it counts as zero
 VX_CONST(uint, kFaultAoTableFull, 4u);     // hits that found no slot for their cell: they used their own rays
-VX_CONST(uint, kFaultCount, 5u);
+VX_CONST(uint, kFaultPhotonStoreFull, 5u);  // photons that found no room in the store: they are lost
+VX_CONST(uint, kFaultPhotonPower, 6u);      // photons whose power or place was out of range: clamped or lost
+VX_CONST(uint, kFaultPathTooLong, 7u);      // paths that met kMostBounces surfaces, and ended there
+VX_CONST(uint, kFaultCount, 8u);
 
-VX_CONST(uint, kWorkHits, 5u);     // camera rays that hit something
-VX_CONST(uint, kWorkAoRays, 6u);   // occlusion rays marched
-VX_CONST(uint, kWorkSunRays, 7u);  // shadow rays marched
+VX_CONST(uint, kWorkHits, 8u);      // camera rays that hit something
+VX_CONST(uint, kWorkAoRays, 9u);    // occlusion rays marched
+VX_CONST(uint, kWorkSunRays, 10u);  // shadow rays marched
 // Of the ambient occlusion hash:
-VX_CONST(uint, kWorkAoReused, 8u);    // hits whose cell was found by reprojection
-VX_CONST(uint, kWorkAoSearches, 9u);  // hits whose cell was searched in the table
-VX_CONST(uint, kWorkAoProbes, 10u);   // keys looked at in those searches
-VX_CONST(uint, kWorkAoClaimed, 11u);  // cells entered
-VX_CONST(uint, kWorkAoEvicted, 12u);  // cells given up
-VX_CONST(uint, kWorkAoDropped, 13u);  // samples that were in them; saturates at 2^32 - 1 for each cell
-VX_CONST(uint, kWorkAoOwnRays, 14u);  // occlusion rays that no cell took
-VX_CONST(uint, kWorkAoSwaps, 15u);    // compare-and-swaps of keys
-VX_CONST(uint, kTallyCount, 16u);
+VX_CONST(uint, kWorkAoReused, 11u);       // hits whose cell was found by reprojection
+VX_CONST(uint, kWorkAoSearches, 12u);     // hits whose cell was searched in the table
+VX_CONST(uint, kWorkAoProbes, 13u);       // keys looked at in those searches
+VX_CONST(uint, kWorkAoClaimed, 14u);      // cells entered
+VX_CONST(uint, kWorkAoEvicted, 15u);      // cells given up
+VX_CONST(uint, kWorkAoDropped, 16u);      // samples that were in them; saturates at 2^32 - 1 for each cell
+VX_CONST(uint, kWorkAoOwnRays, 17u);      // occlusion rays that no cell took
+VX_CONST(uint, kWorkAoSwaps, 18u);        // compare-and-swaps of keys
+VX_CONST(uint, kWorkPhotonsStored, 19u);  // photons that found room in the store
+VX_CONST(uint, kWorkPathSegments, 20u);   // ways from surface to surface, and shadow rays to lamps
+VX_CONST(uint, kTallyCount, 21u);
 
 VX_END
 
 #ifdef __cplusplus
 namespace voxilux::gpu {
 inline constexpr const char* kTallyNames[kTallyCount] = {
-    "ray_unsound", "march_exhausted", "film_clamped", "film_non_finite", "ao_table_full", "hits",
-    "ao_rays",     "sun_rays",        "ao_reused",    "ao_searches",     "ao_probes",     "ao_claimed",
-    "ao_evicted",  "ao_dropped",      "ao_own_rays",  "ao_swaps"};
+    "ray_unsound",   "march_exhausted",   "film_clamped", "film_non_finite",
+    "ao_table_full", "photon_store_full", "photon_power", "path_too_long",
+    "hits",          "ao_rays",           "sun_rays",     "ao_reused",
+    "ao_searches",   "ao_probes",         "ao_claimed",   "ao_evicted",
+    "ao_dropped",    "ao_own_rays",       "ao_swaps",     "photons_stored",
+    "path_segments"};
 }
 #endif
 

@@ -63,7 +63,7 @@ RecordedRender record_render(const Scene& scene, const PreparedScene& prepared) 
     const RenderPlan& plan = prepared.plan;
     RecordedRender render;
     Recording start;
-    record_scene_upload(plan, scene, prepared.march_world, start);
+    record_scene_upload(plan, scene, prepared.march_world, prepared.lights, start);
     record_film_clear(plan, start);
     add(render, std::move(start));
     const gpu::FrameParams params = frame_params(plan, scene, prepared.march_world);

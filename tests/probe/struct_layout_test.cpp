@@ -9,6 +9,7 @@
 
 #include "embedded.h"
 #include "shared/gpu_types.h"
+#include "shared/photon_types.h"
 #include "vk/spirv_reflect.h"
 
 namespace voxilux {
@@ -36,7 +37,13 @@ const std::vector<Layout>& layouts() {
     static const std::vector<Layout> rows = {
         VX_LAYOUT(Hit, VX_MEMBER(Hit, cell), VX_MEMBER(Hit, face), VX_MEMBER(Hit, fraction),
                   VX_MEMBER(Hit, t), VX_MEMBER(Hit, material), VX_MEMBER(Hit, sphere)),
-        VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, emission)),
+        VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, emission),
+                  VX_MEMBER(SurfaceMaterial, mirror), VX_MEMBER(SurfaceMaterial, glass),
+                  VX_MEMBER(SurfaceMaterial, ior)),
+        VX_LAYOUT(LightRecord, VX_MEMBER(LightRecord, cell), VX_MEMBER(LightRecord, what)),
+        VX_LAYOUT(PhotonStart, VX_MEMBER(PhotonStart, cell), VX_MEMBER(PhotonStart, fraction),
+                  VX_MEMBER(PhotonStart, direction), VX_MEMBER(PhotonStart, sphere),
+                  VX_MEMBER(PhotonStart, power)),
         VX_LAYOUT(Sphere, VX_MEMBER(Sphere, anchor), VX_MEMBER(Sphere, curvature), VX_MEMBER(Sphere, normal)),
         VX_LAYOUT(SphereRecord, VX_MEMBER(SphereRecord, shape), VX_MEMBER(SphereRecord, material)),
         VX_LAYOUT(FrameParams, VX_MEMBER(FrameParams, chunks), VX_MEMBER(FrameParams, world_origin),
@@ -50,7 +57,11 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(FrameParams, sequence), VX_MEMBER(FrameParams, ao_rays),
                   VX_MEMBER(FrameParams, ao_radius), VX_MEMBER(FrameParams, sky_radiance),
                   VX_MEMBER(FrameParams, sun_direction), VX_MEMBER(FrameParams, sun_irradiance),
-                  VX_MEMBER(FrameParams, sun_cone_height), VX_MEMBER(FrameParams, sphere_count)),
+                  VX_MEMBER(FrameParams, sun_cone_height), VX_MEMBER(FrameParams, sphere_count),
+                  VX_MEMBER(FrameParams, glass_spheres), VX_MEMBER(FrameParams, light_count),
+                  VX_MEMBER(FrameParams, light_power), VX_MEMBER(FrameParams, lamp_photons),
+                  VX_MEMBER(FrameParams, sun_photons), VX_MEMBER(FrameParams, sun_disc_centre),
+                  VX_MEMBER(FrameParams, sun_disc_radius)),
         VX_LAYOUT(AoParams, VX_MEMBER(AoParams, last_camera_cell), VX_MEMBER(AoParams, last_camera_fraction),
                   VX_MEMBER(AoParams, last_right), VX_MEMBER(AoParams, last_up),
                   VX_MEMBER(AoParams, last_forward), VX_MEMBER(AoParams, has_last),
@@ -69,6 +80,17 @@ const std::vector<Layout>& layouts() {
         VX_LAYOUT(BenchHit, VX_MEMBER(BenchHit, cell), VX_MEMBER(BenchHit, face), VX_MEMBER(BenchHit, t),
                   VX_MEMBER(BenchHit, steps)),
         VX_LAYOUT(BenchMarchPush, VX_MEMBER(BenchMarchPush, count), VX_MEMBER(BenchMarchPush, chunks)),
+        VX_LAYOUT(PhotonGrid, VX_MEMBER(PhotonGrid, cells_per_voxel),
+                  VX_MEMBER(PhotonGrid, x_cells_per_voxel), VX_MEMBER(PhotonGrid, mask)),
+        VX_LAYOUT(PhotonParams, VX_MEMBER(PhotonParams, grid), VX_MEMBER(PhotonParams, power_scale),
+                  VX_MEMBER(PhotonParams, power_unit), VX_MEMBER(PhotonParams, radius),
+                  VX_MEMBER(PhotonParams, narrow_radius), VX_MEMBER(PhotonParams, capacity),
+                  VX_MEMBER(PhotonParams, photon_count), VX_MEMBER(PhotonParams, iteration)),
+        VX_LAYOUT(StoredPhoton, VX_MEMBER(StoredPhoton, position), VX_MEMBER(StoredPhoton, surface),
+                  VX_MEMBER(StoredPhoton, power), VX_MEMBER(StoredPhoton, bucket),
+                  VX_MEMBER(StoredPhoton, rank)),
+        VX_LAYOUT(PhotonHead, VX_MEMBER(PhotonHead, groups_x), VX_MEMBER(PhotonHead, groups_y),
+                  VX_MEMBER(PhotonHead, groups_z), VX_MEMBER(PhotonHead, count)),
     };
     return rows;
 }

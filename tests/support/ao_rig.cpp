@@ -59,7 +59,7 @@ AoRig::AoRig(Scene scene, Executor& executor)
       scene_(with_hash(std::move(scene))),
       prepared_(prepare_scene(scene_, {.effects = {.wants_aov = true}}, test_device().limits())) {
     Recording recording;
-    record_scene_upload(prepared_.plan, scene_, prepared_.march_world, recording);
+    record_scene_upload(prepared_.plan, scene_, prepared_.march_world, prepared_.lights, recording);
     record_film_clear(prepared_.plan, recording);
     executor_.run(recording);
 }

@@ -35,7 +35,7 @@ FrameRig::FrameRig(const Scene& scene, Executor& executor, std::optional<Travers
       params_(frame_params(prepared_.plan, scene, prepared_.march_world)) {
     EXPECT_EQ(prepared_.plan.band_count, 1u) << "a rig renders pictures of one band";
     Recording recording;
-    record_scene_upload(prepared_.plan, scene, prepared_.march_world, recording);
+    record_scene_upload(prepared_.plan, scene, prepared_.march_world, prepared_.lights, recording);
     record_film_clear(prepared_.plan, recording);
     executor_.run(recording);
 }

@@ -27,6 +27,9 @@ const std::map<std::string, std::string> kReadAndWritten = {
     {"Missed", "a list that grows by atomics"},
     {"Touched",
      "every writer of a frame writes the number of the frame; the pass that empties slots reads it"},
+    {"PhotonHeads", "the store's length grows by atomics; the prefix sum adds the workgroups that it takes"},
+    {"BucketCounts", "atomic counters"},
+    {"BucketRunSums", "photon_scan turns them into prefix sums in place, in one workgroup"},
     {"Counts", "a probe that counts its invocations with atomics"},
     {"Unused", "a probe of reflection: a block that the shader never touches"},
 };

@@ -122,7 +122,7 @@ AoStage::AoStage(Scene scene, Device& device)
     seen_.camera = camera_of(scene_);
     seen_.sky = scene_.sky;
     Recording recording;
-    record_scene_upload(prepared_.plan, scene_, prepared_.march_world, recording);
+    record_scene_upload(prepared_.plan, scene_, prepared_.march_world, prepared_.lights, recording);
     executor_.run(recording);
 }
 

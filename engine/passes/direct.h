@@ -1,0 +1,11 @@
+#pragma once
+
+#include "passes/plane.h"
+
+namespace voxilux {
+
+// Light that each hit receives straight from lamps, irradiance / pi.
+[[nodiscard]] Plane record_direct_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                                        Recording& recording);
+
+}  // namespace voxilux

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "passes/plane.h"
+#include "shared/photon_types.h"
+
+namespace voxilux {
+
+// What the grid and the fixed point of an iteration are made for.
+struct PhotonSetup {
+    double radius = 0.0;         // of the gather, voxels
+    double extent = 0.0;         // coordinates of photons, local to the world, are at most this in magnitude
+    glm::dvec3 most_power{0.0};  // that a photon carries, watts
+    std::uint32_t buckets = 0;   // a power of two
+    std::uint32_t capacity = 0;  // photons that fit in the store
+    std::uint32_t photon_count = 0;  // emitted in an iteration
+    std::uint32_t iteration = 1;
+};
+
+// The parameters of an iteration. The radius is not below kLeastPhotonRadius, and the narrow one is 1/sqrt(2)
+// of it. A channel without power gets none.
+[[nodiscard]] gpu::PhotonParams photon_params(const PhotonSetup& setup);
+
+// Puts the parameters on the device and empties the store, before the pass that traces photons.
+void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
+
+// Sorts the stored photons into buckets: photon.scan, photon.sort.
+void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
+
+// Irradiance at each hit from the photons, vec3: as the picture takes it, and with the narrow radius.
+struct PhotonPlanes {
+    Plane light;
+    Plane narrow;
+};
+
+// The irradiance at each hit from the sorted photons around it. The slice is the whole picture.
+[[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                                                Recording& recording);
+
+}  // namespace voxilux

@@ -1,0 +1,51 @@
+#include "passes/photon_trace.h"
+
+#include "passes/photon.h"
+#include "passes/specular.h"
+
+namespace voxilux {
+namespace {
+
+// The lamps, or the placeholder where only the sun sends photons.
+std::string lamp_buffer(const RenderPlan& plan, const std::string& name, Recording& recording) {
+    return plan.photons.lamp_photons != 0 ? use_buffer(plan, name, recording) : placeholder_buffer(recording);
+}
+
+}  // namespace
+
+void record_photon_emit(const RenderPlan& plan, Recording& recording) {
+    recording.dispatch({.label = "photon.emit",
+                        .shader = "photon_emit",
+                        .extent = {plan.photons.count(), 1, 1},
+                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                                     {"Spheres", spheres_buffer(plan, recording)},
+                                     {"Materials", materials_buffer(plan, recording)},
+                                     {"Lights", lamp_buffer(plan, "light.records", recording)},
+                                     {"LightTable", lamp_buffer(plan, "light.table", recording)},
+                                     {"Starts", use_buffer(plan, "photon.rays", recording)}},
+                        .constants = surface_constants(plan)});
+}
+
+void record_photon_trace(const RenderPlan& plan, Recording& recording) {
+    const PhotonSettings& settings = plan.settings.photons;
+    Dispatch dispatch{.label = "photon.trace",
+                      .shader = "photon_trace",
+                      .extent = {plan.photons.lanes, 1, 1},
+                      .bindings = path_bindings(plan, recording),
+                      .constants = path_constants(plan)};
+    dispatch.constants.insert(dispatch.constants.end(),
+                              {{"keeps_caustics", plan.has(Effect::caustics) ? 1u : 0u},
+                               {"keeps_indirect", plan.has(Effect::indirect) ? 1u : 0u},
+                               {"lanes", plan.photons.lanes},
+                               {"depth_limit", settings.roulette ? 0u : settings.depth}});
+    dispatch.bindings.push_back({"Starts", use_buffer(plan, "photon.rays", recording)});
+    dispatch.bindings.insert(dispatch.bindings.end(),
+                             {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+                              {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
+                              {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                              {"BucketCounts", use_buffer(plan, "photon.counts", recording)}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
+}
+
+}  // namespace voxilux

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "passes/plane.h"
+
+namespace voxilux {
+
+// Where the photons of a sample start, and where they meet diffuse surfaces: fills the store of photons,
+// which is empty before.
+void record_photon_emit(const RenderPlan& plan, Recording& recording);
+void record_photon_trace(const RenderPlan& plan, Recording& recording);
+
+}  // namespace voxilux

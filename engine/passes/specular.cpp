@@ -1,0 +1,37 @@
+#include "passes/specular.h"
+
+namespace voxilux {
+
+std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording) {
+    return {{"Frame", use_buffer(plan, "frame", recording)},
+            {"Tally", use_buffer(plan, "tally", recording)},
+            {"Spheres", spheres_buffer(plan, recording)},
+            {"Materials", materials_buffer(plan, recording)}};
+}
+
+std::vector<Constant> path_constants(const RenderPlan& plan) {
+    const bool specular = plan.has(Effect::specular);
+    std::vector<Constant> constants = surface_constants(plan);
+    constants.push_back({"has_glass_voxels", specular && plan.has_glass_voxels ? 1u : 0u});
+    constants.push_back({"has_glass_spheres", specular && plan.glass_spheres != 0 ? 1u : 0u});
+    return constants;
+}
+
+SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice, const Plane& first_hits,
+                                     Recording& recording) {
+    const SpecularPlanes planes{.hits = {use_buffer(plan, "specular.hits", recording)},
+                                .weights = {use_buffer(plan, "specular.weights", recording)}};
+    Dispatch dispatch{.label = "specular.trace",
+                      .shader = "specular_trace",
+                      .extent = pixel_extent(plan, slice),
+                      .bindings = path_bindings(plan, recording),
+                      .constants = path_constants(plan)};
+    dispatch.bindings.insert(
+        dispatch.bindings.end(),
+        {{"FirstHits", first_hits.buffer}, {"Hits", planes.hits.buffer}, {"Weights", planes.weights.buffer}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
+    return planes;
+}
+
+}  // namespace voxilux

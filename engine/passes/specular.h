@@ -1,0 +1,21 @@
+#pragma once
+
+#include "passes/plane.h"
+
+namespace voxilux {
+
+// What the camera sees through mirrors and glass: the hits there, and what their radiance is multiplied by.
+struct SpecularPlanes {
+    Plane hits;
+    Plane weights;
+};
+
+[[nodiscard]] SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice,
+                                                   const Plane& first_hits, Recording& recording);
+
+// Bindings and constants of every pass that follows paths (shaders/lib/path.glsl), the frame and the tally
+// included.
+[[nodiscard]] std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording);
+[[nodiscard]] std::vector<Constant> path_constants(const RenderPlan& plan);
+
+}  // namespace voxilux

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "plan/device_limits.h"
+#include "scene/photon_settings.h"
+#include "world/lights.h"
+
+namespace voxilux {
+
+// What a plan needs to know of the lamps.
+struct LightFacts {
+    std::uint32_t count = 0;
+    double power = 0.0;          // brightness of radiance times etendue, summed
+    glm::dvec3 most_power{0.0};  // most that all photons together would carry if each were as the strongest
+    SunDisc sun_disc;
+    double extent = 0.0;       // largest magnitude of a coordinate that a photon can meet, local to the world
+    double most_albedo = 0.0;  // of a used material
+
+    bool operator==(const LightFacts&) const = default;
+};
+
+[[nodiscard]] LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec3 world_size,
+                                        glm::ivec3 origin);
+
+// How photons run. All zero when none do.
+struct PhotonPlan {
+    std::uint32_t lamp_photons = 0;  // emitted per iteration
+    std::uint32_t sun_photons = 0;
+    std::uint32_t lanes = 0;     // invocations that trace them
+    std::uint32_t capacity = 0;  // photons that can be stored in an iteration
+    std::uint32_t buckets = 0;   // that they are sorted into, a power of two
+    glm::dvec3 most_power{0.0};  // of one photon, W
+    double radius = 0.0;         // of the first iteration, voxels
+
+    bool operator==(const PhotonPlan&) const = default;
+    [[nodiscard]] std::uint32_t count() const { return lamp_photons + sun_photons; }
+};
+
+// What the plan of photons depends on beside the settings.
+struct PhotonNeeds {
+    LightFacts lights;
+    bool has_lamps = false;
+    bool has_sun = false;
+    bool keeps_indirect = false;
+    glm::vec3 sun_irradiance{0.0f};
+    std::uint64_t pixels = 0;
+};
+
+// Throws Error(input_refused) when the photons of an iteration would not fit in a binding.
+[[nodiscard]] PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs,
+                                      const DeviceLimits& limits);
+
+}  // namespace voxilux

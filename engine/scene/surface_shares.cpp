@@ -1,0 +1,48 @@
+#include "scene/surface_shares.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace voxilux {
+namespace {
+
+bool has_glass(const Scene& scene, std::uint32_t sphere) {
+    return surface_shares(scene.materials.at(scene.spheres[sphere].material)).glass > 0.0f;
+}
+
+}  // namespace
+
+SurfaceShares surface_shares(const Material& material) {
+    if (glm::any(glm::greaterThan(material.emission, glm::vec3(0.0f)))) return {};
+    const float polish = std::clamp(material.metallic * (1.0f - material.roughness), 0.0f, 1.0f);
+    const float clear = std::clamp(material.transmission, 0.0f, 1.0f);
+    switch (material.surface) {
+        case Surface::metal:
+            return {.mirror = polish};
+        case Surface::glass:
+            return {.glass = clear};
+        case Surface::blend:
+            return {.mirror = polish * (1.0f - clear), .glass = clear};
+        case Surface::diffuse:
+        case Surface::emit:
+        case Surface::media:
+            break;
+    }
+    return {};
+}
+
+std::vector<std::uint32_t> sphere_order(const Scene& scene) {
+    std::vector<std::uint32_t> order(scene.spheres.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::stable_partition(order, [&](std::uint32_t i) { return has_glass(scene, i); });
+    return order;
+}
+
+std::uint32_t glass_sphere_count(const Scene& scene) {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i)
+        count += has_glass(scene, i) ? 1u : 0u;
+    return count;
+}
+
+}  // namespace voxilux

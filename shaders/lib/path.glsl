@@ -1,0 +1,284 @@
+// Paths of light, from the camera or from a lamp: where a ray goes next, and what mirrors and glass make of it. Include
+// lib/address.glsl first.
+//
+// A point inside several glass spheres is in the smallest of them; else it is in the glass of the voxel around it, else
+// in the open, with an index of refraction of 1. Where the same material is on both sides of a surface there is none.
+// Voxels of glass are walked cell by cell, everything else by the march.
+#ifndef VX_PATH_GLSL
+#define VX_PATH_GLSL
+
+#include "lib/surface.glsl"
+#include "shared/dielectric.h"
+#include "shared/sppm.h"
+
+layout(constant_id = 40) const uint has_glass_voxels = 0u;
+layout(constant_id = 41) const uint has_glass_spheres = 0u;
+
+layout(scalar) readonly buffer Materials {
+    SurfaceMaterial materials[];
+};
+
+const uint kNoMedium = 0xFFFFFFFFu;
+
+struct PathRay {
+    ivec3 cell;  // of the origin, as in Ray; inside glass the glass voxel
+    vec3 fraction;
+    vec3 direction;
+    uint own;     // the sphere that it starts on, or kNoSphere
+    uint medium;  // material of the glass voxels that it goes through, or kNoMedium
+};
+
+// How a ray ends. What the fields of `hit` mean on the way out of glass voxels: its cell and face are those of the last
+// glass voxel, seen from inside, and `beyond` is the cell behind the face.
+struct PathHit {
+    Hit hit;
+    bool leaves_medium;  // through a face of its glass voxels
+    bool stays;          // no surface: the next voxel is of the same glass, or the ray starts in glass
+    uint far_medium;     // material of the glass voxel behind the face, or kNoMedium
+};
+
+PathRay path_from(Hit hit, vec3 direction) {
+    Ray ray = ray_from(hit, direction, kUnbounded);
+    PathRay path;
+    path.cell = ray.cell;
+    path.fraction = ray.fraction;
+    path.direction = direction;
+    path.own = own_sphere(hit);
+    path.medium = kNoMedium;
+    return path;
+}
+
+PathHit no_hit() {
+    PathHit found;
+    found.hit.cell = ivec3(-1);
+    found.hit.face = kFaceMiss;
+    found.hit.fraction = vec3(0.0);
+    found.hit.t = kUnbounded;
+    found.hit.material = 0u;
+    found.hit.sphere = kNoSphere;
+    found.leaves_medium = false;
+    found.stays = false;
+    found.far_medium = kNoMedium;
+    return found;
+}
+
+// The way through one glass voxel: the face that the ray leaves it by.
+struct CellExit {
+    uint face;
+    vec3 fraction;  // on that face
+    float t;
+};
+
+CellExit exit_cell(PathRay path) {
+    Ray ray;
+    ray.cell = path.cell;
+    ray.fraction = path.fraction;
+    ray.direction = path.direction;
+    ray.t_max = kUnbounded;
+    MarchAxes axes = march_axes(ray);
+    vec3 times = plane_times(axes, ivec3(1));
+    int axis = first_axis(times);
+    CellExit result;
+    result.t = max(min(times.x, min(times.y, times.z)), 0.0);
+    result.face = uint(toward_axis(axes, axis));
+    float on_face = float(result.face & 1u);
+    vec3 fraction = clamp(path.fraction + result.t * path.direction, vec3(0.0), vec3(1.0));
+    result.fraction = vec3(axis == 0 ? on_face : fraction.x, axis == 1 ? on_face : fraction.y,
+                           axis == 2 ? on_face : fraction.z);
+    return result;
+}
+
+bool is_glass(uint material) {
+    return materials[material].glass > 0.0;
+}
+
+// What is behind the glass voxel that a ray leaves. `probe` is the march of a ray of no length in the cell behind.
+void look_behind(PathRay path, CellExit way, Ray probe, MarchHit behind, inout PathHit found) {
+    bool is_solid = behind.face == kFaceInside;
+    found.hit.t = way.t;
+    if (is_solid && !is_glass(behind.material)) {
+        found.hit.cell = probe.cell;
+        found.hit.face = way.face ^ 1u;
+        found.hit.fraction = probe.fraction;
+        found.hit.material = behind.material;
+        return;
+    }
+    found.hit.cell = path.cell;
+    found.hit.face = way.face;
+    found.hit.fraction = way.fraction;
+    found.hit.material = path.medium;
+    found.leaves_medium = true;
+    found.far_medium = is_solid ? behind.material : kNoMedium;
+    found.stays = found.far_medium == path.medium;
+}
+
+void find_voxel(PathRay path, inout PathHit found) {
+    bool inside = has_glass_voxels != 0u && path.medium != kNoMedium;
+    Ray ray;
+    ray.cell = path.cell;
+    ray.fraction = path.fraction;
+    ray.direction = path.direction;
+    ray.t_max = kUnbounded;
+    CellExit way;
+    if (has_glass_voxels != 0u) {
+        way = exit_cell(path);
+        Ray probe = leave_surface(path.cell, way.face, way.fraction, path.direction, kProbeLength);
+        ray.cell = inside ? probe.cell : ray.cell;
+        ray.fraction = inside ? probe.fraction : ray.fraction;
+        ray.t_max = inside ? probe.t_max : ray.t_max;
+    }
+    WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
+    if (entry.enters) {
+        MarchHit met = march(entry.ray, frame.chunks);
+        count(kFaultRayUnsound, met.fault == kMarchUnsound ? 1u : 0u);
+        count(kFaultMarchExhausted, met.fault == kMarchExhausted ? 1u : 0u);
+        if (inside) {
+            look_behind(path, way, ray, met, found);
+        } else if (met.face != kFaceMiss) {
+            found.hit.cell = met.cell;
+            found.hit.face = met.face;
+            found.hit.fraction = hit_fraction(entry.ray, met);
+            found.hit.t = entry.t + met.t;
+            found.hit.material = met.material;
+            found.far_medium = is_glass(met.material) ? met.material : kNoMedium;
+            found.stays = met.face == kFaceInside && found.far_medium != kNoMedium;
+        }
+    }
+}
+
+void find_sphere(PathRay path, inout PathHit found) {
+    vec3 origin = local_position(path.cell, path.fraction);
+    float t = found.hit.t;
+    uint nearest = kNoSphere;
+    for (uint i = 0u; i < frame.sphere_count; ++i) {
+        Sphere shape = spheres[i].shape;
+        float own_t = sphere_time_from(shape, origin, path.direction, t);
+        float other_t = sphere_time(shape, origin, path.direction, t);
+        float crossing = i == path.own ? own_t : other_t;
+        nearest = crossing < t ? i : nearest;
+        t = crossing;
+    }
+    if (nearest == kNoSphere) return;
+    found = no_hit();
+    found.hit.t = t;
+    place_on_sphere(found.hit, nearest, origin, path.direction);
+}
+
+// What a ray meets first.
+PathHit next_hit(PathRay path) {
+    PathHit found = no_hit();
+    if (has_voxels != 0u) find_voxel(path, found);
+    if (has_spheres != 0u) find_sphere(path, found);
+    return found;
+}
+
+// The smallest glass sphere around a point, other than `but`; kNoSphere in none. Of equal ones the later.
+uint glass_around(vec3 point, uint but) {
+    uint found = kNoSphere;
+    float curvature = 0.0;
+    for (uint i = 0u; i < frame.glass_spheres; ++i) {
+        Sphere shape = spheres[i].shape;
+        bool inner = i != but && shape.curvature >= curvature && is_in_sphere(shape, point);
+        found = inner ? i : found;
+        curvature = inner ? shape.curvature : curvature;
+    }
+    return found;
+}
+
+// Indices of refraction on the side that a ray comes from and on the other one.
+struct Interface {
+    float near;
+    float far;
+    bool is_none;  // the same on both sides, or the border of a medium that does not decide here
+};
+
+float ior_of(uint medium) {
+    return medium == kNoMedium ? 1.0 : materials[medium].ior;
+}
+
+Interface interface_at(PathRay path, PathHit found) {
+    bool on_sphere = is_on_sphere(found.hit);
+    uint around = kNoSphere;
+    if (has_glass_spheres != 0u)
+        around = glass_around(local_position(found.hit.cell, found.hit.fraction), on_sphere ? found.hit.sphere : kNoSphere);
+    uint sphere_medium = around == kNoSphere ? kNoMedium : spheres[around].material;
+    float outside = sphere_medium != kNoMedium ? ior_of(sphere_medium) : ior_of(path.medium);
+    Interface between;
+    if (on_sphere) {
+        bool leaves = found.hit.face == kFaceSphereInside;
+        float own = ior_of(found.hit.material);
+        float own_curvature = spheres[found.hit.sphere].shape.curvature;
+        float curvature = around == kNoSphere ? 0.0 : spheres[around].shape.curvature;
+        bool is_inner = around != kNoSphere && (curvature > own_curvature ||
+                                                (curvature == own_curvature && around > found.hit.sphere));
+        between.is_none = is_inner || sphere_medium == found.hit.material;
+        between.near = leaves ? own : outside;
+        between.far = leaves ? outside : own;
+    } else {
+        between.is_none = found.stays || around != kNoSphere;
+        between.near = ior_of(path.medium);
+        between.far = ior_of(found.far_medium);
+    }
+    return between;
+}
+
+const uint kEventDiffuse = 0u;  // the path ends at a diffuse surface
+const uint kEventPass = 1u;     // it goes on as if nothing were there
+const uint kEventMirror = 2u;
+const uint kEventRefract = 3u;
+
+struct PathEvent {
+    uint kind;
+    vec3 direction;  // in which it goes on
+    float eta;       // far over near index of refraction
+};
+
+// Which of the material's surfaces a ray meets, and where it leaves to. `u` are two numbers in [0, 1): for the choice
+// of the surface and for Fresnel's. Mirror and glass are drawn with the probability that is their share, and
+// reflection with that of the reflectance, so that no weight but the albedo remains.
+PathEvent path_event(PathRay path, PathHit found, vec2 u) {
+    SurfaceMaterial material = materials[found.hit.material];
+    bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
+    bool is_glass_here = material.glass > 0.0 && (from_inside || u.x < material.glass);
+    bool is_mirror_here = !is_glass_here && u.x < material.glass + material.mirror;
+    vec3 normal = found.leaves_medium ? -face_normal(found.hit.face) : surface_normal(found.hit);
+    PathEvent event;
+    event.kind = is_mirror_here ? kEventMirror : kEventDiffuse;
+    event.eta = 1.0;
+    event.direction = mirror_direction(path.direction, normal);
+    if (is_glass_here) {
+        Interface between = interface_at(path, found);
+        event.eta = between.far / between.near;
+        Dielectric surface = dielectric(-dot(path.direction, normal), event.eta);
+        bool reflects = u.y < surface.reflectance || surface.is_total;
+        event.kind = reflects ? kEventMirror : kEventRefract;
+        if (between.is_none) event.kind = kEventPass;
+        if (!reflects) event.direction = refracted_direction(path.direction, normal, event.eta, surface);
+        if (between.is_none) event.direction = path.direction;
+    }
+    return event;
+}
+
+// The ray after an event that is not diffuse.
+PathRay path_after(PathRay path, PathHit found, PathEvent event) {
+    PathRay next;
+    next.direction = event.direction;
+    next.medium = path.medium;
+    next.own = kNoSphere;
+    bool crosses = event.kind == kEventRefract || event.kind == kEventPass;
+    if (is_on_sphere(found.hit)) {
+        next.cell = found.hit.cell;
+        next.fraction = found.hit.fraction;
+        next.own = found.hit.sphere;
+        return next;
+    }
+    // The cell of the hit is on the near side only on the way out of glass.
+    bool stays_in_cell = found.leaves_medium != crosses;
+    Ray ray = leave_surface(found.hit.cell, found.hit.face, found.hit.fraction, event.direction, kUnbounded);
+    next.cell = stays_in_cell ? found.hit.cell : ray.cell;
+    next.fraction = stays_in_cell ? found.hit.fraction : ray.fraction;
+    next.medium = crosses ? found.far_medium : path.medium;
+    return next;
+}
+
+#endif

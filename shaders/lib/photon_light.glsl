@@ -1,0 +1,51 @@
+// Sums of photons at a visible point, and the irradiance that they mean. Include lib/address.glsl and
+// lib/photon_frame.glsl first.
+#ifndef VX_PHOTON_LIGHT_GLSL
+#define VX_PHOTON_LIGHT_GLSL
+
+#include "shared/photon_cell.h"
+#include "shared/photon_power.h"
+
+layout(scalar) writeonly buffer Light {
+    vec3 light[];
+};
+layout(scalar) writeonly buffer NarrowLight {
+    vec3 narrow_light[];
+};
+
+// In quanta.
+struct PhotonSums {
+    u64vec3 wide;    // within the radius
+    u64vec3 narrow;  // within the narrow radius
+};
+
+PhotonSums no_photons() {
+    PhotonSums sums;
+    sums.wide = u64vec3(0u);
+    sums.narrow = u64vec3(0u);
+    return sums;
+}
+
+void add_quanta(inout PhotonSums sums, uvec3 wide, uvec3 narrow) {
+    sums.wide += u64vec3(wide);
+    sums.narrow += u64vec3(narrow);
+}
+
+// Power of a sum over an area, W / voxel^2.
+vec3 irradiance(u64vec3 sum, float area) {
+    precise vec3 quanta =
+        vec3(photon_sum(unpack32(sum.x)), photon_sum(unpack32(sum.y)), photon_sum(unpack32(sum.z)));
+    precise vec3 watts = quanta * photon.power_unit;
+    precise vec3 density = watts / area;
+    return density;
+}
+
+// Writes what the sums of a pixel mean, when `share` of its disc is there to receive photons.
+void store_light(uint index, PhotonSums sums, float share) {
+    precise float area = 3.14159274 * photon.radius * photon.radius * share;
+    precise float narrow_area = 3.14159274 * photon.narrow_radius * photon.narrow_radius * share;
+    light[index] = irradiance(sums.wide, area);
+    narrow_light[index] = irradiance(sums.narrow, narrow_area);
+}
+
+#endif

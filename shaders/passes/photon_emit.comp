@@ -1,0 +1,87 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Where the photons of a sample start. Lamps are Lambertian emitters; the sun's photons come from a disc that faces it.
+// All the photons of a sample are one set of points of the sample sequence, scrambled by the number of the sample.
+
+#include "lib/address.glsl"
+
+#include "lib/invocation.glsl"
+
+#include "lib/path.glsl"
+
+#include "lib/lights.glsl"
+
+layout(scalar) writeonly buffer Starts {
+    PhotonStart starts[];
+};
+
+PhotonStart start_at(vec3 position) {
+    PhotonStart start;
+    vec3 corner = floor(position);
+    start.cell = ivec3(corner);
+    start.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));
+    start.sphere = kNoSphere;
+    return start;
+}
+
+PhotonStart leave_sphere(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
+    Sphere shape = spheres[lamp.parts.sphere].shape;
+    SphereEmission emission = sphere_emission(u_point, u_direction);
+    PhotonStart start = start_at(shape.anchor + (emission.normal - shape.normal) / shape.curvature);
+    start.direction = emission.direction;
+    start.sphere = lamp.parts.sphere;
+    start.power = lamp.emission * sphere_emission_etendue(1.0 / shape.curvature);
+    return start;
+}
+
+PhotonStart leave_face(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
+    uint axis = lamp.parts.face >> 1u;
+    vec3 fraction = vec3(u_point.x, axis == 0u ? u_point.x : u_point.y, u_point.y);
+    Ray ray = leave_surface(lamp.cell, lamp.parts.face, fraction, cosine_on_face(lamp.parts.face, u_direction), kUnbounded);
+    PhotonStart start;
+    start.cell = ray.cell;
+    start.fraction = ray.fraction;
+    start.direction = ray.direction;
+    start.sphere = kNoSphere;
+    start.power = lamp.emission * kFaceEtendue;
+    return start;
+}
+
+PhotonStart leave_sun(vec2 u_point, vec2 u_direction) {
+    vec3 towards = uniform_cone(frame.sun_direction, frame.sun_cone_height, u_direction);
+    vec3 disk = concentric_disk(u_point);
+    vec3 local = frame.sun_disc_radius * vec3(disk.x, disk.y, 1.0);
+    PhotonStart start = start_at(frame.sun_disc_centre + from_basis(basis_around(towards), local));
+    start.direction = -towards;
+    start.power = frame.sun_irradiance * (frame.sun_disc_radius * frame.sun_disc_radius / kInversePi);
+    return start;
+}
+
+void main() {
+    uint id = linear_id();
+    if (id >= frame.lamp_photons + frame.sun_photons) return;
+    SampleKey key;
+    key.stream = frame.sample_index;
+    key.index = id;
+    key.seed = frame.seed;
+    vec2 u_choice = sample_2d(frame.sequence, key, kPairPhoton);
+    vec2 u_point = sample_2d(frame.sequence, key, kPairPhoton + 1u);
+    vec2 u_direction = sample_2d(frame.sequence, key, kPairPhoton + 2u);
+    if (id >= frame.lamp_photons) {
+        PhotonStart start = leave_sun(u_point, u_direction);
+        start.power /= float(frame.sun_photons);
+        starts[id] = start;
+        return;
+    }
+    DrawnLight lamp = draw_light(uint(u_choice.x * 16777216.0) << 8u, u_choice.y);
+    PhotonStart start;
+    if (lamp.parts.kind == kLightSphere) {
+        start = leave_sphere(lamp, u_point, u_direction);
+    } else {
+        start = leave_face(lamp, u_point, u_direction);
+    }
+    start.power /= lamp.pdf * float(frame.lamp_photons);
+    starts[id] = start;
+}

@@ -1,0 +1,108 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Carries photons from surface to surface and stores them where diffuse ones receive them, but for light straight from
+// a lamp, which direct.trace finds. An invocation traces several photons, surface by surface in one loop, so that those
+// whose photons end early do not wait for the others.
+
+#include "lib/address.glsl"
+
+#include "lib/invocation.glsl"
+
+#include "lib/path.glsl"
+
+#include "lib/photon_store.glsl"
+
+layout(constant_id = 42) const uint keeps_caustics = 1u;  // light that mirrors and glass alone have sent
+layout(constant_id = 43) const uint keeps_indirect = 1u;  // light that a diffuse surface has sent
+layout(constant_id = 44) const uint lanes = 1u;           // invocations
+layout(constant_id = 45) const uint depth_limit = 0u;     // surfaces that a photon meets; 0: roulette ends its path
+
+layout(scalar) readonly buffer Starts {
+    PhotonStart starts[];
+};
+
+struct Photon {
+    PathRay path;
+    vec3 power;       // at the start
+    vec3 throughput;  // since then
+    uint id;
+    uint bounces;
+    bool is_scattered;  // by a diffuse surface
+};
+
+Photon start_photon(uint id) {
+    PhotonStart start = starts[id];
+    Photon photon;
+    photon.path.cell = start.cell;
+    photon.path.fraction = start.fraction;
+    photon.path.direction = start.direction;
+    photon.path.own = start.sphere;
+    photon.path.medium = kNoMedium;
+    photon.power = start.power;
+    photon.throughput = vec3(1.0);
+    photon.id = id;
+    photon.bounces = 0u;
+    photon.is_scattered = false;
+    return photon;
+}
+
+float draw(Photon photon, uint number) {
+    uint dimension = 2u * (kPairBounce + kPairsOfBounce * photon.bounces) + number;
+    return rng_float(frame.seed, frame.sample_index, photon.id, dimension);
+}
+
+// Sends the photon on from what it has met. False where it ends.
+bool bounce(inout Photon photon, PathHit found) {
+    PathEvent event = path_event(photon.path, found, vec2(draw(photon, 0u), draw(photon, 1u)));
+    PathRay next = path_after(photon.path, found, event);
+    bool is_diffuse = event.kind == kEventDiffuse;
+    bool is_caustic = photon.bounces > 0u && !photon.is_scattered;
+    bool is_kept = photon.is_scattered ? keeps_indirect != 0u : is_caustic && keeps_caustics != 0u;
+    if (is_diffuse && is_kept)
+        store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
+    vec3 normal = surface_normal(found.hit);
+    vec3 scattered = cosine_about(normal, vec2(draw(photon, 2u), draw(photon, 3u)));
+    PathRay off_surface = path_from(found.hit, scattered);
+    off_surface.medium = photon.path.medium;
+    if (is_diffuse) next = off_surface;
+    photon.is_scattered = photon.is_scattered || is_diffuse;
+    photon.path = next;
+    if (event.kind == kEventPass) return true;
+    photon.throughput *= materials[found.hit.material].albedo;
+    float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;
+    bool survives = draw(photon, 4u) < survival && (keeps_indirect != 0u || !is_diffuse);
+    photon.throughput /= survives ? survival : 1.0;
+    ++photon.bounces;
+    return survives && (depth_limit == 0u || photon.bounces < depth_limit);
+}
+
+void main() {
+    open_world();
+    uint lane = linear_id();
+    if (lane >= lanes) return;
+    uint count_all = frame.lamp_photons + frame.sun_photons;
+    uint next_id = lane;
+    uint segments = 0u;
+    uint passes = 0u;
+    uint too_long = 0u;
+    bool is_alive = false;
+    Photon photon;
+    for (uint step = 0u; step < kMostPhotonSteps; ++step) {
+        if (!is_alive) {
+            if (next_id >= count_all) break;
+            photon = start_photon(next_id);
+            next_id += lanes;
+            passes = 0u;
+        }
+        PathHit found = next_hit(photon.path);
+        ++segments;
+        ++passes;
+        too_long += passes == kMostBounces ? 1u : 0u;
+        is_alive = is_surface(found.hit) && (found.hit.face != kFaceInside || found.stays) && passes < kMostBounces;
+        if (is_alive) is_alive = bounce(photon, found);
+    }
+    count(kWorkPathSegments, segments);
+    count(kFaultPathTooLong, too_long);
+}

@@ -1,0 +1,89 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// Follows each camera ray through mirrors and glass to the diffuse surface or the sky that is seen there. `t` of the
+// result is the length of the whole way. Which way a ray takes at glass is drawn anew in each sample.
+
+#include "lib/address.glsl"
+
+#define VX_GROUP_2D
+#include "lib/invocation.glsl"
+
+#include "lib/path.glsl"
+
+layout(scalar) readonly buffer FirstHits {
+    Hit first_hits[];
+};
+layout(scalar) writeonly buffer Hits {
+    Hit hits[];
+};
+// What the radiance seen there is multiplied by.
+layout(scalar) writeonly buffer Weights {
+    vec3 weights[];
+};
+
+PathHit first_hit(Pixel pixel) {
+    PathHit found = no_hit();
+    found.hit = first_hits[pixel.index];
+    if (!is_surface(found.hit)) return found;
+    found.far_medium = is_glass(found.hit.material) && !is_on_sphere(found.hit) ? found.hit.material : kNoMedium;
+    found.stays = found.hit.face == kFaceInside && found.far_medium != kNoMedium;
+    return found;
+}
+
+PathRay first_ray(Pixel pixel) {
+    Ray ray = camera_ray(frame, pixel.x, pixel.y);
+    PathRay path;
+    path.cell = ray.cell;
+    path.fraction = ray.fraction;
+    path.direction = ray.direction;
+    path.own = kNoSphere;
+    path.medium = kNoMedium;
+    return path;
+}
+
+void main() {
+    open_world();
+    Pixel pixel = this_pixel();
+    if (!pixel.inside) return;
+    SampleKey key;
+    key.stream = pixel.y * frame.width + pixel.x;
+    key.index = frame.sample_index;
+    key.seed = frame.seed;
+    PathRay path = first_ray(pixel);
+    PathHit found = first_hit(pixel);
+    vec3 weight = vec3(1.0);
+    float length_so_far = found.hit.t;
+    uint segments = 0u;
+    bool is_open = true;
+    uint bounce = 0u;
+    for (; bounce < kMostBounces; ++bounce) {
+        if (!is_surface(found.hit)) break;
+        uint pair = kPairBounce + kPairsOfBounce * bounce;
+        vec2 u = bounce < kSureBounces ? sample_2d(frame.sequence, key, pair)
+                                       : vec2(rng_float(key.seed, key.stream, key.index, 2u * pair),
+                                              rng_float(key.seed, key.stream, key.index, 2u * pair + 1u));
+        PathEvent event = path_event(path, found, u);
+        if (event.kind == kEventDiffuse) break;
+        if (event.kind != kEventPass) weight *= materials[found.hit.material].albedo;
+        if (event.kind == kEventRefract) weight *= radiance_scale(event.eta);
+        if (bounce >= kSureBounces) {
+            float survival = roulette_survival(weight);
+            is_open = rng_float(key.seed, key.stream, key.index, 2u * pair + 2u) < survival;
+            weight = is_open ? weight / survival : vec3(0.0);
+        }
+        if (!is_open) break;
+        path = path_after(path, found, event);
+        found = next_hit(path);
+        length_so_far += found.hit.t;
+        ++segments;
+    }
+    count(kWorkPathSegments, segments);
+    count(kFaultPathTooLong, bounce == kMostBounces ? 1u : 0u);
+    found.hit.t = length_so_far;
+    if (!is_open || bounce == kMostBounces) found = no_hit();
+    if (!is_surface(found.hit)) found.hit.t = 0.0;
+    hits[pixel.index] = found.hit;
+    weights[pixel.index] = is_open && bounce < kMostBounces ? weight : vec3(0.0);
+}

@@ -1,0 +1,62 @@
+// Lamps: how they are packed, and how likely a direction or a photon is to be drawn. A lamp is drawn in
+// proportion to its power, brightness() of its radiance times its etendue (power over radiance).
+#ifndef VX_LIGHT_H
+#define VX_LIGHT_H
+
+#include "gpu_types.h"
+#include "limits.h"
+#include "portable.h"
+#include "sppm.h"
+
+VX_BEGIN
+
+// Kinds of lamps, the lowest bit of LightRecord::what.
+VX_CONST(uint, kLightSphere, 0u);
+VX_CONST(uint, kLightFace, 1u);
+
+// An emitting sphere by its number.
+VX_FN uint light_sphere(uint sphere) {
+    return (sphere << 1u) | kLightSphere;
+}
+
+// A face 0..5 of an emitting voxel of `material` < 2^28.
+VX_FN uint light_face(uint face, uint material) {
+    return (material << 4u) | (face << 1u) | kLightFace;
+}
+
+struct LightParts {
+    uint kind;
+    uint sphere;    // of a sphere
+    uint face;      // of a face
+    uint material;  // of a face
+};
+
+VX_FN LightParts light_parts(uint what) {
+    LightParts parts;
+    parts.kind = what & 1u;
+    parts.sphere = what >> 1u;
+    parts.face = (what >> 1u) & 7u;
+    parts.material = what >> 4u;
+    return parts;
+}
+
+// What colours count for when lamps are chosen.
+VX_FN float brightness(vec3 v) {
+    return v.x + v.y + v.z;
+}
+
+// Power over radiance of a face of a voxel: pi times its area, 1.
+VX_CONST(float, kFaceEtendue, 3.14159265f);
+
+// Weight of a direction that one of two ways of sampling has drawn, by the balance heuristic: both ways'
+// densities, that of the drawing way first. 0 where neither can draw it.
+// Source: Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering".
+VX_FN float balance_weight(float own_pdf, float other_pdf) {
+    float sum = own_pdf + other_pdf;
+    if (!(sum > 0.0f)) return 0.0f;
+    return isinf(sum) ? (isinf(own_pdf) ? 1.0f : 0.0f) : own_pdf / sum;
+}
+
+VX_END
+
+#endif

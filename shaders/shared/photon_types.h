@@ -1,0 +1,58 @@
+// Structs of photon mapping that live in device buffers, laid out as those of gpu_types.h.
+#ifndef VX_PHOTON_TYPES_H
+#define VX_PHOTON_TYPES_H
+
+#include "gpu_types.h"
+#include "portable.h"
+
+VX_BEGIN
+
+// How places are sorted into buckets (photon_cell.h).
+struct PhotonGrid {
+    float cells_per_voxel;    // along y and z
+    float x_cells_per_voxel;  // along x
+    uint mask;                // buckets of the table less one
+};
+
+// What the passes of one iteration share beside FrameParams: the uniform block PhotonFrame.
+struct PhotonParams {
+    PhotonGrid grid;
+    vec3 power_scale;     // quanta per watt, of red, green and blue (photon_power.h)
+    vec3 power_unit;      // watts per quantum
+    float radius;         // of a gather, voxels
+    float narrow_radius;  // of the second, which tells the bias; at most the first
+    uint capacity;        // photons that fit in the store
+    uint photon_count;    // emitted in an iteration
+    uint iteration;       // from 1
+};
+
+// A photon where it met a diffuse surface: as it was stored, and as it was sorted.
+struct StoredPhoton {
+    vec3 position;  // local to the world, voxels
+    uint surface;   // photon_surface()
+    uvec2 power;    // packed (photon_power.h)
+    uint bucket;
+    uint rank;  // among those of the bucket, in order of arrival
+};
+
+// Head of the store: the workgroups of passes over all photons in it, as an indirect dispatch reads them, and
+// how many asked for a place. More than fit are counted, too.
+struct PhotonHead {
+    uint groups_x;
+    uint groups_y;
+    uint groups_z;
+    uint count;
+};
+
+// Buckets that one invocation of the prefix sum goes through. Of 2^22 buckets there are 2^16 runs, 1024 for
+// each of the invocations that turn their sums into prefix sums.
+VX_CONST(uint, kScanRun, 64u);
+
+// Runs of a prefix sum over so many buckets.
+VX_FN uint scan_runs(uint buckets) {
+    return (buckets + kScanRun - 1u) / kScanRun;
+}
+
+VX_END
+
+#endif

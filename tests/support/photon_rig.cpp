@@ -1,0 +1,105 @@
+#include "support/photon_rig.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace voxilux::test {
+namespace {
+
+template <class T>
+std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
+    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
+
+// What the pass that traces photons would have done.
+void record_append(const RenderPlan& plan, const PhotonJob& job, Recording& recording) {
+    const auto count = static_cast<std::uint32_t>(job.photons.size());
+    recording.declare(
+        {.name = "t.photons", .size_bytes = std::max<std::size_t>(count, 1) * sizeof(gpu::PhotonIn)});
+    if (count == 0) return;
+    recording.upload("t.photons", std::as_bytes(std::span(job.photons)));
+    recording.dispatch({.label = "t.append",
+                        .shader = "photon_append",
+                        .extent = {count, 1, 1},
+                        .bindings = {{"In", "t.photons"},
+                                     {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+                                     {"Tally", use_buffer(plan, "tally", recording)},
+                                     {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
+                                     {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                                     {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
+                        .push = to_bytes(count)});
+}
+
+void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& recording) {
+    gpu::FrameParams frame{};
+    frame.width = job.width;
+    frame.height = rows_of(job);
+    frame.row_count = frame.height;
+    frame.column_count = job.width;
+    frame.sphere_count = static_cast<gpu::uint>(job.spheres.size());
+    recording.upload(use_buffer(plan, "frame", recording), to_bytes(frame));
+    recording.clear(use_buffer(plan, "tally", recording));
+    recording.declare(
+        {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
+    recording.clear("t.points", 0xFFFFFFFFu);
+    recording.upload("t.points", std::as_bytes(std::span(job.points)));
+}
+
+}  // namespace
+
+std::uint32_t rows_of(const PhotonJob& job) {
+    return static_cast<std::uint32_t>((job.points.size() + job.width - 1) / job.width);
+}
+
+RenderPlan photon_plan(const PhotonJob& job) {
+    const std::uint64_t pixels = std::uint64_t{job.width} * rows_of(job);
+    const std::uint64_t capacity = std::max(job.setup.capacity, 1u);
+    const std::uint64_t buckets = job.setup.buckets;
+    RenderPlan plan;
+    plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
+    plan.buffers = {{"frame", sizeof(gpu::FrameParams)},
+                    {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
+                    {"photon.frame", sizeof(gpu::PhotonParams)},
+                    {"photon.head", sizeof(gpu::PhotonHead)},
+                    {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
+                    {"photon.counts", buckets * 4},
+                    {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
+                    {"photon.starts", (buckets + 1) * 4},
+                    {"photon.places", capacity * 16},
+                    {"photon.powers", capacity * 8},
+                    {"photon.light", pixels * 12},
+                    {"photon.narrow", pixels * 12}};
+    return plan;
+}
+
+PhotonOutcome run_photons(const PhotonJob& job, Executor& executor) {
+    const RenderPlan plan = photon_plan(job);
+    const gpu::PhotonParams params = photon_params(job.setup);
+    Recording recording;
+    record_inputs(plan, job, recording);
+    record_photon_clear(plan, params, recording);
+    record_append(plan, job, recording);
+    record_photon_sort(plan, params, recording);
+    const PhotonPlanes planes =
+        record_photon_gather(plan, {.row_count = rows_of(job)}, {"t.points"}, recording);
+    for (const std::string& buffer :
+         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally"),
+          std::string("photon.places"), std::string("photon.powers")})
+        recording.readback(buffer);
+    const RunResult result = executor.run(recording);
+    PhotonOutcome outcome;
+    outcome.light = values_of<glm::vec3>(result, planes.light.buffer);
+    outcome.narrow = values_of<glm::vec3>(result, planes.narrow.buffer);
+    outcome.places = values_of<std::uint64_t>(result, "photon.places");
+    outcome.powers = values_of<std::uint64_t>(result, "photon.powers");
+    outcome.head = values_of<gpu::PhotonHead>(result, "photon.head").front();
+    const auto tally = values_of<gpu::uint>(result, "tally");
+    std::copy_n(tally.begin(), outcome.tally.size(), outcome.tally.begin());
+    outcome.times = result.passes;
+    return outcome;
+}
+
+}  // namespace voxilux::test

@@ -1,0 +1,47 @@
+#pragma once
+
+// Runs the passes that turn stored photons into light on the test device, over photons and visible points of
+// the test's own making.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "passes/photon.h"
+#include "probe/photon_functions.h"
+#include "shared/tally.h"
+#include "support/device_fixture.h"
+
+namespace voxilux::test {
+
+// A job for the passes: points are the hits of a picture of 'width' columns.
+struct PhotonJob {
+    std::vector<gpu::PhotonIn> photons;
+    std::vector<gpu::Hit> points;
+    std::uint32_t width = 16;
+    std::vector<gpu::SphereRecord> spheres;
+    PhotonSetup setup;
+};
+
+// What the passes wrote.
+struct PhotonOutcome {
+    std::vector<glm::vec3> light;
+    std::vector<glm::vec3> narrow;
+    std::vector<std::uint64_t> places;
+    std::vector<std::uint64_t> powers;
+    gpu::PhotonHead head{};
+    std::array<gpu::uint, gpu::kTallyCount> tally{};
+    std::vector<PassTime> times;
+};
+
+// The picture's rows of a job.
+[[nodiscard]] std::uint32_t rows_of(const PhotonJob& job);
+
+// A plan that holds the buffers of a job and nothing else.
+[[nodiscard]] RenderPlan photon_plan(const PhotonJob& job);
+
+// Appends, sorts and gathers.
+[[nodiscard]] PhotonOutcome run_photons(const PhotonJob& job, Executor& executor = test_executor());
+
+}  // namespace voxilux::test
