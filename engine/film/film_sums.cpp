@@ -193,19 +193,20 @@ ErrorEstimate error_of(const FilmSums& film) {
                           has_squares ? FilmSquares(squares->second) : FilmSquares{});
 }
 
-void store_sums(const FilmSums& film, Image& image) {
-    for (const auto& [name, sums] : film.sums) {
-        const std::size_t components = sums.size() / pixels_of(film);
+void store_sums(FilmSums film, Image& image) {
+    while (!film.sums.empty()) {
+        const auto plane = film.sums.extract(film.sums.begin());
+        const std::size_t components = plane.mapped().size() / pixels_of(film);
         VX_ASSERT(components <= kMostComponents);
         for (std::size_t i = 0; i < components; ++i) {
             std::vector<std::uint32_t> low(pixels_of(film)), high(pixels_of(film));
             for (std::size_t pixel = 0; pixel < low.size(); ++pixel) {
-                const auto bits = static_cast<std::uint64_t>(sums[pixel * components + i]);
+                const auto bits = static_cast<std::uint64_t>(plane.mapped()[pixel * components + i]);
                 low[pixel] = static_cast<std::uint32_t>(bits);
                 high[pixel] = static_cast<std::uint32_t>(bits >> 32);
             }
-            image.words[word_plane(name, i, "lo")] = std::move(low);
-            image.words[word_plane(name, i, "hi")] = std::move(high);
+            image.words[word_plane(plane.key(), i, "lo")] = std::move(low);
+            image.words[word_plane(plane.key(), i, "hi")] = std::move(high);
         }
     }
 }

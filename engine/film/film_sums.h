@@ -38,8 +38,9 @@ void add_film(FilmSums& film, const FilmSums& more);
 // halves.
 [[nodiscard]] ErrorEstimate error_of(const FilmSums& film);
 
-// Puts the sums into the whole-number planes of an image: SUMS.PLANE.COMPONENT.lo and .hi (kSumsLayer).
-void store_sums(const FilmSums& film, Image& image);
+// Moves the sums into the whole-number planes of an image: sums.PLANE.COMPONENT.lo and .hi (kSumsLayer).
+// Planes leave the film one by one, so that there is hardly ever a second copy in memory.
+void store_sums(FilmSums film, Image& image);
 
 // The film that store_sums() and picture_of() put into an image, without the samples of its rows; or why
 // there is none.

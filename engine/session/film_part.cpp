@@ -158,7 +158,7 @@ Json render_key(const Scene& scene, const RenderPlan& plan) {
             {"scene_hash", fmt::format("{:016x}", sample_hash(scene))}};
 }
 
-FilmPart part_of(const Scene& scene, const RenderOutcome& outcome, Json report, const ExrOptions& file) {
+FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const ExrOptions& file) {
     VX_ASSERT(outcome.film.has_value());
     const Shard& shard = outcome.plan.shard;
     return {.render = render_key(scene, outcome.plan),
@@ -166,16 +166,16 @@ FilmPart part_of(const Scene& scene, const RenderOutcome& outcome, Json report, 
             .shards = shard.count,
             .done = {{shard.index, outcome.statistics.samples}},
             .rows_ahead = outcome.rows_ahead,
-            .film = *outcome.film,
+            .film = std::move(*outcome.film),
             .report = std::move(report),
             .file = file};
 }
 
-Image image_of(const FilmPart& part) {
+Image image_of(FilmPart part) {
     Image image = picture_of(part.film);
-    store_sums(part.film, image);
     image.attributes[kPartAttribute] = part_json(part).dump();
     image.attributes[kReportAttribute] = part.report.dump();
+    store_sums(std::move(part.film), image);
     return image;
 }
 
