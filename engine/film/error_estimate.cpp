@@ -116,7 +116,14 @@ Rgb squared_differences(const HalfMeans& pixel) {
     return result;
 }
 
-RelativeError relative_error(const HalfMeans& pixel, const Rgb& variance, const Rgb& around) {
+// What a known variance adds to the denominator m^2 + kRelMseEpsilon, so that the share is that of the true
+// value to second order: noise in m makes 1 / (m^2 + kRelMseEpsilon) too large on average (delta method).
+double denominator_bias(double mean, double variance) {
+    const double square = mean * mean;
+    return variance * (3.0 * square - kRelMseEpsilon) / (square + kRelMseEpsilon);
+}
+
+RelativeError relative_error(const HalfMeans& pixel, const Rgb& variance, const Rgb& around, bool is_known) {
     RelativeError error;
     const Rgb drawn = squared_differences(pixel);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -124,9 +131,10 @@ RelativeError relative_error(const HalfMeans& pixel, const Rgb& variance, const 
         const bool is_trusted = std::sqrt(variance[c]) <= kAgreement * own;
         const double least = is_trusted ? own : std::min(own, other);
         const double most = is_trusted ? own : std::max(own, other);
-        error.cautious += variance[c] / (least * least + kRelMseEpsilon) / 3.0;
-        error.hopeful += variance[c] / (most * most + kRelMseEpsilon) / 3.0;
-        error.drawn += drawn[c] / (least * least + kRelMseEpsilon) / 3.0;
+        const double bias = is_known && is_trusted ? denominator_bias(own, variance[c]) : 0.0;
+        error.cautious += variance[c] / (least * least + kRelMseEpsilon + bias) / 3.0;
+        error.hopeful += variance[c] / (most * most + kRelMseEpsilon + bias) / 3.0;
+        error.drawn += drawn[c] / (least * least + kRelMseEpsilon + bias) / 3.0;
     }
     return error;
 }
@@ -171,7 +179,8 @@ Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b, FilmS
             result.is_complete = result.is_complete && means.weight > 0.0;
             const Rgb variance =
                 squares.empty() ? squared_differences(means) : mean_variance(a, b, squares, pixel);
-            const RelativeError error = relative_error(means, variance, window.neighbourhood(x, y));
+            const RelativeError error =
+                relative_error(means, variance, window.neighbourhood(x, y), !squares.empty());
             Block& block = result.blocks[static_cast<std::size_t>(y / result.side) * result.across +
                                          static_cast<std::size_t>(x / result.side)];
             block.error.add(error.cautious);
