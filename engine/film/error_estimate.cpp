@@ -17,6 +17,11 @@
 // independently of it (A+B and A-B are uncorrelated), hence the factor 2. The interval is laid on
 // log(relMSE), which is nearer to normal and cannot turn negative; Student's t stands for the number of
 // blocks being finite.
+//
+// Where samples are independent and their squares were summed, too, the unbiased variance of all samples
+// stands in for D^2, with n - 1 degrees of freedom instead of one. The estimate then scatters less than the
+// truth does, so that the two variances of blocks are no longer one: that of the truth is still measured on
+// D^2, which is distributed as the squared error is.
 
 #include "film/error_estimate.h"
 
@@ -24,6 +29,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/assert.h"
 #include "film/metrics.h"
 #include "film/sum.h"
 
@@ -94,27 +100,48 @@ class RowWindow {
     std::vector<std::vector<Rgb>> rows_;
 };
 
-// A pixel's share of relMSE with the cautious and with the hopeful choice of the true value.
+// A pixel's share of relMSE with the cautious and with the hopeful choice of the true value. `drawn` is the
+// cautious share that the halves give: one draw from what the true share is another one of.
 struct RelativeError {
-    double cautious = 0.0, hopeful = 0.0;
+    double cautious = 0.0, hopeful = 0.0, drawn = 0.0;
 };
 
-RelativeError relative_error(const HalfMeans& pixel, const Rgb& around) {
-    RelativeError error;
+// Estimates of the squared error by component.
+Rgb squared_differences(const HalfMeans& pixel) {
+    Rgb result;
     for (std::size_t c = 0; c < 3; ++c) {
         const double d = (pixel.a[c] - pixel.b[c]) * pixel.weight;
+        result[c] = d * d;
+    }
+    return result;
+}
+
+// What a known variance adds to the denominator m^2 + kRelMseEpsilon, so that the share is that of the true
+// value to second order: noise in m makes 1 / (m^2 + kRelMseEpsilon) too large on average (delta method).
+double denominator_bias(double mean, double variance) {
+    const double square = mean * mean;
+    return variance * (3.0 * square - kRelMseEpsilon) / (square + kRelMseEpsilon);
+}
+
+RelativeError relative_error(const HalfMeans& pixel, const Rgb& variance, const Rgb& around, bool is_known) {
+    RelativeError error;
+    const Rgb drawn = squared_differences(pixel);
+    for (std::size_t c = 0; c < 3; ++c) {
         const double own = std::abs(pixel.mean[c]), other = std::abs(around[c]);
-        const bool is_trusted = std::abs(d) <= kAgreement * own;
+        const bool is_trusted = std::sqrt(variance[c]) <= kAgreement * own;
         const double least = is_trusted ? own : std::min(own, other);
         const double most = is_trusted ? own : std::max(own, other);
-        error.cautious += d * d / (least * least + kRelMseEpsilon) / 3.0;
-        error.hopeful += d * d / (most * most + kRelMseEpsilon) / 3.0;
+        const double bias = is_known && is_trusted ? denominator_bias(own, variance[c]) : 0.0;
+        error.cautious += variance[c] / (least * least + kRelMseEpsilon + bias) / 3.0;
+        error.hopeful += variance[c] / (most * most + kRelMseEpsilon + bias) / 3.0;
+        error.drawn += drawn[c] / (least * least + kRelMseEpsilon + bias) / 3.0;
     }
     return error;
 }
 
 struct Block {
     CompensatedSum error;
+    CompensatedSum drawn;
     double pixels = 0.0;
 };
 
@@ -123,7 +150,7 @@ struct Blocks {
     int side = 1;
     std::size_t across = 0;
     std::vector<Block> blocks;
-    CompensatedSum cautious, hopeful;
+    CompensatedSum cautious, hopeful, drawn;
     bool is_complete = true;  // every pixel has samples in both halves
 };
 
@@ -140,7 +167,7 @@ Blocks make_blocks(int width, int height) {
     return result;
 }
 
-Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b) {
+Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b, FilmSquares squares) {
     Blocks result = make_blocks(width, height);
     RowWindow window(width, height, a, b);
     for (int y = 0; y < height; ++y) {
@@ -150,13 +177,18 @@ Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b) {
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const HalfMeans means = half_means(a, b, pixel);
             result.is_complete = result.is_complete && means.weight > 0.0;
-            const RelativeError error = relative_error(means, window.neighbourhood(x, y));
+            const Rgb variance =
+                squares.empty() ? squared_differences(means) : mean_variance(a, b, squares, pixel);
+            const RelativeError error =
+                relative_error(means, variance, window.neighbourhood(x, y), !squares.empty());
             Block& block = result.blocks[static_cast<std::size_t>(y / result.side) * result.across +
                                          static_cast<std::size_t>(x / result.side)];
             block.error.add(error.cautious);
+            block.drawn.add(error.drawn);
             block.pixels += 1.0;
             result.cautious.add(error.cautious);
             result.hopeful.add(error.hopeful);
+            result.drawn.add(error.drawn);
         }
     }
     return result;
@@ -171,22 +203,30 @@ double student_quantile(double degrees) {
            (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * degrees * degrees * degrees);
 }
 
-// Half width of the interval of log(relMSE), or infinity with too few blocks. Blocks are walked to and fro,
-// so that successive ones are neighbours.
-double log_spread(const Blocks& all, double mean, double pixels) {
-    if (all.blocks.size() < kFewestBlocks) return std::numeric_limits<double>::infinity();
+// Variance of the mean of what the blocks hold. Blocks are walked to and fro, so that successive ones are
+// neighbours.
+double variance_of_mean(const Blocks& all, CompensatedSum Block::*held, double mean, double pixels) {
     CompensatedSum squares;
     double last = 0.0;
     for (std::size_t k = 0; k < all.blocks.size(); ++k) {
         const std::size_t row = k / all.across, column = k % all.across;
         const Block& block = all.blocks[row * all.across + (row % 2 == 0 ? column : all.across - 1 - column)];
-        const double deviation = block.error.value() - mean * block.pixels;
+        const double deviation = (block.*held).value() - mean * block.pixels;
         if (k > 0) squares.add((deviation - last) * (deviation - last));
         last = deviation;
     }
     const double count = static_cast<double>(all.blocks.size());
-    const double variance = 0.5 * squares.value() * count / (count - 1.0) / (pixels * pixels);
-    return student_quantile(kDegreesPerDifference * (count - 1.0)) * std::sqrt(2.0 * variance) / mean;
+    return 0.5 * squares.value() * count / (count - 1.0) / (pixels * pixels);
+}
+
+// Half width of the interval of log(relMSE), or infinity with too few blocks.
+double log_spread(const Blocks& all, double pixels) {
+    if (all.blocks.size() < kFewestBlocks) return std::numeric_limits<double>::infinity();
+    const double mean = all.cautious.value() / pixels;
+    const double of_estimate = variance_of_mean(all, &Block::error, mean, pixels);
+    const double of_truth = variance_of_mean(all, &Block::drawn, all.drawn.value() / pixels, pixels);
+    const double count = static_cast<double>(all.blocks.size());
+    return student_quantile(kDegreesPerDifference * (count - 1.0)) * std::sqrt(of_estimate + of_truth) / mean;
 }
 
 }  // namespace
@@ -196,17 +236,19 @@ ErrorEstimate unknown_error() {
     return {.estimate = kNaN, .low = kNaN, .high = std::numeric_limits<double>::infinity()};
 }
 
-ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b) {
+ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b,
+                             FilmSquares squares) {
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     check_half(a, pixels);
     check_half(b, pixels);
     const double infinity = std::numeric_limits<double>::infinity();
-    const Blocks blocks = gather(width, height, a, b);
+    VX_ASSERT(squares.empty() || squares.size() == 3 * pixels);
+    const Blocks blocks = gather(width, height, a, b, squares);
     if (!blocks.is_complete) return {.estimate = infinity, .high = infinity};
     const double count = static_cast<double>(pixels);
     const double cautious = blocks.cautious.value() / count, hopeful = blocks.hopeful.value() / count;
     if (!(cautious > 0.0)) return {};
-    const double spread = std::exp(0.5 * log_spread(blocks, cautious, count));
+    const double spread = std::exp(0.5 * log_spread(blocks, count));
     return {.estimate = std::sqrt(cautious),
             .low = std::sqrt(hopeful) / spread,
             .high = std::sqrt(cautious) * spread};

@@ -138,7 +138,6 @@ Imf::Header make_header(const Image& image, const ExrOptions& options) {
 struct Planes {
     std::map<std::string, std::vector<half>> halves;
     std::map<std::string, std::vector<float>> singles;
-    std::map<std::string, std::vector<unsigned int>> words;
 };
 
 Planes make_planes(const Image& image, WriteReport& report) {
@@ -158,28 +157,26 @@ Planes make_planes(const Image& image, WriteReport& report) {
                 plane.push_back(storable(v, largest, report));
         }
     }
-    for (const auto& [name, words] : image.words) {
-        VX_ASSERT_EQ(words.size(), pixel_count(image));
-        planes.words[name] = words;
-    }
     return planes;
 }
 
 template <class T>
-Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& window) {
+Imf::Slice slice_of(Imf::PixelType type, const std::vector<T>& plane, const Imath::Box2i& window) {
     const std::size_t width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
     return Imf::Slice::Make(type, plane.data(), window, sizeof(T), sizeof(T) * width);
 }
 
-void write_planes(Imf::OStream& stream, const Imf::Header& header, Planes& planes) {
+void write_planes(Imf::OStream& stream, const Imf::Header& header, const Planes& planes, const Image& image) {
     Imf::FrameBuffer frame;
     const Imath::Box2i window = header.dataWindow();
-    for (auto& [name, plane] : planes.halves)
+    for (const auto& [name, plane] : planes.halves)
         frame.insert(name, slice_of(Imf::HALF, plane, window));
-    for (auto& [name, plane] : planes.singles)
+    for (const auto& [name, plane] : planes.singles)
         frame.insert(name, slice_of(Imf::FLOAT, plane, window));
-    for (auto& [name, plane] : planes.words)
-        frame.insert(name, slice_of(Imf::UINT, plane, window));
+    for (const auto& [name, words] : image.words) {
+        VX_ASSERT_EQ(words.size(), pixel_count(image));
+        frame.insert(name, slice_of(Imf::UINT, words, window));
+    }
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(frame);
     file.writePixels(window.max.y - window.min.y + 1);
@@ -190,11 +187,11 @@ void write_planes(Imf::OStream& stream, const Imf::Header& header, Planes& plane
 WriteReport write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options) {
     VX_ASSERT(image.width > 0 && image.height > 0 && !image.channels.empty());
     WriteReport report;
-    Planes planes = make_planes(image, report);
+    const Planes planes = make_planes(image, report);
     write_file_atomically(path, [&](const std::filesystem::path& temporary) {
         errno = 0;
         CheckedStream stream(temporary);
-        write_planes(stream, make_header(image, options), planes);
+        write_planes(stream, make_header(image, options), planes, image);
         stream.close();
     });
     return report;

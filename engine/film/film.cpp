@@ -1,5 +1,6 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/assert.h"
@@ -40,6 +41,27 @@ HalfMeans half_means(const FilmHalf& a, const FilmHalf& b, std::size_t pixel) {
     const double x = static_cast<double>(na), y = static_cast<double>(nb);
     if (na > 0 && nb > 0) result.weight = std::sqrt(x) * std::sqrt(y) / (x + y);
     return result;
+}
+
+std::array<double, 3> mean_variance(const FilmHalf& a, const FilmHalf& b, FilmSquares squares,
+                                    std::size_t pixel) {
+    const std::uint64_t samples = samples_of(a, pixel) + samples_of(b, pixel);
+    const HalfMeans means = half_means(a, b, pixel);
+    std::array<double, 3> variance{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = 3 * pixel + c;
+        const long double sum = static_cast<long double>(a.rgb[at]) + static_cast<long double>(b.rgb[at]);
+        const long double mean = mean_of(sum, samples);
+        const long double excess = mean_of(static_cast<long double>(squares[at]), samples) - mean * mean;
+        const double difference = (means.a[c] - means.b[c]) * means.weight;
+        if (samples < 2)
+            variance[c] = static_cast<double>(mean * mean);
+        else if (squares[at] == kSquaresFull)
+            variance[c] = difference * difference;
+        else
+            variance[c] = static_cast<double>(std::max(excess, 0.0L) / static_cast<long double>(samples - 1));
+    }
+    return variance;
 }
 
 void check_half(const FilmHalf& half, std::size_t pixels) {

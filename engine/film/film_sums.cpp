@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<const char*, 3> kXyz{"X", "Y", "Z"};
 constexpr std::array<const char*, 3> kRgb{"R", "G", "B"};
 constexpr std::size_t kMostComponents = 4;
+constexpr const char* kSquares = "squares";
 
 std::size_t pixels_of(const FilmSums& film) {
     return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
@@ -98,6 +99,25 @@ void add_firsts(FilmSums& film, const FilmSums& more) {
     }
 }
 
+void add_variance(const FilmSums& film, const Halves& halves, Image& image) {
+    const std::vector<std::int64_t>& squares = film.sums.at(kSquares);
+    std::array<std::vector<float>, 3> planes;
+    for (std::size_t pixel = 0; pixel < pixels_of(film); ++pixel) {
+        const std::array<double, 3> variance = mean_variance(halves.a, halves.b, squares, pixel);
+        for (std::size_t c = 0; c < 3; ++c)
+            planes[c].push_back(static_cast<float>(variance[c]));
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+        image.channels[channel_of("variance", c, 3)] = {Image::Precision::single, std::move(planes[c])};
+}
+
+// Sums that are 0 or above; a full one stays full, so that the order does not matter.
+std::int64_t full_sum(std::int64_t a, std::int64_t b) {
+    const std::int64_t sum = std::max<std::int64_t>(a, 0);
+    const std::int64_t more = std::max<std::int64_t>(b, 0);
+    return sum > kSquaresFull - more ? kSquaresFull : sum + more;
+}
+
 std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
@@ -147,7 +167,7 @@ void add_film(FilmSums& film, const FilmSums& more) {
     for (auto& [name, sums] : film.sums) {
         const std::vector<std::int64_t>& others = more.sums.at(name);
         VX_ASSERT_EQ(sums.size(), others.size());
-        std::ranges::transform(sums, others, sums.begin(), wrapped_sum);
+        std::ranges::transform(sums, others, sums.begin(), name == kSquares ? full_sum : wrapped_sum);
     }
     std::ranges::transform(film.even, more.even, film.even.begin(), std::plus());
     std::ranges::transform(film.odd, more.odd, film.odd.begin(), std::plus());
@@ -157,31 +177,36 @@ Image picture_of(const FilmSums& film) {
     const Halves halves(film);
     Image image = film_image(film.width, film.height, halves.a, halves.b);
     for (const auto& [name, sums] : film.sums) {
-        if (!is_beauty(name)) add_means(film, name, image);
+        if (!is_beauty(name) && name != kSquares) add_means(film, name, image);
     }
     for (const auto& [name, values] : film.firsts)
         add_first(film, name, image);
+    if (film.sums.contains(kSquares)) add_variance(film, halves, image);
     return image;
 }
 
 ErrorEstimate error_of(const FilmSums& film) {
     const Halves halves(film);
-    return estimate_error(film.width, film.height, halves.a, halves.b);
+    const auto squares = film.sums.find(kSquares);
+    const bool has_squares = film.is_independent && squares != film.sums.end();
+    return estimate_error(film.width, film.height, halves.a, halves.b,
+                          has_squares ? FilmSquares(squares->second) : FilmSquares{});
 }
 
-void store_sums(const FilmSums& film, Image& image) {
-    for (const auto& [name, sums] : film.sums) {
-        const std::size_t components = sums.size() / pixels_of(film);
+void store_sums(FilmSums film, Image& image) {
+    while (!film.sums.empty()) {
+        const auto plane = film.sums.extract(film.sums.begin());
+        const std::size_t components = plane.mapped().size() / pixels_of(film);
         VX_ASSERT(components <= kMostComponents);
         for (std::size_t i = 0; i < components; ++i) {
             std::vector<std::uint32_t> low(pixels_of(film)), high(pixels_of(film));
             for (std::size_t pixel = 0; pixel < low.size(); ++pixel) {
-                const auto bits = static_cast<std::uint64_t>(sums[pixel * components + i]);
+                const auto bits = static_cast<std::uint64_t>(plane.mapped()[pixel * components + i]);
                 low[pixel] = static_cast<std::uint32_t>(bits);
                 high[pixel] = static_cast<std::uint32_t>(bits >> 32);
             }
-            image.words[word_plane(name, i, "lo")] = std::move(low);
-            image.words[word_plane(name, i, "hi")] = std::move(high);
+            image.words[word_plane(plane.key(), i, "lo")] = std::move(low);
+            image.words[word_plane(plane.key(), i, "hi")] = std::move(high);
         }
     }
 }
@@ -200,6 +225,9 @@ Result<FilmSums> load_sums(const Image& image) {
         if (!film.sums.contains(half) || film.sums.at(half).size() != 3 * pixel_count(image))
             return Failure{fmt::format("it has no sums of {}", half)};
     }
+    const auto squares = film.sums.find(kSquares);
+    if (squares != film.sums.end() && squares->second.size() != 3 * pixel_count(image))
+        return Failure{"its squares are damaged"};
     load_first(image, "position", 3, film);
     load_first(image, "depth", 1, film);
     return film;

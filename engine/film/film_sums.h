@@ -16,6 +16,7 @@ namespace voxilux {
 struct FilmSums {
     int width = 0;
     int height = 0;
+    bool is_independent = false;      // the samples of a pixel, of each other
     std::vector<std::uint32_t> even;  // per row, samples with an even number: those in plane beauty_a
     std::vector<std::uint32_t> odd;   // those in beauty_b
     std::map<std::string, std::vector<std::int64_t>> sums;  // by film plane, [height][width][components]
@@ -24,22 +25,22 @@ struct FilmSums {
     bool operator==(const FilmSums&) const = default;
 };
 
-// Sums of squares stop here instead of wrapping round; it means "too large to tell".
-inline constexpr std::int64_t kSquaresFull = INT64_MAX;
-
 // Adds the samples of another film of the same size and planes. Where both have positions and depths those of
 // `film` stay.
 void add_film(FilmSums& film, const FilmSums& more);
 
 // The pictures: those of film_image(), and for every other plane its mean over all samples, named
-// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample.
+// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample. variance.R .G .B is
+// the variance of the beauty by mean_variance(); above the truth where samples are not independent.
 [[nodiscard]] Image picture_of(const FilmSums& film);
 
-// The error of the beauty, from the halves.
+// The error of the beauty: from the squares where there are some and samples are independent, else from the
+// halves.
 [[nodiscard]] ErrorEstimate error_of(const FilmSums& film);
 
-// Puts the sums into the whole-number planes of an image: SUMS.PLANE.COMPONENT.lo and .hi (kSumsLayer).
-void store_sums(const FilmSums& film, Image& image);
+// Moves the sums into the whole-number planes of an image: sums.PLANE.COMPONENT.lo and .hi (kSumsLayer).
+// Planes leave the film one by one, so that there is hardly ever a second copy in memory.
+void store_sums(FilmSums film, Image& image);
 
 // The film that store_sums() and picture_of() put into an image, without the samples of its rows; or why
 // there is none.

@@ -118,6 +118,7 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
                              .weights = seen.weights};
     const Plane color = record_shade_resolve(plan, slice, inputs, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
+    if (plan.sums_squares) record_film_square(plan, slice, {"squares", 3}, color, rec);
 
     if (!plan.has(Effect::aov)) return;
     const SurfacePlanes surface = record_aov_surface(plan, slice, hits, rec);

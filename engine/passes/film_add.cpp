@@ -4,20 +4,40 @@
 #include "shared/gpu_types.h"
 
 namespace voxilux {
+namespace {
+
+gpu::FilmAddPush sums_of_slice(const RenderPlan& plan, const Slice& slice, const FilmPlane& film,
+                               const Plane& values) {
+    const auto width = static_cast<std::uint32_t>(plan.settings.size.x);
+    const std::uint32_t row_values = width * film.components;
+    return {.count = row_values * slice.row_count,
+            .values_stride = values.stride,
+            .first_sum = row_values * (slice.first_row - slice.band_first_row)};
+}
+
+}  // namespace
 
 void record_film_add(const RenderPlan& plan, const Slice& slice, const FilmPlane& film, const Plane& values,
                      Recording& recording) {
-    const auto width = static_cast<std::uint32_t>(plan.settings.size.x);
-    const std::uint32_t row_values = width * film.components;
-    const gpu::FilmAddPush push{.count = row_values * slice.row_count,
-                                .values_stride = values.stride,
-                                .first_sum = row_values * (slice.first_row - slice.band_first_row)};
+    const gpu::FilmAddPush push = sums_of_slice(plan, slice, film, values);
     recording.dispatch(
         {.label = "film.add",
          .shader = "film_add",
          .extent = {push.count, 1, 1},
          .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
                       {"Values", values.buffer},
+                      {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
+         .push = to_bytes(push)});
+}
+
+void record_film_square(const RenderPlan& plan, const Slice& slice, const FilmPlane& film,
+                        const Plane& values, Recording& recording) {
+    const gpu::FilmAddPush push = sums_of_slice(plan, slice, film, values);
+    recording.dispatch(
+        {.label = "film.square",
+         .shader = "film_square",
+         .extent = {push.count, 1, 1},
+         .bindings = {{"Values", values.buffer},
                       {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
          .push = to_bytes(push)});
 }

@@ -9,4 +9,8 @@ namespace voxilux {
 void record_film_add(const RenderPlan& plan, const Slice& slice, const FilmPlane& film, const Plane& values,
                      Recording& recording);
 
+// Adds the squares of a plane of the slice. Sums that are full stay as they are.
+void record_film_square(const RenderPlan& plan, const Slice& slice, const FilmPlane& film,
+                        const Plane& values, Recording& recording);
+
 }  // namespace voxilux

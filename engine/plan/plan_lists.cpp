@@ -120,7 +120,8 @@ void list_passes(RenderPlan& plan) {
     add(true, "shade.resolve", slices);
     add(plan.has(Effect::aov), "aov.surface", slices);
     add(plan.has(Effect::aov), "aov.position", slices_of_a_sample(plan));
-    add(true, "film.add", slices * (film_planes(plan).size() - 1));
+    add(true, "film.add", slices * (film_planes(plan).size() - (plan.sums_squares ? 2 : 1)));
+    add(plan.sums_squares, "film.square", slices);
 }
 
 void list_buffers(RenderPlan& plan) {

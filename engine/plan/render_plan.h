@@ -81,6 +81,7 @@ struct RenderPlan {
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
     PhotonPlan photons;           // all zero without caustics and indirect light
+    bool sums_squares = false;    // of the beauty, for its variance
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
@@ -94,6 +95,12 @@ struct RenderPlan {
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
     [[nodiscard]] bool has_photons() const { return has(Effect::caustics) || has(Effect::indirect); }
+    // Whether samples of a pixel are independent of each other, so that their variance tells the error of
+    // their mean. Those of a low-discrepancy sequence are not: they err less.
+    // Iterations of photons are independent whatever leads the camera's rays.
+    [[nodiscard]] bool has_independent_samples() const {
+        return settings.sequence == Sequence::white || has_photons();
+    }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
     [[nodiscard]] std::uint64_t total_bytes() const;

@@ -66,8 +66,13 @@ Json part_json(const FilmPart& part) {
     Json done = Json::array();
     for (const auto& [shard, samples] : part.done)
         done.push_back({{"shard", shard + 1}, {"samples", samples}});
-    return {{"format", kFormat},           {"render", part.render}, {"spp", part.spp},
-            {"shards", part.shards},       {"done", done},          {"rows_ahead", part.rows_ahead},
+    return {{"format", kFormat},
+            {"render", part.render},
+            {"spp", part.spp},
+            {"shards", part.shards},
+            {"done", done},
+            {"rows_ahead", part.rows_ahead},
+            {"independent", part.film.is_independent},
             {"file", file_json(part.file)}};
 }
 
@@ -93,6 +98,7 @@ void read_json(const Json& json, FilmPart& part) {
     part.rows_ahead = json.at("rows_ahead").get<std::uint32_t>();
     check(!part.done.empty() && (part.rows_ahead == 0 || part.done.size() == 1), "its samples are damaged");
     check(part.rows_ahead < static_cast<std::uint32_t>(part.film.height), "its rows are damaged");
+    part.film.is_independent = json.at("independent").get<bool>();
     part.file = file_of(json.at("file"));
 }
 
@@ -152,7 +158,7 @@ Json render_key(const Scene& scene, const RenderPlan& plan) {
             {"scene_hash", fmt::format("{:016x}", sample_hash(scene))}};
 }
 
-FilmPart part_of(const Scene& scene, const RenderOutcome& outcome, Json report, const ExrOptions& file) {
+FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const ExrOptions& file) {
     VX_ASSERT(outcome.film.has_value());
     const Shard& shard = outcome.plan.shard;
     return {.render = render_key(scene, outcome.plan),
@@ -160,16 +166,16 @@ FilmPart part_of(const Scene& scene, const RenderOutcome& outcome, Json report, 
             .shards = shard.count,
             .done = {{shard.index, outcome.statistics.samples}},
             .rows_ahead = outcome.rows_ahead,
-            .film = *outcome.film,
+            .film = std::move(*outcome.film),
             .report = std::move(report),
             .file = file};
 }
 
-Image image_of(const FilmPart& part) {
+Image image_of(FilmPart part) {
     Image image = picture_of(part.film);
-    store_sums(part.film, image);
     image.attributes[kPartAttribute] = part_json(part).dump();
     image.attributes[kReportAttribute] = part.report.dump();
+    store_sums(std::move(part.film), image);
     return image;
 }
 

@@ -30,14 +30,14 @@ inline constexpr const char* kPartAttribute = "voxilux.part";
 inline constexpr const char* kReportAttribute = "voxilux.report";
 
 // The part that an outcome holds, which must have kept its film. `report` is that of the outcome.
-[[nodiscard]] FilmPart part_of(const Scene& scene, const RenderOutcome& outcome,
-                               nlohmann::ordered_json report, const ExrOptions& file);
+[[nodiscard]] FilmPart part_of(const Scene& scene, RenderOutcome outcome, nlohmann::ordered_json report,
+                               const ExrOptions& file);
 
 // What may be added up: the JSON that FilmPart::render has for this scene and plan.
 [[nodiscard]] nlohmann::ordered_json render_key(const Scene& scene, const RenderPlan& plan);
 
 // The picture of a part with everything that read_part() needs.
-[[nodiscard]] Image image_of(const FilmPart& part);
+[[nodiscard]] Image image_of(FilmPart part);
 
 // Throws Error(input_refused) for a file that is no part, or one of an unknown or inconsistent form.
 [[nodiscard]] FilmPart read_part(const std::filesystem::path& path);

@@ -36,6 +36,7 @@ FilmSums empty_film(const RenderPlan& plan) {
     const auto rows = static_cast<std::size_t>(plan.settings.size.y);
     return {.width = plan.settings.size.x,
             .height = plan.settings.size.y,
+            .is_independent = plan.has_independent_samples(),
             .even = std::vector<std::uint32_t>(rows, 0),
             .odd = std::vector<std::uint32_t>(rows, 0)};
 }
@@ -46,6 +47,7 @@ FilmSums read_error_film(const RenderPlan& plan, Executor& executor) {
     FilmSums film = empty_film(plan);
     for (const char* half : {"beauty_a", "beauty_b"})
         film.sums[half] = read_plane<std::int64_t>(plan, half, 3, executor);
+    if (plan.sums_squares) film.sums["squares"] = read_plane<std::int64_t>(plan, "squares", 3, executor);
     return film;
 }
 

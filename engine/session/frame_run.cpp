@@ -75,7 +75,11 @@ FilmSums FrameRun::with_start(FilmSums film) const {
         film.odd[row] = row_samples_[row] - even - (is_empty ? 0 : before.odd[row]);
     }
     if (is_empty) return film;
-    FilmSums all{.width = before.width, .height = before.height, .even = before.even, .odd = before.odd};
+    FilmSums all{.width = before.width,
+                 .height = before.height,
+                 .is_independent = film.is_independent,
+                 .even = before.even,
+                 .odd = before.odd};
     for (const auto& [name, sums] : film.sums)
         all.sums[name] = before.sums.at(name);
     for (const auto& [name, values] : film.firsts)

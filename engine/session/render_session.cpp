@@ -81,7 +81,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     run.run(on_progress, [&] {
         RenderOutcome so_far = run.outcome();
         complete(so_far, load_s, start);
-        options_.on_checkpoint(*scene_, so_far);
+        options_.on_checkpoint(*scene_, std::move(so_far));
     });
     RenderOutcome outcome = run.outcome();
     ++state_.frames_done;

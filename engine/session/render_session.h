@@ -42,7 +42,7 @@ struct RenderOptions {
     // The film that the frame of this plan goes on from, asked once per frame; a new one when there is none.
     std::function<FilmStart(const Scene&, const RenderPlan&)> resume;
     // Gets what is rendered so far, as if the render ended now.
-    std::function<void(const Scene&, const RenderOutcome&)> on_checkpoint;
+    std::function<void(const Scene&, RenderOutcome)> on_checkpoint;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
     bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
     // From when times count, those of the report and the time limit: the loading of the scene may be part of

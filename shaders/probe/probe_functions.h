@@ -133,6 +133,8 @@ struct FilmSumOut {
     FilmFixed converted;
     uvec2 sum;
     uvec2 negated;
+    uvec2 square;
+    uvec2 square_sum;
     uint overflows;
 };
 VX_FN FilmSumOut probe_film_sum(FilmSumIn v) {
@@ -140,6 +142,8 @@ VX_FN FilmSumOut probe_film_sum(FilmSumIn v) {
     r.converted = film_fixed(v.value);
     r.sum = film_add(v.a, v.b);
     r.negated = film_negate(v.a);
+    r.square = film_square(v.value);
+    r.square_sum = film_add_square(v.a, v.b);
     r.overflows = film_add_overflows(v.a, v.b) ? 1u : 0u;
     return r;
 }

@@ -36,8 +36,9 @@ VX_FN bool film_add_overflows(uvec2 a, uvec2 b) {
     return (((a.y ^ sum.y) & (b.y ^ sum.y)) >> 31u) != 0u;
 }
 
-// mantissa 2^shift rounded to the nearest integer, ties to even. mantissa < 2^24, shift <= 18.
+// mantissa 2^shift rounded to the nearest integer, ties to even. mantissa < 2^24, shift <= 39.
 VX_FN uvec2 film_shift(uint mantissa, int shift) {
+    if (shift >= 32) return uvec2(0u, mantissa << uint(shift - 32));
     if (shift >= 0) {
         uint high = shift == 0 ? 0u : mantissa >> uint(32 - shift);
         return uvec2(mantissa << uint(shift), high);
@@ -49,6 +50,14 @@ VX_FN uvec2 film_shift(uint mantissa, int shift) {
     uint half_unit = 1u << (drop - 1u);
     bool up = rest > half_unit || (rest == half_unit && (kept & 1u) == 1u);
     return uvec2(kept + (up ? 1u : 0u), 0u);
+}
+
+// A float of 0 and above, by its bits, as fixed point. Below 2^39.
+VX_FN uvec2 film_magnitude(uint bits) {
+    uint exponent = bits >> 23u;
+    if (exponent == 0u) return uvec2(0u, 0u);  // zero and denormals, below 2^-126
+    uint mantissa = (bits & 0x007FFFFFu) | 0x00800000u;
+    return film_shift(mantissa, int(exponent) - 150 + kFilmFractionBits);
 }
 
 // A sample as fixed point. Finite values round to the nearest 2^-24, ties to even; magnitudes above
@@ -69,12 +78,24 @@ VX_FN FilmFixed film_fixed(float value) {
         magnitude = largest;
         result.flags = kFilmClamped;
     }
-    uint exponent = magnitude >> 23u;
-    if (exponent == 0u) return result;  // zero and denormals, below 2^-126
-    uint mantissa = (magnitude & 0x007FFFFFu) | 0x00800000u;
-    result.sum = film_shift(mantissa, int(exponent) - 150 + kFilmFractionBits);
+    result.sum = film_magnitude(magnitude);
     if ((bits >> 31u) != 0u) result.sum = film_negate(result.sum);
     return result;
+}
+
+// The square of a sample as fixed point, of the value that film_fixed() makes of it.
+VX_FN uvec2 film_square(float value) {
+    uint magnitude = floatBitsToUint(value) & 0x7FFFFFFFu;
+    if (magnitude >= 0x7F800000u) return uvec2(0u, 0u);
+    uint largest = floatBitsToUint(kFilmMaxValue);
+    float taken = uintBitsToFloat(magnitude > largest ? largest : magnitude);
+    return film_magnitude(floatBitsToUint(taken * taken));
+}
+
+// a + b of sums that are 0 or above. One that would not fit stays at the largest number: two samples of
+// kFilmMaxValue get there, 2^20 of 724.
+VX_FN uvec2 film_add_square(uvec2 a, uvec2 b) {
+    return film_add_overflows(a, b) ? uvec2(0xFFFFFFFFu, 0x7FFFFFFFu) : film_add(a, b);
 }
 
 VX_END

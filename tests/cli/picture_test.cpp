@@ -110,9 +110,11 @@ TEST(Picture, exr_has_the_channels_that_other_programs_look_for) {
         const bool is_beauty = name == "R" || name == "G" || name == "B";
         EXPECT_EQ(channel.precision, is_beauty ? Image::Precision::half : Image::Precision::single) << name;
     }
-    EXPECT_EQ(names,
-              (std::set<std::string>{"R", "G", "B", "Z", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R",
-                                     "albedo.G", "albedo.B", "ao.Y", "sun.Y", "sampleCount.Y", "error.Y"}));
+    EXPECT_EQ(names, (std::set<std::string>{"R",        "G",          "B",          "Z",
+                                            "N.X",      "N.Y",        "N.Z",        "P.X",
+                                            "P.Y",      "P.Z",        "albedo.R",   "albedo.G",
+                                            "albedo.B", "ao.Y",       "sun.Y",      "sampleCount.Y",
+                                            "error.Y",  "variance.R", "variance.G", "variance.B"}));
     EXPECT_EQ(image.attributes.at("comments"), "mixed.toml");
     EXPECT_EQ(image.attributes.at("software").find("voxilux "), 0u);
     EXPECT_TRUE(image.attributes.contains("voxilux.report"));

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/file.h"
 #include "cli/child_process.h"
 #include "film/exr.h"
 #include "support/scratch_folder.h"
@@ -14,6 +16,7 @@ namespace voxilux::test {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 Words mixed(const Words& more) {
@@ -84,6 +87,39 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
     EXPECT_EQ(ending.err, "note: going on from " + std::to_string(samples) + " samples of a.exr.part\n");
     EXPECT_TRUE(bytes_of(scratch / "a.exr") == uninterrupted({"--spp", spp}));
     EXPECT_FALSE(bytes_of(scratch / "a.exr") == uninterrupted({"--spp", std::to_string(samples + 4)}));
+}
+
+// So many rays for each pixel that the first slice is one row and the second four: the signal comes within
+// the first sample.
+TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
+    const ScratchFolder scratch;
+    const Words job = {"render", scene_file("mixed"), "--size", "32x64", "--spp", "2", "--ao-rays",
+                       "150000", "--reproducible",    "-o",     "a.exr"};
+    const auto with = [&](const Words& more) {
+        Words words = job;
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    ChildProcess child(with({"--progress", "json"}), {.folder = scratch.path()});
+    ASSERT_NE(child.wait_for_error_line(), "");
+    child.send(SIGINT);
+    EXPECT_EQ(child.finish().code, 130);
+    const Image part = decode_exr(read_file(scratch / "a.exr.part"), "a.exr.part");
+    const Json description = Json::parse(part.attributes.at("voxilux.part"));
+    EXPECT_EQ(description["done"][0]["samples"], 0);
+    EXPECT_GT(description["rows_ahead"], 0) << "or this tests nothing";
+    const std::vector<float>& samples = part.channels.at("sampleCount.Y").pixels;
+    EXPECT_EQ(samples.front(), 1.0f);
+    EXPECT_EQ(samples.back(), 0.0f);
+    const Ending merged =
+        run({"merge", "a.exr.part", "--partial", "-o", "m.exr"}, {.folder = scratch.path()});
+    EXPECT_EQ(merged.code, 3);
+    EXPECT_NE(merged.err.find("it ends within a sample"), std::string::npos) << merged.err;
+
+    EXPECT_EQ(run(with({"--resume", "-q"}), {.folder = scratch.path()}).code, 0);
+    const std::string resumed = bytes_of(scratch / "a.exr");
+    EXPECT_EQ(run(with({"-q"}), {.folder = scratch.path()}).code, 0);
+    EXPECT_TRUE(resumed == bytes_of(scratch / "a.exr"));
 }
 
 TEST(Resume, interrupted_shard_goes_on_and_merges) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <numbers>
 
@@ -31,6 +32,12 @@ std::int64_t fixed(float value) {
     const gpu::FilmFixed converted = gpu::film_fixed(value);
     EXPECT_EQ(converted.flags, 0u);
     return static_cast<std::int64_t>(std::uint64_t{converted.sum.y} << 32 | converted.sum.x);
+}
+
+// The square as the film sums it: a product of floats, rounded to 2^-24 once more.
+std::int64_t square(float value) {
+    const float product = value * value;
+    return std::llrint(std::ldexp(static_cast<double>(product), gpu::kFilmFractionBits));
 }
 
 TEST(ShadeResolve, plane_under_a_constant_sky_is_albedo_times_radiance_exactly) {
@@ -113,7 +120,7 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
     scene.materials[0].albedo = glm::vec3(0.3f, 0.6f, 0.9f);
     scene.settings.ao_rays = 3;
     test::FrameRig rig(scene);
-    std::vector<std::int64_t> ao(480), sun(480), a(480 * 3), b(480 * 3);
+    std::vector<std::int64_t> ao(480), sun(480), a(480 * 3), b(480 * 3), squares(480 * 3);
     for (std::uint32_t sample = 0; sample < 5; ++sample) {
         const test::FramePlanes planes = rig.render(sample);
         for (std::size_t i = 0; i < 480; ++i) {
@@ -121,12 +128,17 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
             sun[i] += fixed(planes.sun[i]);
             for (std::size_t c = 0; c < 3; ++c)
                 (sample % 2 == 0 ? a : b)[3 * i + c] += fixed(planes.color[i][static_cast<int>(c)]);
+            for (std::size_t c = 0; c < 3; ++c)
+                squares[3 * i + c] += square(planes.color[i][static_cast<int>(c)]);
         }
     }
     EXPECT_EQ(rig.film_sums("ao"), ao);
     EXPECT_EQ(rig.film_sums("sun"), sun);
     EXPECT_EQ(rig.film_sums("beauty_a"), a);
     EXPECT_EQ(rig.film_sums("beauty_b"), b);
+    EXPECT_EQ(rig.film_sums("squares"), squares);
+    squares[77] += 1;
+    EXPECT_NE(rig.film_sums("squares"), squares);
     a[77] += 1;
     EXPECT_NE(rig.film_sums("beauty_a"), a);
 }

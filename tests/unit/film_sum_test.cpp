@@ -104,6 +104,45 @@ TEST(FilmSum, a_million_largest_samples_stay_inside_the_sum) {
     EXPECT_FALSE(gpu::film_add_overflows(parted(largest * ((1 << 20) - 1)), parted(largest - 1)));
 }
 
+TEST(FilmSquare, equals_the_rounded_square_of_the_value_taken) {
+    for (const float value : edge_values()) {
+        const double taken = value;
+        const double square = taken * taken;  // exact: 48 bits
+        const double want = std::ldexp(square, gpu::kFilmFractionBits);
+        // The product in float is rounded to 24 bits, then to a whole number.
+        const double rounding = want * 0x1p-24 + 0.5;
+        ASSERT_NEAR(static_cast<double>(joined(gpu::film_square(value))), want, rounding) << value;
+        ASSERT_EQ(joined(gpu::film_square(value)), joined(gpu::film_square(-value)));
+    }
+    EXPECT_EQ(joined(gpu::film_square(3.0f)), std::int64_t{9} << 24);
+    EXPECT_EQ(joined(gpu::film_square(-0.5f)), std::int64_t{1} << 22);
+}
+
+TEST(FilmSquare, is_of_the_value_that_the_sum_gets) {
+    const std::int64_t largest = joined(gpu::film_square(gpu::kFilmMaxValue));
+    EXPECT_GT(largest, (std::int64_t{1} << 62) - (std::int64_t{1} << 40));
+    EXPECT_EQ(joined(gpu::film_square(1e9f)), largest);
+    EXPECT_EQ(joined(gpu::film_square(-3e38f)), largest);
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const float value : {inf, -inf, std::nanf("")})
+        EXPECT_EQ(joined(gpu::film_square(value)), 0);
+}
+
+TEST(FilmSquare, sums_stop_at_the_largest_number_in_any_order) {
+    const uvec2 large = gpu::film_square(gpu::kFilmMaxValue);
+    const uvec2 small = gpu::film_square(7.0f);
+    uvec2 forwards = gpu::film_add_square(gpu::film_add_square(large, large), small);
+    uvec2 backwards = gpu::film_add_square(gpu::film_add_square(small, large), large);
+    EXPECT_EQ(joined(gpu::film_add_square(large, small)), joined(large) + joined(small));
+    EXPECT_EQ(joined(forwards), joined(backwards));
+    forwards = gpu::film_add_square(forwards, large);
+    backwards = gpu::film_add_square(backwards, large);
+    EXPECT_EQ(joined(forwards), INT64_MAX);
+    EXPECT_EQ(joined(backwards), INT64_MAX);
+    // Without the stop it would be a negative square.
+    EXPECT_LT(joined(gpu::film_add(gpu::film_add(large, large), gpu::film_add(large, small))), 0);
+}
+
 // A float sum of 0.1 stops growing near 2^24 samples of 1; the fixed sum keeps the mean.
 TEST(FilmSum, mean_of_a_constant_stays_constant_over_2_to_the_24_samples) {
     const gpu::FilmFixed sample = gpu::film_fixed(0.1f);

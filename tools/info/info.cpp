@@ -25,7 +25,8 @@ FileFacts facts_of(const std::filesystem::path& path) {
     const std::string ending = ending_of(path);
     if (ending == ".vox") return vox_facts(path);
     if (ending == ".toml") return scene_facts(path);
-    if (ending == ".exr" || ending == ".png") return image_facts(path);
+    const bool is_checkpoint = ending == ".part";  // FILE.exr.part
+    if (ending == ".exr" || ending == ".png" || is_checkpoint) return image_facts(path);
     throw Error(ExitCode::input_refused,
                 fmt::format("{}: info reads .vox, .toml, .exr and .png files", path.string()));
 }

@@ -31,11 +31,12 @@ bool is_finished(const RenderOutcome& outcome) {
 // The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that share
 // occlusion cannot be gone on from.
 void save_checkpoint(const RenderCommand& command, const fs::path& file, const Scene& scene,
-                     const RenderOutcome& outcome) {
+                     RenderOutcome outcome) {
     if (outcome.plan.has_ao_cells()) return;
     try {
-        const FilmPart part = part_to_write(command, scene, outcome);
-        (void)write_exr(file, image_of(part), part.file);
+        FilmPart part = part_to_write(command, scene, std::move(outcome));
+        const ExrOptions options = part.file;
+        (void)write_exr(file, image_of(std::move(part)), options);
     } catch (const Error& error) {
         fmt::print(stderr, "warning: no checkpoint: {}\n", error.what());
     }
@@ -115,8 +116,8 @@ void set_part_options(const RenderCommand& command, const std::vector<std::strin
     const auto file = checkpoint_file(command, outputs);
     if (!file) return;
     options.checkpoint_s = checkpoint_seconds(command);
-    options.on_checkpoint = [&command, file = *file](const Scene& scene, const RenderOutcome& outcome) {
-        save_checkpoint(command, file, scene, outcome);
+    options.on_checkpoint = [&command, file = *file](const Scene& scene, RenderOutcome outcome) {
+        save_checkpoint(command, file, scene, std::move(outcome));
     };
     options.keeps_film = command.shard.has_value() || options.checkpoint_s > 0.0;
     if (command.resume) {
@@ -128,9 +129,10 @@ void set_part_options(const RenderCommand& command, const std::vector<std::strin
     }
 }
 
-FilmPart part_to_write(const RenderCommand& command, const Scene& scene, const RenderOutcome& outcome) {
-    return part_of(scene, outcome, report_of_picture(command, scene, outcome),
-                   exr_options(command, scene, outcome.plan));
+FilmPart part_to_write(const RenderCommand& command, const Scene& scene, RenderOutcome outcome) {
+    nlohmann::ordered_json report = report_of_picture(command, scene, outcome);
+    const ExrOptions file = exr_options(command, scene, outcome.plan);
+    return part_of(scene, std::move(outcome), std::move(report), file);
 }
 
 void leave_checkpoint(const RenderCommand& command, const std::vector<std::string>& outputs,

@@ -23,8 +23,7 @@ void set_part_options(const RenderCommand& command, const std::vector<std::strin
                       RenderOptions& options);
 
 // The outcome as a part, with the report that its picture has.
-[[nodiscard]] FilmPart part_to_write(const RenderCommand& command, const Scene& scene,
-                                     const RenderOutcome& outcome);
+[[nodiscard]] FilmPart part_to_write(const RenderCommand& command, const Scene& scene, RenderOutcome outcome);
 
 // Leaves a checkpoint of a render that stopped before its end.
 void leave_checkpoint(const RenderCommand& command, const std::vector<std::string>& outputs,
