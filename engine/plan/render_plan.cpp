@@ -146,6 +146,7 @@ std::uint64_t RenderPlan::total_bytes() const {
 std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     std::vector<FilmPlane> planes = {{"beauty_a", 3}, {"beauty_b", 3}};
     if (plan.sums_squares) planes.push_back({"squares", 3});
+    if (plan.sums_bias) planes.insert(planes.end(), {{"bias_a", 3}, {"bias_b", 3}});
     if (!plan.has(Effect::aov)) return planes;
     planes.push_back({"albedo", 3});
     planes.push_back({"normal", 3});
@@ -195,6 +196,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_shard(plan);
     const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.has_ao_cells() && (plan.has(Effect::aov) || decides);
+    plan.sums_bias = plan.has_photons() && (plan.has(Effect::aov) || request.wants_error);
     split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);

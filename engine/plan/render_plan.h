@@ -82,6 +82,7 @@ struct RenderPlan {
     bool has_glass_voxels = false;
     PhotonPlan photons;           // all zero without caustics and indirect light
     bool sums_squares = false;    // of the beauty, for its variance
+    bool sums_bias = false;       // of photons
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders

@@ -138,6 +138,8 @@ Json error_json(const ErrorEstimate& error) {
     Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
     json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
     json["confidence"] = error.confidence;
+    if (error.noise) json["noise"] = *error.noise;
+    if (error.bias) json["bias"] = *error.bias;
     return json;
 }
 
