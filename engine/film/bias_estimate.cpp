@@ -32,8 +32,8 @@ BiasEstimate estimate_bias(int width, int height, const FilmHalf& beauty_a, cons
     double sum = 0.0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                      static_cast<std::size_t>(x);
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const double square =
                 square_of_pixel(half_means(beauty_a, beauty_b, pixel), half_means(a, b, pixel));
             blocks[static_cast<std::size_t>(y / kBlockEdge * across + x / kBlockEdge)] += square;

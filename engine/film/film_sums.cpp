@@ -204,8 +204,8 @@ ErrorEstimate error_of(const FilmSums& film) {
     const ErrorEstimate noise = estimate_error(film.width, film.height, halves.a, halves.b,
                                                has_squares ? FilmSquares(squares->second) : FilmSquares{});
     if (!film.sums.contains("bias_a")) return noise;
-    return with_bias(noise, estimate_bias(film.width, film.height, halves.a, halves.b,
-                                          film.sums.at("bias_a"), film.sums.at("bias_b")));
+    return with_bias(noise, estimate_bias(film.width, film.height, halves.a, halves.b, film.sums.at("bias_a"),
+                                          film.sums.at("bias_b")));
 }
 
 void store_sums(FilmSums film, Image& image) {

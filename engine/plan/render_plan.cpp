@@ -231,6 +231,11 @@ std::string describe(const RenderPlan& plan) {
     if (plan.has(Effect::ao)) {
         text += fmt::format("occlusion {:<10} {}\n", plan.ao.uses_cells() ? "hash" : "brute", plan.ao.reason);
     }
+    if (plan.has_photons())
+        text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
+                            plan.photons.count(), plan.photons.capacity,
+                            plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
+                            plan.settings.photons.alpha);
     for (const PlannedPass& pass : plan.passes)
         text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
     for (const PlannedBuffer& planned : plan.buffers)
