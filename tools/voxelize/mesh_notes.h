@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace voxilux {
+
+// What a loader dropped or replaced: how often each thing happened, by its text.
+using MeshNotes = std::map<std::string, std::size_t>;
+
+// One line per note, in the order of their texts, with the count where it is above 1.
+[[nodiscard]] std::vector<std::string> note_lines(const MeshNotes& notes);
+
+// A name from a file, fit for one line of a message: in quotes, at most 80 bytes, without control characters.
+[[nodiscard]] std::string quoted_name(const std::string& name);
+
+}  // namespace voxilux

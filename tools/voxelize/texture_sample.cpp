@@ -1,0 +1,106 @@
+#include "voxelize/texture_sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxilux {
+namespace {
+
+TexelMeaning base_color_meaning(AlphaMode mode) {
+    switch (mode) {
+        case AlphaMode::opaque:
+            return TexelMeaning::color;
+        case AlphaMode::mask:
+            return TexelMeaning::masked_color;
+        case AlphaMode::blend:
+            return TexelMeaning::alpha_color;
+    }
+    return TexelMeaning::color;
+}
+
+// The alpha that a texel needs to pass; above 1 none does.
+float texel_cutoff(const MeshMaterial& material) {
+    if (material.alpha_mode != AlphaMode::mask || material.alpha_cutoff <= 0.0f) return 0.0f;
+    return material.base_color.a > 0.0f ? material.alpha_cutoff / material.base_color.a : 2.0f;
+}
+
+float alpha_of(const MeshMaterial& material, float texel_alpha, float vertex_alpha, bool has_texture) {
+    const float alpha = material.base_color.a * vertex_alpha;
+    switch (material.alpha_mode) {
+        case AlphaMode::opaque:
+            return 1.0f;
+        case AlphaMode::mask:
+            return has_texture ? texel_alpha : alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+        case AlphaMode::blend:
+            return texel_alpha * alpha;
+    }
+    return 1.0f;
+}
+
+}  // namespace
+
+MaterialSampler::MaterialSampler(const Mesh& mesh) : mesh_(mesh) {
+    for (const MeshMaterial& material : mesh.materials) {
+        uses_.push_back(
+            {.base_color = add_use(material.base_color_texture, base_color_meaning(material.alpha_mode),
+                                   texel_cutoff(material)),
+             .metallic_roughness = add_use(material.metallic_roughness_texture, TexelMeaning::data, 0.0f),
+             .emissive = add_use(material.emissive_texture, TexelMeaning::color, 0.0f)});
+    }
+}
+
+std::optional<MaterialSampler::Use> MaterialSampler::add_use(const std::optional<TextureUse>& use,
+                                                             TexelMeaning meaning, float alpha_cutoff) {
+    if (!use) return std::nullopt;
+    const Texture& texture = mesh_.textures.at(use->texture);
+    const auto found = std::ranges::find_if(pyramids_, [&](const TexturePyramid& known) {
+        return known.texture == &texture && known.meaning == meaning && known.alpha_cutoff == alpha_cutoff;
+    });
+    Use added{.pyramid = static_cast<std::uint32_t>(found - pyramids_.begin()), .uv_set = use->uv_set};
+    if (found == pyramids_.end()) pyramids_.push_back(build_pyramid(texture, meaning, alpha_cutoff));
+    added.linear = glm::mat2(glm::dmat2(use->transform));
+    added.offset = glm::vec2(use->transform[2]);
+    return added;
+}
+
+glm::vec4 MaterialSampler::mean_of(const Use& use, const SurfacePiece& piece) const {
+    const glm::vec2 uv = use.linear * (use.uv_set == 0 ? piece.uv0 : piece.uv1) + use.offset;
+    return sample_pyramid(pyramids_[use.pyramid], uv,
+                          use.linear * (use.uv_set == 0 ? piece.span0 : piece.span1));
+}
+
+SurfaceColor MaterialSampler::sample(std::uint32_t index, const SurfacePiece& piece) const {
+    const MeshMaterial& material = mesh_.materials[index];
+    const Uses& uses = uses_[index];
+    SurfaceColor result{.base_color = glm::vec3(material.base_color) * glm::vec3(piece.vertex_color),
+                        .metallic = material.metallic,
+                        .roughness = material.roughness,
+                        .emissive = material.emissive};
+    float texel_alpha = 1.0f;
+    if (uses.base_color) {
+        const glm::vec4 mean = mean_of(*uses.base_color, piece);
+        texel_alpha = mean.a;
+        if (material.alpha_mode == AlphaMode::opaque)
+            result.base_color *= glm::vec3(mean);
+        else if (mean.a > 0.0f)
+            result.base_color *= glm::vec3(mean) / mean.a;
+    }
+    result.alpha = alpha_of(material, texel_alpha, piece.vertex_color.a, uses.base_color.has_value());
+    if (uses.metallic_roughness) {
+        const glm::vec4 mean = mean_of(*uses.metallic_roughness, piece);
+        result.metallic *= mean.b;
+        result.roughness *= mean.g;
+    }
+    if (uses.emissive) result.emissive *= glm::vec3(mean_of(*uses.emissive, piece));
+    return result;
+}
+
+// A triangle with edges p and q from one corner has the covariance (pp' + qq' - (pq' + qp') / 2) / 18 (each
+// prime a transpose), and a parallelogram with edges e and f has (ee' + ff') / 12. With s = p + q and d = p -
+// q the first is (s s' / 4 + 3 d d' / 4) / 18: e = s / sqrt(6) and f = d / sqrt(2).
+glm::mat2 triangle_span(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+    const glm::vec2 p = b - a, q = c - a;
+    return {(p + q) / std::sqrt(6.0f), (p - q) / std::sqrt(2.0f)};
+}
+
+}  // namespace voxilux
