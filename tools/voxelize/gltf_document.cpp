@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "voxelize/mesh_notes.h"
 #include "voxelize/mesh_uri.h"
@@ -156,7 +157,11 @@ Bytes view_bytes(GltfDocument& document, std::size_t index) {
 
 std::vector<std::byte> uri_bytes(const GltfDocument& document, const std::string& uri) {
     if (is_data_uri(uri)) return decode_data_uri(uri);
-    return read_file(path_inside(document.folder, percent_decoded(uri)), document.limits.file_bytes);
+    try {
+        return read_file(path_inside(document.folder, percent_decoded(uri)), document.limits.file_bytes);
+    } catch (const Error& error) {
+        throw MeshFault(fmt::format("needs {}", error.what()));
+    }
 }
 
 }  // namespace voxilux

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/checked_cast.h"
-#include "base/error.h"
 
 namespace voxilux {
 namespace {
@@ -72,8 +71,6 @@ std::optional<std::uint32_t> add_texture(Reader& reader, const TextureKey& key) 
         return checked_cast<std::uint32_t>(reader.mesh.textures.size() - 1, "textures");
     } catch (const MeshFault& fault) {
         ++reader.notes[fmt::format("a texture is left out: {}", fault.what())];
-    } catch (const Error& error) {
-        ++reader.notes[fmt::format("a texture is left out: {}", error.what())];
     }
     return std::nullopt;
 }
@@ -133,7 +130,9 @@ void read_metallic_roughness(Reader& reader, const JsonItem& item, const Materia
     material.base_color_texture = read_texture_use(reader, pbr, "baseColorTexture", use);
     material.metallic = unit_number(pbr, "metallicFactor", 1.0);
     material.roughness = unit_number(pbr, "roughnessFactor", 1.0);
-    material.metallic_roughness_texture = read_texture_use(reader, pbr, "metallicRoughnessTexture", use);
+    // The roughness of what is neither metal nor glass does not show in a voxel.
+    if (material.metallic > 0.0f || has(child(item, "extensions"), "KHR_materials_transmission"))
+        material.metallic_roughness_texture = read_texture_use(reader, pbr, "metallicRoughnessTexture", use);
 }
 
 // Its diffuse part is the base colour of a material without metal; the specular colour has no place in a

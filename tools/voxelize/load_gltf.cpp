@@ -28,6 +28,8 @@ struct Loading {
     GltfMaterials materials;
     Mesh mesh;
     MeshNotes& notes;
+    std::uint64_t parts_read = 0;
+    std::uint64_t triangles_read = 0;
 };
 
 AttributeKey read_attributes(const Loading& loading, const JsonItem& primitive) {
@@ -87,6 +89,16 @@ void append_colors(Loading& loading, std::optional<std::size_t> accessor, const 
     }
 }
 
+// Positions that are all zero by omission are those of a mesh whose data only an extension can unpack.
+void check_has_data(const Loading& loading, const JsonItem& primitive, std::size_t positions) {
+    const JsonItem accessor = list_item(loading.document.root, "accessors", positions);
+    if (has(accessor, "bufferView") || has(accessor, "sparse")) return;
+    const bool is_draco = has(child(primitive, "extensions"), "KHR_draco_mesh_compression");
+    throw MeshFault(
+        fmt::format("{} holds positions, but has no data{}", accessor.name,
+                    is_draco ? " but that of KHR_draco_mesh_compression, which is not read" : ""));
+}
+
 VertexRange append_vertices(Loading& loading, const AttributeKey& key, const glm::dmat4& matrix) {
     const AccessorValues local = read_accessor(loading.document, *key[0]);
     if (local.width != 3)
@@ -144,8 +156,9 @@ void append_triangles(Loading& loading, const Corners& corners, std::uint32_t ma
     const std::uint32_t count = triangle_count(corners.topology, ends);
     std::vector<MeshTriangle>& triangles = loading.mesh.triangles;
     const std::uint64_t limit = loading.document.limits.triangles;
-    if (count > limit - triangles.size())
+    if (count > limit - loading.triangles_read)
         throw MeshFault(fmt::format("over {} triangles are not read", limit));
+    loading.triangles_read += count;
     for (std::uint32_t i = 0; i < count; ++i) {
         MeshTriangle triangle{.vertices = triangle_corners(corners.topology, i), .material = material};
         bool is_whole = true;
@@ -170,6 +183,8 @@ bool holds_triangles(const JsonItem& primitive, MeshNotes& notes) {
 
 void append_primitive(Loading& loading, const JsonItem& primitive, const glm::dmat4& matrix,
                       std::map<AttributeKey, VertexRange>& shared) {
+    if (++loading.parts_read > loading.document.limits.parts)
+        throw MeshFault(fmt::format("over {} parts of meshes are not read", loading.document.limits.parts));
     if (!holds_triangles(primitive, loading.notes)) return;
     const AttributeKey key = read_attributes(loading, primitive);
     const JsonItem& root = loading.document.root;
@@ -179,6 +194,7 @@ void append_primitive(Loading& loading, const JsonItem& primitive, const glm::dm
     }
     if (has(primitive, "targets"))
         ++loading.notes["morph targets are ignored: the mesh is read without them"];
+    check_has_data(loading, primitive, *key[0]);
     if (!shared.contains(key)) shared[key] = append_vertices(loading, key, matrix);
     Corners corners{.vertices = shared[key],
                     .topology = static_cast<Topology>(read_count(primitive, "mode").value_or(4))};

@@ -21,6 +21,19 @@ std::string suffix_of(const std::filesystem::path& path) {
     return suffix;
 }
 
+// Texture coordinates that no texture reads would only take memory.
+void drop_unread_coordinates(Mesh& mesh) {
+    bool is_read[2] = {false, false};
+    for (const MeshMaterial& material : mesh.materials) {
+        for (const auto* use : {&material.base_color_texture, &material.metallic_roughness_texture,
+                                &material.emissive_texture}) {
+            if (*use) is_read[(*use)->uv_set] = true;
+        }
+    }
+    if (!is_read[0]) mesh.uv0 = {};
+    if (!is_read[1]) mesh.uv1 = {};
+}
+
 }  // namespace
 
 Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
@@ -38,6 +51,7 @@ Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
     } catch (const MeshFault& fault) {
         throw refuse(fault.what());
     }
+    drop_unread_coordinates(mesh);
     mesh.warnings = note_lines(notes);
     if (mesh.triangles.empty())
         throw refuse(mesh.warnings.empty() ? "no triangles"

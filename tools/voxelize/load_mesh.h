@@ -13,6 +13,7 @@ namespace voxilux {
 struct MeshLimits {
     std::uint64_t vertices = std::uint64_t{1} << 27;
     std::uint64_t triangles = std::uint64_t{1} << 27;
+    std::uint64_t parts = std::uint64_t{1} << 22;             // primitives of glTF meshes, once for each node
     std::uint64_t texels_per_image = std::uint64_t{1} << 26;  // 8192 x 8192
     std::uint64_t texels = std::uint64_t{1} << 29;            // of all images together
     std::uint64_t file_bytes = std::uint64_t{1} << 32;        // of each file that is read

@@ -1,167 +1,213 @@
 #include "voxelize/load_obj.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
-#include <array>
+#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <sstream>
+#include <limits>
 #include <unordered_map>
 
 #include "base/checked_cast.h"
-#include "base/error.h"
-#include "base/file.h"
-#include "voxelize/obj_material.h"
+#include "voxelize/load_mtl.h"
+#include "voxelize/obj_text.h"
+#include "voxelize/polygon.h"
 
 namespace voxilux {
 namespace {
 
-std::string text_of(std::span<const std::byte> bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Opens the MTL files that an OBJ names, beside it and not in the working folder.
-class MtlBeside : public tinyobj::MaterialReader {
-  public:
-    MtlBeside(std::filesystem::path folder, std::uint64_t limit, MeshNotes& notes)
-        : folder_(std::move(folder)), limit_(limit), notes_(notes) {}
-
-    bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                    std::map<std::string, int>* indices, std::string* warning, std::string* error) override {
-        try {
-            std::istringstream text(text_of(read_file(find_beside(folder_, name), limit_)));
-            tinyobj::LoadMtl(indices, materials, &text, warning, error);
-        } catch (const MeshFault& fault) {
-            ++notes_[fmt::format("materials are left out: {}", fault.what())];
-        } catch (const Error& fault) {
-            ++notes_[fmt::format("materials are left out: {}", fault.what())];
-        }
-        return true;  // what is missing is noted here
-    }
-
-  private:
-    std::filesystem::path folder_;
-    std::uint64_t limit_;
-    MeshNotes& notes_;
+// The v and vt lines of the file.
+struct ObjPoints {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec4> colors;  // linear; empty where no v line has any
+    std::vector<glm::vec2> uvs;
 };
 
-struct ObjText {
-    tinyobj::attrib_t attributes;
-    std::vector<tinyobj::shape_t> shapes;
-    std::vector<tinyobj::material_t> materials;
+// The vertex of the mesh that a v line first became, and with which vt line.
+struct FirstCopy {
+    std::uint32_t vertex = kNone;
+    std::uint32_t uv = kNone;
 };
-
-std::string first_line(const std::string& text) {
-    return text.substr(0, text.find('\n'));
-}
-
-ObjText parse_obj(std::span<const std::byte> bytes, const std::filesystem::path& folder,
-                  const MeshRequest& request, MeshNotes& notes) {
-    ObjText obj;
-    std::string warning, error;
-    std::istringstream text(text_of(bytes));
-    MtlBeside mtl(folder, request.limits.file_bytes, notes);
-    const bool is_read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error,
-                                          &text, &mtl, true, false);
-    if (!is_read) throw MeshFault(error.empty() ? "not a readable OBJ file" : first_line(error));
-    if (!warning.empty()) ++notes[first_line(warning)];
-    return obj;
-}
 
 struct Loading {
-    const ObjText& obj;
-    const MeshLimits& limits;
-    Mesh mesh;
+    const MeshRequest& request;
     MeshNotes& notes;
-    std::unordered_map<std::uint64_t, std::uint32_t> vertices;  // by place and texture coordinate
-    std::uint32_t default_material = 0;
+    ObjPoints points;
+    MtlLibrary library;
+    Mesh mesh;
+    std::vector<FirstCopy> first_copies;                           // by v line
+    std::unordered_map<std::uint64_t, std::uint32_t> more_copies;  // by v line << 32 | vt line
+    std::size_t positions_so_far = 0;
+    std::size_t uvs_so_far = 0;
+    std::optional<std::uint32_t> material, default_material;
+    std::uint64_t triangles_read = 0;
 };
 
-float linear_from_srgb_value(double s) {
-    const double c = std::clamp(std::isfinite(s) ? s : 1.0, 0.0, 1.0);
+// The inverse transfer function of IEC 61966-2-1.
+float linear_of(double srgb) {
+    const double c = std::isfinite(srgb) ? std::clamp(srgb, 0.0, 1.0) : 1.0;
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-std::uint32_t add_vertex(Loading& loading, std::size_t place, std::optional<std::size_t> uv) {
-    const tinyobj::attrib_t& from = loading.obj.attributes;
-    Mesh& mesh = loading.mesh;
-    if (mesh.positions.size() >= loading.limits.vertices)
-        throw MeshFault(fmt::format("over {} vertices are not read", loading.limits.vertices));
-    mesh.positions.emplace_back(from.vertices[3 * place], from.vertices[3 * place + 1],
-                                from.vertices[3 * place + 2]);
-    if (!from.texcoords.empty()) {
-        glm::dvec2 at(0.0);
-        if (uv) at = {from.texcoords[2 * *uv], 1.0 - from.texcoords[2 * *uv + 1]};
-        const bool is_finite = std::isfinite(at.x) && std::isfinite(at.y);
-        if (!is_finite) ++loading.notes["texture coordinates that are not finite are read as 0"];
-        mesh.uv0.emplace_back(is_finite ? glm::vec2(at) : glm::vec2(0.0f));
-    }
-    if (3 * place + 2 < from.colors.size()) {
-        const auto component = [&](std::size_t c) {
-            return linear_from_srgb_value(from.colors[3 * place + c]);
-        };
-        mesh.colors.emplace_back(component(0), component(1), component(2), 1.0f);
-    }
-    return checked_cast<std::uint32_t>(mesh.positions.size() - 1, "vertices");
+// x y z, x y z w, or x y z r g b.
+void read_position(ObjLines& lines, ObjPoints& points) {
+    const double x = lines.require_number(), y = lines.require_number(), z = lines.require_number();
+    points.positions.emplace_back(x, y, z);
+    const auto r = lines.next_number(), g = lines.next_number(), b = lines.next_number();
+    if (!b && points.colors.empty()) return;
+    points.colors.resize(points.positions.size(), glm::vec4(1.0f));
+    if (b) points.colors.back() = {linear_of(*r), linear_of(*g), linear_of(*b), 1.0f};
 }
 
-std::uint32_t vertex_of(Loading& loading, const tinyobj::index_t& corner) {
-    const std::size_t places = loading.obj.attributes.vertices.size() / 3;
-    const std::size_t uvs = loading.obj.attributes.texcoords.size() / 2;
-    const auto place = static_cast<std::size_t>(corner.vertex_index);
-    if (corner.vertex_index < 0 || place >= places)
-        throw MeshFault(
-            fmt::format("a face names vertex {} of {}", std::int64_t{corner.vertex_index} + 1, places));
-    std::optional<std::size_t> uv;
-    if (corner.texcoord_index >= 0) uv = static_cast<std::size_t>(corner.texcoord_index);
-    if (uv && *uv >= uvs)
-        throw MeshFault(fmt::format("a face names texture coordinate {} of {}", *uv + 1, uvs));
-    const std::uint64_t key = place << 32 | (uv ? *uv + 1 : 0);
-    const auto found = loading.vertices.find(key);
-    if (found != loading.vertices.end()) return found->second;
-    const std::uint32_t added = add_vertex(loading, place, uv);
-    loading.vertices.emplace(key, added);
+void read_uv(ObjLines& lines, ObjPoints& points, MeshNotes& notes) {
+    const double u = lines.require_number(), v = lines.next_number().value_or(0.0);
+    const glm::vec2 uv(static_cast<float>(u), static_cast<float>(1.0 - v));  // row 0 of a texture is on top
+    const bool is_finite = std::isfinite(uv.x) && std::isfinite(uv.y);
+    if (!is_finite) ++notes["texture coordinates that are not finite are read as 0"];
+    points.uvs.push_back(is_finite ? uv : glm::vec2(0.0f));
+}
+
+void read_points(std::string_view text, Loading& loading) {
+    ObjLines lines(text);
+    const std::uint64_t limit = loading.request.limits.vertices;
+    while (lines.next_line()) {
+        const std::string_view key = lines.next_word();
+        if (key == "v") read_position(lines, loading.points);
+        if (key == "vt") read_uv(lines, loading.points, loading.notes);
+        if (loading.points.positions.size() > limit || loading.points.uvs.size() > limit)
+            lines.refuse(fmt::format("over {} vertices are not read", limit));
+    }
+    ObjPoints& points = loading.points;
+    if (!points.colors.empty()) points.colors.resize(points.positions.size(), glm::vec4(1.0f));
+    loading.first_copies.assign(points.positions.size(), {});
+}
+
+// The vertex of the mesh for a v line and a vt line, or none.
+std::uint32_t vertex_of(Loading& loading, std::uint32_t position, std::uint32_t uv) {
+    FirstCopy& first = loading.first_copies[position];
+    if (first.vertex != kNone && first.uv == uv) return first.vertex;
+    Mesh& mesh = loading.mesh;
+    const auto added = checked_cast<std::uint32_t>(mesh.positions.size(), "vertices");
+    if (first.vertex == kNone) {
+        first = {added, uv};
+    } else {
+        const auto [found, is_new] =
+            loading.more_copies.try_emplace(std::uint64_t{position} << 32 | uv, added);
+        if (!is_new) return found->second;
+    }
+    mesh.positions.push_back(loading.points.positions[position]);
+    if (!loading.points.uvs.empty())
+        mesh.uv0.push_back(uv == kNone ? glm::vec2(0.0f) : loading.points.uvs[uv]);
+    if (!loading.points.colors.empty()) mesh.colors.push_back(loading.points.colors[position]);
     return added;
+}
+
+// The line that an index of a face names: from 1, or from -1 backwards.
+std::uint32_t line_of(const ObjLines& lines, std::string_view text, std::size_t so_far, std::size_t size) {
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error != std::errc() || end != text.data() + text.size())
+        lines.refuse(fmt::format("{} is not an index", quoted_name(std::string(text))));
+    const auto before = static_cast<std::int64_t>(so_far);
+    const std::int64_t line = index > 0 ? index - 1 : index < -before ? -1 : before + index;
+    if (index == 0 || line < 0 || line >= static_cast<std::int64_t>(size))
+        lines.refuse(fmt::format("a face names line {} of {}", index, size));
+    return static_cast<std::uint32_t>(line);
+}
+
+// v, v/vt, v//vn or v/vt/vn.
+std::uint32_t read_corner(Loading& loading, const ObjLines& lines, std::string_view word) {
+    const std::size_t slash = std::min(word.find('/'), word.size());
+    const std::uint32_t position =
+        line_of(lines, word.substr(0, slash), loading.positions_so_far, loading.points.positions.size());
+    std::string_view rest = word.substr(std::min(slash + 1, word.size()));
+    rest = rest.substr(0, rest.find('/'));
+    if (rest.empty()) return vertex_of(loading, position, kNone);
+    return vertex_of(loading, position, line_of(lines, rest, loading.uvs_so_far, loading.points.uvs.size()));
+}
+
+std::uint32_t current_material(Loading& loading) {
+    if (loading.material) return *loading.material;
+    if (!loading.default_material) {
+        loading.mesh.materials.push_back({.name = "default", .metallic = 0.0f});
+        loading.default_material =
+            checked_cast<std::uint32_t>(loading.mesh.materials.size() - 1, "materials");
+    }
+    return *loading.default_material;
 }
 
 bool is_finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-void add_triangle(Loading& loading, const tinyobj::mesh_t& shape, std::size_t face) {
-    if (loading.mesh.triangles.size() >= loading.limits.triangles)
-        throw MeshFault(fmt::format("over {} triangles are not read", loading.limits.triangles));
-    MeshTriangle triangle;
+void read_face(Loading& loading, ObjLines& lines) {
+    std::vector<std::uint32_t> vertices;
+    std::vector<glm::dvec3> corners;
     bool is_whole = true;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t vertex = vertex_of(loading, shape.indices[3 * face + c]);
-        triangle.vertices[static_cast<int>(c)] = vertex;
-        is_whole = is_whole && is_finite(loading.mesh.positions[vertex]);
+    for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word()) {
+        vertices.push_back(read_corner(loading, lines, word));
+        corners.push_back(loading.mesh.positions[vertices.back()]);
+        is_whole = is_whole && is_finite(corners.back());
     }
-    const int material = face < shape.material_ids.size() ? shape.material_ids[face] : -1;
-    const bool is_known = material >= 0 && static_cast<std::size_t>(material) < loading.obj.materials.size();
-    triangle.material = is_known ? static_cast<std::uint32_t>(material) : loading.default_material;
-    if (is_whole)
-        loading.mesh.triangles.push_back(triangle);
+    if (vertices.size() < 3) lines.refuse("a face has fewer than three corners");
+    loading.triangles_read += vertices.size() - 2;
+    if (loading.triangles_read > loading.request.limits.triangles)
+        lines.refuse(fmt::format("over {} triangles are not read", loading.request.limits.triangles));
+    if (!is_whole) {
+        loading.notes["a triangle is left out: a vertex is not finite"] += vertices.size() - 2;
+        return;
+    }
+    const std::uint32_t material = current_material(loading);
+    for (const auto& [a, b, c] : triangulate(corners))
+        loading.mesh.triangles.push_back({{vertices[a], vertices[b], vertices[c]}, material});
+}
+
+// The rest of the line is one name with blanks where such a file is there, else each word is a name.
+void read_libraries(Loading& loading, ObjLines& lines) {
+    const std::string whole(lines.rest());
+    std::error_code ignored;
+    if (whole.find(' ') == std::string::npos ||
+        std::filesystem::exists(loading.library.folder / whole, ignored))
+        return load_mtl(whole, loading.library, loading.mesh, loading.notes);
+    for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word())
+        load_mtl(std::string(word), loading.library, loading.mesh, loading.notes);
+}
+
+void use_material(Loading& loading, const ObjLines& lines) {
+    const std::string name(lines.rest());
+    const auto found = loading.library.materials.find(name);
+    loading.material.reset();
+    if (found != loading.library.materials.end())
+        loading.material = found->second;
     else
-        ++loading.notes["a triangle is left out: a vertex is not finite"];
+        ++loading.notes[fmt::format("material {} is not there: white is used", quoted_name(name))];
+}
+
+void read_faces(std::string_view text, Loading& loading) {
+    ObjLines lines(text);
+    while (lines.next_line()) {
+        const std::string key(lines.next_word());
+        if (key == "v") ++loading.positions_so_far;
+        if (key == "vt") ++loading.uvs_so_far;
+        if (key == "f") read_face(loading, lines);
+        if (key == "mtllib") read_libraries(loading, lines);
+        if (key == "usemtl") use_material(loading, lines);
+        if (key == "l" || key == "p") ++loading.notes["points or lines are left out"];
+    }
 }
 
 }  // namespace
 
 Mesh load_obj(std::span<const std::byte> bytes, const std::filesystem::path& folder,
               const MeshRequest& request, MeshNotes& notes) {
-    const ObjText obj = parse_obj(bytes, folder, request, notes);
-    Loading loading{.obj = obj, .limits = request.limits, .mesh = {}, .notes = notes, .vertices = {}};
-    ObjTextures textures{.folder = folder, .budget = {.limits = request.limits}, .known = {}};
-    for (const tinyobj::material_t& mtl : obj.materials)
-        loading.mesh.materials.push_back(material_from_mtl(mtl, textures, loading.mesh, notes));
-    loading.default_material = checked_cast<std::uint32_t>(loading.mesh.materials.size(), "materials");
-    loading.mesh.materials.push_back({.name = "default", .metallic = 0.0f});
-    for (const tinyobj::shape_t& shape : obj.shapes) {
-        for (std::size_t face = 0; face < shape.mesh.indices.size() / 3; ++face)
-            add_triangle(loading, shape.mesh, face);
-    }
+    Loading loading{.request = request, .notes = notes, .points = {}, .library = {}, .mesh = {}};
+    loading.library.folder = folder;
+    loading.library.budget.limits = request.limits;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    read_points(text, loading);
+    read_faces(text, loading);
     return std::move(loading.mesh);
 }
 

@@ -6,8 +6,13 @@ namespace voxilux {
 
 std::vector<std::string> note_lines(const MeshNotes& notes) {
     std::vector<std::string> lines;
-    for (const auto& [text, count] : notes)
+    for (const auto& [text, count] : notes) {
+        if (lines.size() == kMostNoteLines) {
+            lines.push_back(fmt::format("and {} others", notes.size() - kMostNoteLines));
+            break;
+        }
         lines.push_back(count == 1 ? text : fmt::format("{} ({} times)", text, count));
+    }
     return lines;
 }
 

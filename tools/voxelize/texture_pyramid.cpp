@@ -1,6 +1,7 @@
 #include "voxelize/texture_pyramid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/assert.h"
@@ -9,33 +10,36 @@
 namespace voxilux {
 namespace {
 
-// A line of more taps than this is blurred across instead: it bounds the cost of a lookup.
-constexpr int kMostTaps = 16;
+// Bilinear taps across the shorter side of a piece, before the level is rounded to a finer one: 2 or 3 of
+// them come out. One tap blurs five times as much, more than three gain nothing (means_over_pieces in the
+// tests).
+constexpr float kTapsAcross = 1.5f;
 
-// The variance of one trilinear tap at level l, in texels of level 0, over 4^l: 1/12 of the box that a texel
-// of the level is, and 1/6 of the tent that joins texels. A box of width w has the variance w^2 / 12.
-constexpr float kTapVariance = 1.0f / 12.0f + 1.0f / 6.0f;
+// A piece longer than this many taps is blurred across instead: it bounds the cost of a lookup.
+constexpr float kMostTapsAlong = 16.0f;
+
+// Texels that a piece may span: beyond it, and for what is not finite, the mean of the texture is as good.
+constexpr float kLongestPiece = 1e6f;
+
+// Sum of the squared edges, in texels, of a piece that one tap does for.
+constexpr float kOneTapReach = 2.0f;
+
+// A clamped coordinate further out than this sees the same edge, and its texel number still fits an int.
+constexpr float kFarBeside = 1e4f;
 
 constexpr float kOne16 = 65535.0f;
 
-glm::vec4 level0_texel(const TexturePyramid& pyramid, const glm::ivec2& at) {
-    const Texture& texture = *pyramid.texture;
-    const glm::u8vec4 code =
-        texture.texels[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(texture.size.x) +
-                       static_cast<std::size_t>(at.x)];
-    const float weight = pyramid.coverage[code.w];
-    const glm::vec3 rgb(pyramid.linear[code.x], pyramid.linear[code.y], pyramid.linear[code.z]);
-    const bool is_weighted =
-        pyramid.meaning == TexelMeaning::alpha_color || pyramid.meaning == TexelMeaning::masked_color;
-    return {is_weighted ? rgb * weight : rgb, weight};
+const glm::u16vec4& stored(const TexturePyramid::Level& level, int x, int y) {
+    return level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.size.x) +
+                        static_cast<std::size_t>(x)];
 }
 
-glm::vec4 texel(const TexturePyramid& pyramid, std::size_t level, const glm::ivec2& at) {
-    if (level == 0) return level0_texel(pyramid, at);
-    const TexturePyramid::Level& from = pyramid.levels[level];
-    return glm::vec4(from.texels[static_cast<std::size_t>(at.y) * static_cast<std::size_t>(from.size.x) +
-                                 static_cast<std::size_t>(at.x)]) /
-           kOne16;
+glm::vec4 unit_of(const glm::u16vec4& texel) {
+    return glm::vec4(texel) * (1.0f / kOne16);
+}
+
+glm::u16vec4 rounded(const glm::vec4& unit) {
+    return glm::u16vec4(unit * kOne16 + 0.5f);
 }
 
 // The parts of the texels of a row that one texel of the row half as long covers: 2, or 3 for an odd length.
@@ -56,8 +60,8 @@ Cover cover_of(int i, int size, int larger) {
     return cover;
 }
 
-TexturePyramid::Level halve(const TexturePyramid& pyramid, std::size_t level) {
-    const glm::ivec2 larger = pyramid.levels[level].size;
+TexturePyramid::Level halve(const TexturePyramid::Level& from) {
+    const glm::ivec2 larger = from.size;
     TexturePyramid::Level result{.size = glm::max(larger / 2, glm::ivec2(1)), .texels = {}};
     result.texels.reserve(static_cast<std::size_t>(result.size.x) * static_cast<std::size_t>(result.size.y));
     std::vector<Cover> columns;
@@ -71,10 +75,10 @@ TexturePyramid::Level halve(const TexturePyramid& pyramid, std::size_t level) {
                 for (int i = 0; i < column.count; ++i) {
                     const float weight = rows.weights[static_cast<std::size_t>(j)] *
                                          column.weights[static_cast<std::size_t>(i)];
-                    mean += weight * texel(pyramid, level, {column.first + i, rows.first + j});
+                    mean += weight * unit_of(stored(from, column.first + i, rows.first + j));
                 }
             }
-            result.texels.emplace_back(glm::clamp(mean * kOne16 + 0.5f, 0.0f, kOne16));
+            result.texels.push_back(rounded(glm::min(mean, 1.0f)));
         }
     }
     return result;
@@ -89,53 +93,50 @@ int wrapped(int i, int size, TextureWrap wrap) {
     return at < size ? at : period - 1 - at;
 }
 
-// `u` moved by whole periods into [0,2), where texel numbers are small. Coordinates that are not finite
-// become 0.
+// The largest whole number not above `value`, which must fit an int: std::floor is a call into the library.
+int floor_of(float value) {
+    const int whole = static_cast<int>(value);
+    return static_cast<float>(whole) > value ? whole - 1 : whole;
+}
+
+// `u` moved by whole periods into [0,2), where texel numbers are small. Coordinates beyond all
+// use become 0.
 float reduced(float u, TextureWrap wrap) {
-    if (!std::isfinite(u)) return 0.0f;
-    if (wrap == TextureWrap::clamp_to_edge) return std::clamp(u, -1.0f, 2.0f);
-    if (wrap == TextureWrap::repeat) return u - std::floor(u);
-    return u - 2.0f * std::floor(0.5f * u);
+    if (!(std::abs(u) < kLongestPiece)) return 0.0f;
+    if (wrap == TextureWrap::clamp_to_edge) return std::clamp(u, -kFarBeside, kFarBeside);
+    if (wrap == TextureWrap::repeat) return u - static_cast<float>(floor_of(u));
+    return u - 2.0f * static_cast<float>(floor_of(0.5f * u));
 }
 
-glm::vec4 bilinear(const TexturePyramid& pyramid, std::size_t level, const glm::vec2& uv) {
-    const glm::ivec2 size = pyramid.levels[level].size;
-    const Texture& texture = *pyramid.texture;
-    const glm::vec2 at = uv * glm::vec2(size) - 0.5f;
-    const glm::vec2 low = glm::floor(at);
-    const glm::vec2 part = at - low;
-    const int x0 = wrapped(static_cast<int>(low.x), size.x, texture.wrap_u);
-    const int x1 = wrapped(static_cast<int>(low.x) + 1, size.x, texture.wrap_u);
-    const int y0 = wrapped(static_cast<int>(low.y), size.y, texture.wrap_v);
-    const int y1 = wrapped(static_cast<int>(low.y) + 1, size.y, texture.wrap_v);
-    const glm::vec4 top = glm::mix(texel(pyramid, level, {x0, y0}), texel(pyramid, level, {x1, y0}), part.x);
+glm::vec2 reduced(const TexturePyramid& pyramid, const glm::vec2& uv) {
+    return {reduced(uv.x, pyramid.wrap_u), reduced(uv.y, pyramid.wrap_v)};
+}
+
+// 65535 times the texture at texel coordinates of a level, where the middle of texel 0 is at 0.5.
+glm::vec4 bilinear(const TexturePyramid& pyramid, const TexturePyramid::Level& level, const glm::vec2& at) {
+    const float x = at.x - 0.5f, y = at.y - 0.5f;
+    const int low_x = floor_of(x), low_y = floor_of(y);
+    const float part_x = x - static_cast<float>(low_x), part_y = y - static_cast<float>(low_y);
+    const int x0 = wrapped(low_x, level.size.x, pyramid.wrap_u);
+    const int x1 = wrapped(low_x + 1, level.size.x, pyramid.wrap_u);
+    const int y0 = wrapped(low_y, level.size.y, pyramid.wrap_v);
+    const int y1 = wrapped(low_y + 1, level.size.y, pyramid.wrap_v);
+    const glm::vec4 top =
+        (1.0f - part_x) * glm::vec4(stored(level, x0, y0)) + part_x * glm::vec4(stored(level, x1, y0));
     const glm::vec4 bottom =
-        glm::mix(texel(pyramid, level, {x0, y1}), texel(pyramid, level, {x1, y1}), part.x);
-    return glm::mix(top, bottom, part.y);
+        (1.0f - part_x) * glm::vec4(stored(level, x0, y1)) + part_x * glm::vec4(stored(level, x1, y1));
+    return (1.0f - part_y) * top + part_y * bottom;
 }
 
-glm::vec4 tap(const TexturePyramid& pyramid, float lod, const glm::vec2& uv) {
-    const glm::vec2 at(reduced(uv.x, pyramid.texture->wrap_u), reduced(uv.y, pyramid.texture->wrap_v));
-    const float highest = static_cast<float>(pyramid.levels.size() - 1);
-    const float level = std::clamp(lod, 0.0f, highest);
-    const auto low = static_cast<std::size_t>(level);
-    const float part = level - static_cast<float>(low);
-    const glm::vec4 fine = bilinear(pyramid, low, at);
-    if (part == 0.0f) return fine;
-    return glm::mix(fine, bilinear(pyramid, low + 1, at), part);
+glm::vec4 nearest(const TexturePyramid& pyramid, const glm::vec2& at) {
+    const TexturePyramid::Level& level = pyramid.levels[0];
+    return unit_of(stored(level, wrapped(floor_of(at.x), level.size.x, pyramid.wrap_u),
+                          wrapped(floor_of(at.y), level.size.y, pyramid.wrap_v)));
 }
 
-glm::vec4 nearest(const TexturePyramid& pyramid, const glm::vec2& uv) {
-    const Texture& texture = *pyramid.texture;
-    const glm::vec2 at(reduced(uv.x, texture.wrap_u), reduced(uv.y, texture.wrap_v));
-    const glm::vec2 low = glm::floor(at * glm::vec2(texture.size));
-    return level0_texel(pyramid, {wrapped(static_cast<int>(low.x), texture.size.x, texture.wrap_u),
-                                  wrapped(static_cast<int>(low.y), texture.size.y, texture.wrap_v)});
-}
-
-// The parallelogram as a rectangle of equal second moments.
+// The parallelogram as a rectangle of equal second moments, in texels: the axes of the ellipse that they are.
 struct Rectangle {
-    glm::vec2 long_edge{0.0f};  // in texels
+    glm::vec2 direction{1.0f, 0.0f};  // of the longer side
     float length = 0.0f;
     float width = 0.0f;
 };
@@ -145,14 +146,15 @@ Rectangle rectangle_of(const glm::vec2& a, const glm::vec2& b) {
     const float mean = 0.5f * (xx + yy), half = 0.5f * (xx - yy);
     const float root = std::sqrt(half * half + xy * xy);
     Rectangle rectangle{.length = std::sqrt(mean + root), .width = std::sqrt(std::max(mean - root, 0.0f))};
-    const float angle = 0.5f * std::atan2(xy, half);
-    rectangle.long_edge = rectangle.length * glm::vec2(std::cos(angle), std::sin(angle));
+    const glm::vec2 axis = half > 0.0f ? glm::vec2(half + root, xy) : glm::vec2(xy, root - half);
+    const float length = std::sqrt(axis.x * axis.x + axis.y * axis.y);
+    if (length > 0.0f) rectangle.direction = axis / length;
     return rectangle;
 }
 
 // A part of the plane that lies wholly beside a clamped texture sees only its edge: nothing varies across.
-glm::mat2 clamped_span(const Texture& texture, const glm::vec2& center, glm::mat2 span) {
-    const TextureWrap wraps[2] = {texture.wrap_u, texture.wrap_v};
+glm::mat2 clamped_span(const TexturePyramid& pyramid, const glm::vec2& center, glm::mat2 span) {
+    const TextureWrap wraps[2] = {pyramid.wrap_u, pyramid.wrap_v};
     for (int axis = 0; axis < 2; ++axis) {
         const float reach = 0.5f * (std::abs(span[0][axis]) + std::abs(span[1][axis]));
         const bool is_beside = center[axis] + reach < 0.0f || center[axis] - reach > 1.0f;
@@ -161,43 +163,78 @@ glm::mat2 clamped_span(const Texture& texture, const glm::vec2& center, glm::mat
     return span;
 }
 
+int tap_count(float texels) {
+    return std::max(static_cast<int>(texels + 0.5f), 1);
+}
+
+// Taps a texel of the chosen level apart, or a little less or more, fill the rectangle.
+glm::vec4 mean_of_taps(const TexturePyramid& pyramid, const glm::vec2& center, const Rectangle& piece) {
+    const float wanted = std::max(piece.width / kTapsAcross, piece.length / kMostTapsAlong);
+    std::size_t level = 0;
+    float texel_size = 1.0f;  // in texels of level 0
+    for (; 2.0f * texel_size <= wanted && level + 1 < pyramid.levels.size(); ++level)
+        texel_size *= 2.0f;
+    const int along = tap_count(piece.length / texel_size), across = tap_count(piece.width / texel_size);
+    const TexturePyramid::Level& chosen = pyramid.levels[level];
+    const glm::vec2 scale = glm::vec2(chosen.size) / glm::vec2(pyramid.levels[0].size);
+    const glm::vec2 d = piece.direction;
+    const glm::vec2 step_along = scale * d * (piece.length / static_cast<float>(along));
+    const glm::vec2 step_across = scale * glm::vec2(-d.y, d.x) * (piece.width / static_cast<float>(across));
+    const glm::vec2 corner = center * glm::vec2(chosen.size) -
+                             0.5f * static_cast<float>(along - 1) * step_along -
+                             0.5f * static_cast<float>(across - 1) * step_across;
+    glm::vec4 sum(0.0f);
+    for (int j = 0; j < across; ++j) {
+        for (int i = 0; i < along; ++i)
+            sum +=
+                bilinear(pyramid, chosen,
+                         corner + static_cast<float>(i) * step_along + static_cast<float>(j) * step_across);
+    }
+    return sum * (1.0f / (kOne16 * static_cast<float>(along * across)));
+}
+
+// Level 0 from the stored texels.
+TexturePyramid::Level linear_level(const Texture& texture, TexelMeaning meaning, float alpha_cutoff) {
+    std::array<float, 256> linear{}, coverage{};
+    for (std::size_t code = 0; code < 256; ++code) {
+        const float value = static_cast<float>(code) / 255.0f;
+        linear[code] =
+            meaning == TexelMeaning::data ? value : linear_from_srgb(static_cast<std::uint8_t>(code));
+        coverage[code] = meaning != TexelMeaning::masked_color ? value : value >= alpha_cutoff ? 1.0f : 0.0f;
+    }
+    const bool is_weighted = meaning == TexelMeaning::alpha_color || meaning == TexelMeaning::masked_color;
+    TexturePyramid::Level level{.size = texture.size, .texels = {}};
+    level.texels.reserve(texture.texels.size());
+    for (const glm::u8vec4& code : texture.texels) {
+        const float weight = is_weighted ? coverage[code.w] : 1.0f;
+        level.texels.push_back(rounded(
+            {linear[code.x] * weight, linear[code.y] * weight, linear[code.z] * weight, coverage[code.w]}));
+    }
+    return level;
+}
+
 }  // namespace
 
 TexturePyramid build_pyramid(const Texture& texture, TexelMeaning meaning, float alpha_cutoff) {
     VX_ASSERT(texture.size.x > 0 && texture.size.y > 0);
-    TexturePyramid pyramid{.texture = &texture, .meaning = meaning, .alpha_cutoff = alpha_cutoff};
-    for (int code = 0; code < 256; ++code) {
-        const auto at = static_cast<std::size_t>(code);
-        const float value = static_cast<float>(code) / 255.0f;
-        pyramid.linear[at] =
-            meaning == TexelMeaning::data ? value : linear_from_srgb(static_cast<std::uint8_t>(code));
-        pyramid.coverage[at] = meaning != TexelMeaning::masked_color ? value
-                               : value >= alpha_cutoff               ? 1.0f
-                                                                     : 0.0f;
-    }
-    pyramid.levels.push_back({.size = texture.size, .texels = {}});
+    TexturePyramid pyramid{
+        .levels = {}, .wrap_u = texture.wrap_u, .wrap_v = texture.wrap_v, .is_nearest = texture.is_nearest};
+    pyramid.levels.push_back(linear_level(texture, meaning, alpha_cutoff));
     while (pyramid.levels.back().size != glm::ivec2(1))
-        pyramid.levels.push_back(halve(pyramid, pyramid.levels.size() - 1));
+        pyramid.levels.push_back(halve(pyramid.levels.back()));
     return pyramid;
 }
 
 glm::vec4 sample_pyramid(const TexturePyramid& pyramid, const glm::vec2& center, const glm::mat2& span) {
-    const Texture& texture = *pyramid.texture;
-    const glm::mat2 used = clamped_span(texture, center, span);
-    const glm::vec2 size(texture.size);
-    const Rectangle piece = rectangle_of(used[0] * size, used[1] * size);
-    if (!std::isfinite(piece.length)) return tap(pyramid, static_cast<float>(pyramid.levels.size()), center);
-    if (piece.length < 1.0f)
-        return texture.is_nearest ? nearest(pyramid, center) : tap(pyramid, 0.0f, center);
-    const float width = std::max({piece.width, piece.length / static_cast<float>(kMostTaps), 1.0f});
-    const float lod = 0.5f * std::log2(std::max(width * width / 12.0f / kTapVariance, 1.0f));
-    const int taps = std::clamp(static_cast<int>(std::lround(piece.length / width)), 1, kMostTaps);
-    glm::vec4 sum(0.0f);
-    const glm::vec2 step = piece.long_edge / size / static_cast<float>(taps);
-    for (int i = 0; i < taps; ++i)
-        sum += tap(pyramid, lod,
-                   center + step * (static_cast<float>(i) + 0.5f - 0.5f * static_cast<float>(taps)));
-    return sum / static_cast<float>(taps);
+    const glm::mat2 used = clamped_span(pyramid, center, span);
+    const glm::vec2 size(pyramid.levels[0].size);
+    const glm::vec2 a = used[0] * size, b = used[1] * size;
+    const float reach = glm::dot(a, a) + glm::dot(b, b);
+    if (!(reach < kLongestPiece * kLongestPiece)) return unit_of(pyramid.levels.back().texels[0]);
+    const glm::vec2 at = reduced(pyramid, center);
+    if (reach >= kOneTapReach) return mean_of_taps(pyramid, at, rectangle_of(a, b));
+    if (pyramid.is_nearest) return nearest(pyramid, at * size);
+    return bilinear(pyramid, pyramid.levels[0], at * size) * (1.0f / kOne16);
 }
 
 }  // namespace voxilux

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,22 +17,21 @@ enum class TexelMeaning : std::uint8_t {
     data,          // linear
 };
 
-// A texture and its means over ever larger squares, in linear light. Level 0 is the texture itself, which
-// must outlive the pyramid; a texel of level l is the mean of the part of level 0 that it covers. Where alpha
-// counts, colours are stored multiplied by it. Source: Williams, Pyramidal parametrics, SIGGRAPH 1983.
+// A texture in linear light, and its means over ever larger squares: level 0 has the texels of the texture,
+// and a texel of level l is the mean of the part of level 0 that it covers. Where alpha counts, colours are
+// multiplied by it. Source: Williams, Pyramidal parametrics, SIGGRAPH 1983.
 struct TexturePyramid {
     struct Level {
         glm::ivec2 size{0};
-        std::vector<glm::u16vec4> texels;  // linear, 65535 is 1; empty for level 0
+        std::vector<glm::u16vec4> texels;  // 65535 is 1
     };
-    const Texture* texture = nullptr;
-    TexelMeaning meaning = TexelMeaning::color;
-    float alpha_cutoff = 0.0f;          // of masked_color, for the alpha of the texture alone
-    std::array<float, 256> linear{};    // of the stored red, green and blue
-    std::array<float, 256> coverage{};  // of the stored alpha
     std::vector<Level> levels;
+    TextureWrap wrap_u = TextureWrap::repeat;
+    TextureWrap wrap_v = TextureWrap::repeat;
+    bool is_nearest = false;
 };
 
+// `alpha_cutoff` is of masked_color, for the alpha of the texture alone.
 [[nodiscard]] TexturePyramid build_pyramid(const Texture& texture, TexelMeaning meaning,
                                            float alpha_cutoff = 0.0f);
 

@@ -1,6 +1,5 @@
 #include "voxelize/texture_sample.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace voxilux {
@@ -39,28 +38,33 @@ float alpha_of(const MeshMaterial& material, float texel_alpha, float vertex_alp
 
 }  // namespace
 
-MaterialSampler::MaterialSampler(const Mesh& mesh) : mesh_(mesh) {
-    for (const MeshMaterial& material : mesh.materials) {
+MaterialSampler::MaterialSampler(const Mesh& mesh) : materials_(mesh.materials) {
+    Known known;
+    for (const MeshMaterial& material : materials_) {
+        const auto use = [&](const std::optional<TextureUse>& texture, TexelMeaning meaning) {
+            const bool is_masked = meaning == TexelMeaning::masked_color;
+            return add_use(mesh, texture, {meaning, is_masked ? texel_cutoff(material) : 0.0f}, known);
+        };
         uses_.push_back(
-            {.base_color = add_use(material.base_color_texture, base_color_meaning(material.alpha_mode),
-                                   texel_cutoff(material)),
-             .metallic_roughness = add_use(material.metallic_roughness_texture, TexelMeaning::data, 0.0f),
-             .emissive = add_use(material.emissive_texture, TexelMeaning::color, 0.0f)});
+            {.base_color = use(material.base_color_texture, base_color_meaning(material.alpha_mode)),
+             .metallic_roughness = use(material.metallic_roughness_texture, TexelMeaning::data),
+             .emissive = use(material.emissive_texture, TexelMeaning::color)});
     }
 }
 
-std::optional<MaterialSampler::Use> MaterialSampler::add_use(const std::optional<TextureUse>& use,
-                                                             TexelMeaning meaning, float alpha_cutoff) {
+std::optional<MaterialSampler::Use> MaterialSampler::add_use(const Mesh& mesh,
+                                                             const std::optional<TextureUse>& use,
+                                                             const Reading& reading, Known& known) {
     if (!use) return std::nullopt;
-    const Texture& texture = mesh_.textures.at(use->texture);
-    const auto found = std::ranges::find_if(pyramids_, [&](const TexturePyramid& known) {
-        return known.texture == &texture && known.meaning == meaning && known.alpha_cutoff == alpha_cutoff;
-    });
-    Use added{.pyramid = static_cast<std::uint32_t>(found - pyramids_.begin()), .uv_set = use->uv_set};
-    if (found == pyramids_.end()) pyramids_.push_back(build_pyramid(texture, meaning, alpha_cutoff));
-    added.linear = glm::mat2(glm::dmat2(use->transform));
-    added.offset = glm::vec2(use->transform[2]);
-    return added;
+    const auto [found, is_new] = known.try_emplace({use->texture, reading.meaning, reading.alpha_cutoff},
+                                                   static_cast<std::uint32_t>(pyramids_.size()));
+    if (is_new)
+        pyramids_.push_back(
+            build_pyramid(mesh.textures.at(use->texture), reading.meaning, reading.alpha_cutoff));
+    return Use{.pyramid = found->second,
+               .uv_set = use->uv_set,
+               .linear = glm::mat2(glm::dmat2(use->transform)),
+               .offset = glm::vec2(use->transform[2])};
 }
 
 glm::vec4 MaterialSampler::mean_of(const Use& use, const SurfacePiece& piece) const {
@@ -70,7 +74,7 @@ glm::vec4 MaterialSampler::mean_of(const Use& use, const SurfacePiece& piece) co
 }
 
 SurfaceColor MaterialSampler::sample(std::uint32_t index, const SurfacePiece& piece) const {
-    const MeshMaterial& material = mesh_.materials[index];
+    const MeshMaterial& material = materials_[index];
     const Uses& uses = uses_[index];
     SurfaceColor result{.base_color = glm::vec3(material.base_color) * glm::vec3(piece.vertex_color),
                         .metallic = material.metallic,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -51,11 +53,17 @@ class MaterialSampler {
         std::optional<Use> base_color, metallic_roughness, emissive;
     };
 
-    std::optional<Use> add_use(const std::optional<TextureUse>& use, TexelMeaning meaning,
-                               float alpha_cutoff);
+    struct Reading {
+        TexelMeaning meaning = TexelMeaning::color;
+        float alpha_cutoff = 0.0f;
+    };
+    using Known = std::map<std::tuple<std::uint32_t, TexelMeaning, float>, std::uint32_t>;
+
+    std::optional<Use> add_use(const Mesh& mesh, const std::optional<TextureUse>& use, const Reading& reading,
+                               Known& known);
     [[nodiscard]] glm::vec4 mean_of(const Use& use, const SurfacePiece& piece) const;
 
-    const Mesh& mesh_;
+    std::vector<MeshMaterial> materials_;
     std::vector<TexturePyramid> pyramids_;
     std::vector<Uses> uses_;  // by material
 };
