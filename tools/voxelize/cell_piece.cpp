@@ -54,6 +54,13 @@ float cross(glm::vec3 a, glm::vec3 b, int u, int v) {
 
 }  // namespace
 
+std::array<glm::vec3, 2> barycentric_slopes(glm::vec3 edge_b, glm::vec3 edge_c) {
+    const glm::vec3 normal = glm::cross(edge_b, edge_c);
+    const float square = glm::dot(normal, normal);
+    if (!(square > 0.0f)) return {};
+    return {glm::cross(edge_c, normal) / square, glm::cross(normal, edge_b) / square};
+}
+
 PieceCutter::PieceCutter(const std::array<glm::vec3, 3>& triangle) : triangle_(triangle) {
     const auto& [a, b, c] = triangle_;
     low_ = glm::min(glm::min(a, b), c);
@@ -78,17 +85,17 @@ void PieceCutter::begin_row(int y, int z) {
     }
     const auto low = static_cast<float>(y);
     rest_ = slab<1>(slab_, low, low + 1.0f, low_.y<low, high_.y> low + 1.0f);
-    is_whole_ = true;
+    rest_from_ = low_.x;
 }
 
 CellPiece PieceCutter::next_cell(int x) {
     const auto low = static_cast<float>(x);
-    if (is_whole_ && low_.x < low) {
+    if (rest_from_ < low) {
         ConvexPolygon outside;
         const ConvexPolygon whole = rest_;
         split<0>(whole, low, outside, rest_);
     }
-    is_whole_ = false;
+    rest_from_ = low + 1.0f;
     CellPiece piece;
     if (high_.x > low + 1.0f) {
         ConvexPolygon cell;

@@ -23,6 +23,10 @@ struct CellPiece {
     glm::vec3 centre{0.0f};  // on the triangle
 };
 
+// The gradients of the second and the third barycentric coordinate of a triangle with these edges from its
+// first corner; zero for a triangle without area.
+[[nodiscard]] std::array<glm::vec3, 2> barycentric_slopes(glm::vec3 edge_b, glm::vec3 edge_c);
+
 // Cuts one triangle; rows are asked for with ascending z, in each z with ascending y, cells with ascending x.
 class PieceCutter {
   public:
@@ -46,7 +50,7 @@ class PieceCutter {
     int slab_z_ = -1;
     glm::ivec2 row_{0};
     ConvexPolygon slab_, rest_;
-    bool is_whole_ = false;  // the triangle lies in one cell of the row
+    float rest_from_ = 0.0f;  // x from which `rest_` has not been given away
 };
 
 }  // namespace voxilux

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace voxilux {
 namespace {
@@ -13,7 +14,7 @@ double linear_of(double encoded) {
 }
 
 struct Table {
-    std::array<float, 256> from;                   // the least linear value that rounds to each byte
+    std::array<float, 257> from;                   // the least linear value that rounds to each byte
     std::array<std::uint8_t, kBuckets + 1> start;  // the byte of a bucket's low end
 };
 
@@ -21,6 +22,7 @@ Table make_table() {
     Table table;
     for (int byte = 0; byte < 256; ++byte)
         table.from[static_cast<std::size_t>(byte)] = static_cast<float>(linear_of((byte - 0.5) / 255.0));
+    table.from[256] = std::numeric_limits<float>::infinity();
     std::uint8_t byte = 0;
     for (int bucket = 0; bucket <= kBuckets; ++bucket) {
         const float low = static_cast<float>(bucket) / kBuckets;
@@ -35,10 +37,9 @@ const Table kTable = make_table();
 
 std::uint8_t srgb_byte(float linear) {
     const float inside = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // a NaN gives 0, too
-    std::uint8_t byte = kTable.start[static_cast<std::size_t>(inside * kBuckets)];
-    while (byte < 255 && kTable.from[byte + std::size_t{1}] <= inside)
-        ++byte;
-    return byte;
+    const std::uint8_t byte = kTable.start[static_cast<std::size_t>(inside * kBuckets)];
+    // A bucket holds at most one step: bytes are 1 / (12.92 * 255) apart at least.
+    return static_cast<std::uint8_t>(byte + (kTable.from[byte + std::size_t{1}] <= inside ? 1 : 0));
 }
 
 }  // namespace

@@ -11,14 +11,6 @@ namespace {
 // Less of a piece than this is the blur of its neighbourhood in the texture.
 constexpr float kLeastShare = 1.0f / 16.0f;
 
-// The gradients of the second and the third barycentric coordinate; zero for a triangle without area.
-std::array<glm::vec3, 2> barycentric_slopes(glm::vec3 edge_b, glm::vec3 edge_c) {
-    const glm::vec3 normal = glm::cross(edge_b, edge_c);
-    const float square = glm::dot(normal, normal);
-    if (!(square > 0.0f)) return {};
-    return {glm::cross(edge_c, normal) / square, glm::cross(normal, edge_b) / square};
-}
-
 bool is_textured(const MeshMaterial& material) {
     return material.base_color_texture || material.metallic_roughness_texture || material.emissive_texture;
 }

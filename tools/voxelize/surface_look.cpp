@@ -22,7 +22,7 @@ constexpr float kDimmestEmission = 1.0f / 4096.0f;
 constexpr float kDarkestEmitter = 1.0f / 64.0f;
 
 std::uint8_t step(float value, float steps, int top) {
-    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(std::lround(value * steps)), 0, top));
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(value * steps + 0.5f), 0, top));
 }
 
 float luminance(glm::vec3 colour) {

@@ -54,6 +54,7 @@ class BlockVoxelizer {
     // Fills `touched`, `filled` and `spans`.
     void cover() {
         s_.touched.assign(kRows, 0);
+        s_.shared.assign(kRows, 0);
         s_.spans.clear();
         s_.span_ends.clear();
         const CellBox box{block_.low, block_.low + (kBlockCells - 1)};
@@ -63,6 +64,7 @@ class BlockVoxelizer {
                 const std::size_t row = row_of(y - block_.low.y, z - block_.low.z);
                 const int a = first - block_.low.x;
                 const int b = last - block_.low.x;
+                s_.shared[row] |= s_.touched[row] & bits(a, b);
                 s_.touched[row] |= bits(a, b);
                 s_.spans.push_back({static_cast<std::uint16_t>(row), static_cast<std::uint8_t>(a),
                                     static_cast<std::uint8_t>(b)});
@@ -93,20 +95,41 @@ class BlockVoxelizer {
         const std::size_t begin = i == 0 ? 0 : s_.span_ends[i - 1];
         if (begin == s_.span_ends[i]) return;
         const auto corners = corners_in_block(lattice_triangle(input_, indices_[i]), block_.low);
-        const TriangleShade shade(input_.mesh, input_.sampler, input_.mesh.triangles[indices_[i]], corners);
-        PieceCutter cutter(corners);
-        for (std::size_t k = begin; k < s_.span_ends[i]; ++k) {
-            const BlockSpan span = s_.spans[k];
-            const std::uint64_t filled = s_.filled[span.row];
-            std::uint64_t wanted = filled & bits(span.first, span.last);
-            if (wanted == 0) continue;
-            cutter.begin_row(span.row % kBlockCells, span.row / kBlockCells);
-            for (; wanted != 0; wanted &= wanted - 1) {
-                const int x = std::countr_zero(wanted);
-                const std::uint64_t before = filled & ((std::uint64_t{1} << x) - 1);
-                add_piece(s_.sums[s_.first_sum[span.row] + static_cast<std::size_t>(std::popcount(before))],
-                          cutter.next_cell(x), shade);
+        TrianglePieces pieces{
+            .shade = TriangleShade(input_.mesh, input_.sampler, input_.mesh.triangles[indices_[i]], corners),
+            .plane = PlaneSections(input_.sections, corners),
+            .cutter = PieceCutter(corners)};
+        for (std::size_t k = begin; k < s_.span_ends[i]; ++k)
+            add_row(s_.spans[k], pieces);
+    }
+
+    struct TrianglePieces {
+        TriangleShade shade;
+        PlaneSections plane;
+        PieceCutter cutter;
+    };
+
+    void add_row(const BlockSpan& span, TrianglePieces& pieces) {
+        const std::uint64_t filled = s_.filled[span.row];
+        const std::uint64_t shared = s_.shared[span.row];
+        const int y = span.row % kBlockCells;
+        const int z = span.row / kBlockCells;
+        bool is_cut = false;
+        for (std::uint64_t rest = filled & bits(span.first, span.last); rest != 0; rest &= rest - 1) {
+            const int x = std::countr_zero(rest);
+            const std::uint64_t bit = rest & ~(rest - 1);
+            VoxelSum& sum =
+                s_.sums[s_.first_sum[span.row] + static_cast<std::size_t>(std::popcount(filled & (bit - 1)))];
+            if ((shared & bit) == 0) {
+                // Alone in the cell, its area does not matter and no edge of it is near, but for open meshes.
+                if (const auto piece = pieces.plane.at(glm::vec3(x, y, z))) {
+                    add_piece(sum, *piece, pieces.shade);
+                    continue;
+                }
             }
+            if (!is_cut) pieces.cutter.begin_row(y, z);
+            is_cut = true;
+            add_piece(sum, pieces.cutter.next_cell(x), pieces.shade);
         }
     }
 

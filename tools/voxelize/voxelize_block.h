@@ -7,6 +7,7 @@
 #include "voxelize/bin_triangles.h"
 #include "voxelize/cover_triangle.h"
 #include "voxelize/shade_triangle.h"
+#include "voxelize/whole_section.h"
 
 namespace voxilux {
 
@@ -31,6 +32,7 @@ struct VoxelizeInput {
     std::span<const glm::ivec3> lattice;       // positions, see lattice_positions
     std::span<const std::uint32_t> triangles;  // of all blocks, see Bins
     const MaterialSampler& sampler;
+    const SectionTable& sections;
     Coverage coverage = Coverage::conservative;
 };
 
@@ -53,6 +55,7 @@ struct VoxelSum {
 struct BlockScratch {
     std::vector<std::uint64_t> filled;     // [64 z][64 y], bit x
     std::vector<std::uint64_t> touched;    // likewise; in thin mode more than `filled`
+    std::vector<std::uint64_t> shared;     // likewise; touched by more than one triangle
     std::vector<std::uint32_t> first_sum;  // of each row of `filled`
     std::vector<BlockSpan> spans;          // by triangle
     std::vector<std::size_t> span_ends;    // of each triangle

@@ -162,10 +162,12 @@ VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request) {
     const std::vector<glm::ivec3> lattice = lattice_positions(mesh, set.grid);
     const Bins bins = bin_triangles(mesh, triangles, lattice, set.grid.cells);
     const MaterialSampler sampler(mesh);
+    const SectionTable sections;
     const VoxelizeInput input{.mesh = mesh,
                               .lattice = lattice,
                               .triangles = bins.triangles,
                               .sampler = sampler,
+                              .sections = sections,
                               .coverage = request.coverage};
     fill_surface(set, input, bins, request);
     if (request.is_solid) fill_interior(set, input, triangles);
