@@ -11,6 +11,10 @@ namespace {
 // Less of a piece than this is the blur of its neighbourhood in the texture.
 constexpr float kLeastShare = 1.0f / 16.0f;
 
+// Pieces below this area, in voxels^2, are looked up as squares of this side, others as one voxel.
+constexpr float kSmallArea = 0.5f;
+constexpr float kSmallSide = 0.5f;
+
 bool is_textured(const MeshMaterial& material) {
     return material.base_color_texture || material.metallic_roughness_texture || material.emissive_texture;
 }
@@ -33,10 +37,7 @@ glm::mat2 TriangleShade::Attribute<T, kSize>::span(glm::vec3 along, glm::vec3 ac
 
 TriangleShade::TriangleShade(const Mesh& mesh, const MaterialSampler& sampler, const MeshTriangle& triangle,
                              const std::array<glm::vec3, 3>& corners)
-    : sampler_(sampler),
-      material_(mesh.materials[triangle.material]),
-      material_index_(triangle.material),
-      corner_(corners[0]) {
+    : sampler_(sampler), material_(mesh.materials[triangle.material]), corner_(corners[0]) {
     const glm::uvec3 v = triangle.vertices;
     const glm::vec3 edge_b = corners[1] - corners[0];
     const glm::vec3 edge_c = corners[2] - corners[0];
@@ -57,7 +58,7 @@ TriangleShade::TriangleShade(const Mesh& mesh, const MaterialSampler& sampler, c
     is_plain_ = !is_textured(material_) && (mesh.colors.empty() || (mesh.colors[v.x] == mesh.colors[v.y] &&
                                                                     mesh.colors[v.x] == mesh.colors[v.z]));
     if (is_plain_) {
-        plain_ = shaded({.vertex_color = colour_.origin});
+        plain_ = shaded(sampler.sample(triangle.material, {.vertex_color = colour_.origin}));
         return;
     }
     const float length = glm::length(edge_b);
@@ -65,23 +66,22 @@ TriangleShade::TriangleShade(const Mesh& mesh, const MaterialSampler& sampler, c
     const glm::vec3 normal = glm::cross(edge_b, edge_c);
     const float twice_area = glm::length(normal);
     const glm::vec3 across = twice_area > 0.0f ? glm::cross(normal / twice_area, along) : glm::vec3(0.0f);
-    square_.span0 = uv0_.span(along, across);
-    square_.span1 = uv1_.span(along, across);
+    SurfacePiece square{.span0 = uv0_.span(along, across), .span1 = uv1_.span(along, across)};
+    large_ = sampler.prepare(triangle.material, square);
+    square.span0 *= kSmallSide;
+    square.span1 *= kSmallSide;
+    small_ = sampler.prepare(triangle.material, square);
 }
 
 ShadedPiece TriangleShade::at(const CellPiece& piece) const {
     if (is_plain_) return plain_;
     const glm::vec3 from_corner = piece.centre - corner_;
-    const float side = std::sqrt(piece.area);  // of a square as large as the piece
-    return shaded({.uv0 = uv0_.at(from_corner),
-                   .uv1 = uv1_.at(from_corner),
-                   .span0 = square_.span0 * side,
-                   .span1 = square_.span1 * side,
-                   .vertex_color = colour_.at(from_corner)});
+    return shaded(sampler_.sample(
+        piece.area < kSmallArea ? small_ : large_,
+        {.uv0 = uv0_.at(from_corner), .uv1 = uv1_.at(from_corner), .vertex_color = colour_.at(from_corner)}));
 }
 
-ShadedPiece TriangleShade::shaded(const SurfacePiece& piece) const {
-    const SurfaceColor colour = sampler_.sample(material_index_, piece);
+ShadedPiece TriangleShade::shaded(const SurfaceColor& colour) const {
     ShadedPiece result{.colour = colour.base_color, .look = packed(look_of(material_, colour))};
     if (material_.alpha_mode == AlphaMode::mask)
         result.share = colour.alpha < kLeastShare ? 0.0f : colour.alpha;

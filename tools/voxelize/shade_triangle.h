@@ -29,7 +29,7 @@ class TriangleShade {
     [[nodiscard]] ShadedPiece at(const CellPiece& piece) const;
 
   private:
-    [[nodiscard]] ShadedPiece shaded(const SurfacePiece& piece) const;
+    [[nodiscard]] ShadedPiece shaded(const SurfaceColor& colour) const;
 
     // An attribute as a linear function of the place.
     template <class T, int kSize>
@@ -42,11 +42,11 @@ class TriangleShade {
 
     const MaterialSampler& sampler_;
     const MeshMaterial& material_;
-    std::uint32_t material_index_ = 0;
     glm::vec3 corner_;
     Attribute<glm::vec2, 2> uv0_, uv1_;
     Attribute<glm::vec4, 4> colour_;
-    SurfacePiece square_;  // with the spans of a square of one voxel on the triangle
+    // For pieces like a square of one voxel on the triangle, and of half a voxel.
+    MaterialSampler::Prepared large_, small_;
     bool is_plain_ = true;
     ShadedPiece plain_;
 };

@@ -108,30 +108,30 @@ float reduced(float u, TextureWrap wrap) {
     return u - 2.0f * static_cast<float>(floor_of(0.5f * u));
 }
 
-glm::vec2 reduced(const TexturePyramid& pyramid, const glm::vec2& uv) {
-    return {reduced(uv.x, pyramid.wrap_u), reduced(uv.y, pyramid.wrap_v)};
+template <class Wrapped>
+glm::vec2 reduced(const Wrapped& wrap, const glm::vec2& uv) {
+    return {reduced(uv.x, wrap.wrap_u), reduced(uv.y, wrap.wrap_v)};
 }
 
 // 65535 times the texture at texel coordinates of a level, where the middle of texel 0 is at 0.5.
-glm::vec4 bilinear(const TexturePyramid& pyramid, const TexturePyramid::Level& level, const glm::vec2& at) {
+template <class Wrapped>
+glm::vec4 bilinear(const Wrapped& wrap, const TexturePyramid::Level& level, const glm::vec2& at) {
     const float x = at.x - 0.5f, y = at.y - 0.5f;
     const int low_x = floor_of(x), low_y = floor_of(y);
     const float part_x = x - static_cast<float>(low_x), part_y = y - static_cast<float>(low_y);
-    const int x0 = wrapped(low_x, level.size.x, pyramid.wrap_u);
-    const int x1 = wrapped(low_x + 1, level.size.x, pyramid.wrap_u);
-    const int y0 = wrapped(low_y, level.size.y, pyramid.wrap_v);
-    const int y1 = wrapped(low_y + 1, level.size.y, pyramid.wrap_v);
-    const glm::vec4 top =
-        (1.0f - part_x) * glm::vec4(stored(level, x0, y0)) + part_x * glm::vec4(stored(level, x1, y0));
-    const glm::vec4 bottom =
-        (1.0f - part_x) * glm::vec4(stored(level, x0, y1)) + part_x * glm::vec4(stored(level, x1, y1));
-    return (1.0f - part_y) * top + part_y * bottom;
-}
-
-glm::vec4 nearest(const TexturePyramid& pyramid, const glm::vec2& at) {
-    const TexturePyramid::Level& level = pyramid.levels[0];
-    return unit_of(stored(level, wrapped(floor_of(at.x), level.size.x, pyramid.wrap_u),
-                          wrapped(floor_of(at.y), level.size.y, pyramid.wrap_v)));
+    const int x0 = wrapped(low_x, level.size.x, wrap.wrap_u);
+    const int x1 = wrapped(low_x + 1, level.size.x, wrap.wrap_u);
+    const int y0 = wrapped(low_y, level.size.y, wrap.wrap_v);
+    const int y1 = wrapped(low_y + 1, level.size.y, wrap.wrap_v);
+    const glm::u16vec4 &a = stored(level, x0, y0), &b = stored(level, x1, y0);
+    const glm::u16vec4 &c = stored(level, x0, y1), &d = stored(level, x1, y1);
+    const float of_d = part_x * part_y, of_c = part_y - of_d, of_b = part_x - of_d;
+    const float of_a = 1.0f - part_x - of_c;
+    glm::vec4 mean;
+    for (int i = 0; i < 4; ++i)
+        mean[i] = of_a * static_cast<float>(a[i]) + of_b * static_cast<float>(b[i]) +
+                  of_c * static_cast<float>(c[i]) + of_d * static_cast<float>(d[i]);
+    return mean;
 }
 
 // The parallelogram as a rectangle of equal second moments, in texels: the axes of the ellipse that they are.
@@ -167,32 +167,6 @@ int tap_count(float texels) {
     return std::max(static_cast<int>(texels + 0.5f), 1);
 }
 
-// Taps a texel of the chosen level apart, or a little less or more, fill the rectangle.
-glm::vec4 mean_of_taps(const TexturePyramid& pyramid, const glm::vec2& center, const Rectangle& piece) {
-    const float wanted = std::max(piece.width / kTapsAcross, piece.length / kMostTapsAlong);
-    std::size_t level = 0;
-    float texel_size = 1.0f;  // in texels of level 0
-    for (; 2.0f * texel_size <= wanted && level + 1 < pyramid.levels.size(); ++level)
-        texel_size *= 2.0f;
-    const int along = tap_count(piece.length / texel_size), across = tap_count(piece.width / texel_size);
-    const TexturePyramid::Level& chosen = pyramid.levels[level];
-    const glm::vec2 scale = glm::vec2(chosen.size) / glm::vec2(pyramid.levels[0].size);
-    const glm::vec2 d = piece.direction;
-    const glm::vec2 step_along = scale * d * (piece.length / static_cast<float>(along));
-    const glm::vec2 step_across = scale * glm::vec2(-d.y, d.x) * (piece.width / static_cast<float>(across));
-    const glm::vec2 corner = center * glm::vec2(chosen.size) -
-                             0.5f * static_cast<float>(along - 1) * step_along -
-                             0.5f * static_cast<float>(across - 1) * step_across;
-    glm::vec4 sum(0.0f);
-    for (int j = 0; j < across; ++j) {
-        for (int i = 0; i < along; ++i)
-            sum +=
-                bilinear(pyramid, chosen,
-                         corner + static_cast<float>(i) * step_along + static_cast<float>(j) * step_across);
-    }
-    return sum * (1.0f / (kOne16 * static_cast<float>(along * across)));
-}
-
 // Level 0 from the stored texels.
 TexturePyramid::Level linear_level(const Texture& texture, TexelMeaning meaning, float alpha_cutoff) {
     std::array<float, 256> linear{}, coverage{};
@@ -225,16 +199,63 @@ TexturePyramid build_pyramid(const Texture& texture, TexelMeaning meaning, float
     return pyramid;
 }
 
+// Taps a texel of the chosen level apart, or a little less or more, fill the rectangle.
+PieceFilter filter_of(const TexturePyramid& pyramid, const glm::mat2& span, FilterTaps taps) {
+    PieceFilter filter{.level = &pyramid.levels[0], .wrap_u = pyramid.wrap_u, .wrap_v = pyramid.wrap_v};
+    const glm::vec2 size(pyramid.levels[0].size);
+    const glm::vec2 a = span[0] * size, b = span[1] * size;
+    const float reach = glm::dot(a, a) + glm::dot(b, b);
+    if (!(reach < kLongestPiece * kLongestPiece)) {
+        filter.level = &pyramid.levels.back();
+        return filter;
+    }
+    if (reach < kOneTapReach) {
+        filter.is_nearest = pyramid.is_nearest;
+        return filter;
+    }
+    const Rectangle piece = rectangle_of(a, b);
+    const bool is_one = taps == FilterTaps::one;
+    const float wanted =
+        is_one ? piece.width : std::max(piece.width / kTapsAcross, piece.length / kMostTapsAlong);
+    std::size_t level = 0;
+    float texel_size = 1.0f;  // in texels of level 0
+    for (; 2.0f * texel_size <= wanted && level + 1 < pyramid.levels.size(); ++level)
+        texel_size *= 2.0f;
+    filter.level = &pyramid.levels[level];
+    if (is_one) return filter;
+    filter.along = tap_count(piece.length / texel_size);
+    filter.across = tap_count(piece.width / texel_size);
+    const glm::vec2 scale = glm::vec2(filter.level->size) / size;
+    const glm::vec2 d = piece.direction;
+    filter.step_along = scale * d * (piece.length / static_cast<float>(filter.along));
+    filter.step_across = scale * glm::vec2(-d.y, d.x) * (piece.width / static_cast<float>(filter.across));
+    return filter;
+}
+
+glm::vec4 filtered(const PieceFilter& filter, const glm::vec2& center) {
+    const TexturePyramid::Level& level = *filter.level;
+    const glm::vec2 at = reduced(filter, center) * glm::vec2(level.size);
+    if (filter.is_nearest) {
+        return unit_of(stored(level, wrapped(floor_of(at.x), level.size.x, filter.wrap_u),
+                              wrapped(floor_of(at.y), level.size.y, filter.wrap_v)));
+    }
+    const int taps = filter.along * filter.across;
+    if (taps == 1) return bilinear(filter, level, at) * (1.0f / kOne16);
+    const glm::vec2 corner = at - 0.5f * static_cast<float>(filter.along - 1) * filter.step_along -
+                             0.5f * static_cast<float>(filter.across - 1) * filter.step_across;
+    glm::vec4 sum(0.0f);
+    for (int j = 0; j < filter.across; ++j) {
+        for (int i = 0; i < filter.along; ++i)
+            sum += bilinear(filter, level,
+                            corner + static_cast<float>(i) * filter.step_along +
+                                static_cast<float>(j) * filter.step_across);
+    }
+    return sum * (1.0f / (kOne16 * static_cast<float>(taps)));
+}
+
 glm::vec4 sample_pyramid(const TexturePyramid& pyramid, const glm::vec2& center, const glm::mat2& span) {
     const glm::mat2 used = clamped_span(pyramid, center, span);
-    const glm::vec2 size(pyramid.levels[0].size);
-    const glm::vec2 a = used[0] * size, b = used[1] * size;
-    const float reach = glm::dot(a, a) + glm::dot(b, b);
-    if (!(reach < kLongestPiece * kLongestPiece)) return unit_of(pyramid.levels.back().texels[0]);
-    const glm::vec2 at = reduced(pyramid, center);
-    if (reach >= kOneTapReach) return mean_of_taps(pyramid, at, rectangle_of(a, b));
-    if (pyramid.is_nearest) return nearest(pyramid, at * size);
-    return bilinear(pyramid, pyramid.levels[0], at * size) * (1.0f / kOne16);
+    return filtered(filter_of(pyramid, used, FilterTaps::as_many_as_needed), center);
 }
 
 }  // namespace voxilux

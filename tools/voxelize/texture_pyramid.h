@@ -42,4 +42,24 @@ struct TexturePyramid {
 [[nodiscard]] glm::vec4 sample_pyramid(const TexturePyramid& pyramid, const glm::vec2& center,
                                        const glm::mat2& span);
 
+// Where sample_pyramid looks for pieces of one shape: made once for all pieces of a triangle.
+struct PieceFilter {
+    const TexturePyramid::Level* level = nullptr;
+    glm::vec2 step_along{0.0f};  // between taps, in texels of the level
+    glm::vec2 step_across{0.0f};
+    int along = 1;  // taps
+    int across = 1;
+    TextureWrap wrap_u = TextureWrap::repeat;
+    TextureWrap wrap_v = TextureWrap::repeat;
+    bool is_nearest = false;
+};
+
+// With one tap the mean is blurred more but takes one look. The pyramid must outlive the filter. Pieces that
+// lie beside a clamped texture are blurred along its edge, unlike sample_pyramid's.
+enum class FilterTaps : std::uint8_t { as_many_as_needed, one };
+[[nodiscard]] PieceFilter filter_of(const TexturePyramid& pyramid, const glm::mat2& span, FilterTaps taps);
+
+// The mean around `center`, in uv, as sample_pyramid gives it.
+[[nodiscard]] glm::vec4 filtered(const PieceFilter& filter, const glm::vec2& center);
+
 }  // namespace voxilux

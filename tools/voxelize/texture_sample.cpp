@@ -73,7 +73,10 @@ glm::vec4 MaterialSampler::mean_of(const Use& use, const SurfacePiece& piece) co
                           use.linear * (use.uv_set == 0 ? piece.span0 : piece.span1));
 }
 
-SurfaceColor MaterialSampler::sample(std::uint32_t index, const SurfacePiece& piece) const {
+// mean_of_use(which, prepared) is the mean of one use, named as a member of Uses and of Prepared.
+template <class MeanOf>
+SurfaceColor MaterialSampler::colour_of(std::uint32_t index, const SurfacePiece& piece,
+                                        const MeanOf& mean_of_use) const {
     const MeshMaterial& material = materials_[index];
     const Uses& uses = uses_[index];
     SurfaceColor result{.base_color = glm::vec3(material.base_color) * glm::vec3(piece.vertex_color),
@@ -82,7 +85,7 @@ SurfaceColor MaterialSampler::sample(std::uint32_t index, const SurfacePiece& pi
                         .emissive = material.emissive};
     float texel_alpha = 1.0f;
     if (uses.base_color) {
-        const glm::vec4 mean = mean_of(*uses.base_color, piece);
+        const glm::vec4 mean = mean_of_use(&Uses::base_color, &Prepared::base_color);
         texel_alpha = mean.a;
         if (material.alpha_mode == AlphaMode::opaque)
             result.base_color *= glm::vec3(mean);
@@ -91,12 +94,38 @@ SurfaceColor MaterialSampler::sample(std::uint32_t index, const SurfacePiece& pi
     }
     result.alpha = alpha_of(material, texel_alpha, piece.vertex_color.a, uses.base_color.has_value());
     if (uses.metallic_roughness) {
-        const glm::vec4 mean = mean_of(*uses.metallic_roughness, piece);
+        const glm::vec4 mean = mean_of_use(&Uses::metallic_roughness, &Prepared::metallic_roughness);
         result.metallic *= mean.b;
         result.roughness *= mean.g;
     }
-    if (uses.emissive) result.emissive *= glm::vec3(mean_of(*uses.emissive, piece));
+    if (uses.emissive) result.emissive *= glm::vec3(mean_of_use(&Uses::emissive, &Prepared::emissive));
     return result;
+}
+
+SurfaceColor MaterialSampler::sample(std::uint32_t material, const SurfacePiece& piece) const {
+    return colour_of(material, piece,
+                     [&](auto which, auto) { return mean_of(*(uses_[material].*which), piece); });
+}
+
+MaterialSampler::Prepared MaterialSampler::prepare(std::uint32_t material, const SurfacePiece& piece) const {
+    const Uses& uses = uses_[material];
+    const auto filter = [&](const std::optional<Use>& use, FilterTaps taps) -> std::optional<PieceFilter> {
+        if (!use) return std::nullopt;
+        return filter_of(pyramids_[use->pyramid],
+                         use->linear * (use->uv_set == 0 ? piece.span0 : piece.span1), taps);
+    };
+    return {.material = material,
+            .base_color = filter(uses.base_color, FilterTaps::as_many_as_needed),
+            .metallic_roughness = filter(uses.metallic_roughness, FilterTaps::one),
+            .emissive = filter(uses.emissive, FilterTaps::one)};
+}
+
+SurfaceColor MaterialSampler::sample(const Prepared& prepared, const SurfacePiece& piece) const {
+    return colour_of(prepared.material, piece, [&](auto which, auto filter) {
+        const Use& use = *(uses_[prepared.material].*which);
+        return filtered(*(prepared.*filter),
+                        use.linear * (use.uv_set == 0 ? piece.uv0 : piece.uv1) + use.offset);
+    });
 }
 
 // A triangle with edges p and q from one corner has the covariance (pp' + qq' - (pq' + qp') / 2) / 18 (each

@@ -42,6 +42,16 @@ class MaterialSampler {
     // nothing of the piece is there.
     [[nodiscard]] SurfaceColor sample(std::uint32_t material, const SurfacePiece& piece) const;
 
+    // What sample() does for pieces of one material and shape: the spans of `piece` count.
+    struct Prepared {
+        std::uint32_t material = 0;
+        std::optional<PieceFilter> base_color, metallic_roughness, emissive;
+    };
+    // Metalness, roughness and emission are read by single taps.
+    [[nodiscard]] Prepared prepare(std::uint32_t material, const SurfacePiece& piece) const;
+    // The places and the vertex colour of `piece` count.
+    [[nodiscard]] SurfaceColor sample(const Prepared& prepared, const SurfacePiece& piece) const;
+
   private:
     struct Use {
         std::uint32_t pyramid = 0;
@@ -62,6 +72,9 @@ class MaterialSampler {
     std::optional<Use> add_use(const Mesh& mesh, const std::optional<TextureUse>& use, const Reading& reading,
                                Known& known);
     [[nodiscard]] glm::vec4 mean_of(const Use& use, const SurfacePiece& piece) const;
+    template <class MeanOf>
+    [[nodiscard]] SurfaceColor colour_of(std::uint32_t material, const SurfacePiece& piece,
+                                         const MeanOf& mean_of_use) const;
 
     std::vector<MeshMaterial> materials_;
     std::vector<TexturePyramid> pyramids_;

@@ -83,6 +83,15 @@ std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set) {
     return warnings;
 }
 
+Mesh read_mesh(const VoxelizeCommand& command) {
+    Mesh mesh = load_mesh(command.mesh, {.is_strict = command.strict, .scene = command.scene});
+    for (MeshMaterial& material : mesh.materials) {
+        if (command.ignore_mask && material.alpha_mode == AlphaMode::mask)
+            material.alpha_mode = AlphaMode::opaque;
+    }
+    return mesh;
+}
+
 void refuse_warnings(const VoxelizeCommand& command, const std::vector<std::string>& warnings) {
     if (!command.strict || warnings.empty()) return;
     throw Error(ExitCode::input_refused, fmt::format("{}: {} (--strict)", command.mesh, warnings.front()));
@@ -112,6 +121,7 @@ CLI::App* add_voxelize(CLI::App& app, VoxelizeCommand& command) {
                   "fewest voxels without a hole (6-separating), instead of all that the surface touches");
     sub->add_flag("--solid", command.solid, "fill the inside; the report says when the mesh is open");
     sub->add_flag("--dither", command.dither, "mix palette colours by place");
+    sub->add_flag("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
     sub->add_option("--scene", command.scene, "which scene of a glTF file, from 0; default: the file's own")
         ->type_name("N");
     sub->add_flag("--strict", command.strict, "what would be a warning is an error");
@@ -140,7 +150,7 @@ int run_voxelize(const VoxelizeCommand& command) {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
 
-    const Mesh mesh = load_mesh(command.mesh, {.is_strict = command.strict, .scene = command.scene});
+    const Mesh mesh = read_mesh(command);
     times.end_step("load");
     const VoxelSet set = voxelize_mesh(mesh, request);
     progress.finish();

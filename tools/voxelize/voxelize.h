@@ -19,6 +19,7 @@ struct VoxelizeCommand {
     bool thin = false;
     bool solid = false;
     bool dither = false;
+    bool ignore_mask = false;
     bool strict = false;
     bool quiet = false;
     std::optional<unsigned> scene;

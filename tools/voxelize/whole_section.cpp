@@ -72,17 +72,17 @@ const Section* SectionTable::sections_of(float small, float middle) const {
 PlaneSections::PlaneSections(const SectionTable& table, const std::array<glm::vec3, 3>& triangle) {
     const glm::vec3 n = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
     const glm::vec3 size = glm::abs(n);
-    if (size[order_.x] > size[order_.y]) std::swap(order_.x, order_.y);
-    if (size[order_.y] > size[order_.z]) std::swap(order_.y, order_.z);
-    if (size[order_.x] > size[order_.y]) std::swap(order_.x, order_.y);
-    const float largest = size[order_.z];
-    if (largest > 0.0f) normal_ = n / largest;
+    std::array<int, 3> order = {0, 1, 2};
+    std::ranges::stable_sort(order, {}, [&](int axis) { return size[axis]; });
+    if (size[order[2]] > 0.0f) normal_ = n / size[order[2]];
     corner_ = triangle[0];
-    slopes_ = barycentric_slopes(triangle[1] - corner_, triangle[2] - corner_);
-    offset_ = glm::dot(normal_, triangle[0]);
-    const glm::vec3 slopes = glm::abs(normal_);
-    to_step_ = SectionTable::kDistances / std::max(0.5f * (slopes.x + slopes.y + slopes.z), 0.5f);
-    sections_ = table.sections_of(slopes[order_.x], slopes[order_.y]);
+    barycentric_ = barycentric_slopes(triangle[1] - corner_, triangle[2] - corner_);
+    offset_ = glm::dot(normal_, corner_);
+    for (std::size_t i = 0; i < 3; ++i)
+        towards_[i][order[i]] = normal_[order[i]] < 0.0f ? -1.0f : 1.0f;
+    slope_ = {std::abs(normal_[order[0]]), std::abs(normal_[order[1]])};
+    to_step_ = SectionTable::kDistances / (0.5f * (slope_.x + slope_.y + 1.0f));
+    sections_ = table.sections_of(slope_.x, slope_.y);
 }
 
 std::optional<CellPiece> PlaneSections::at(glm::vec3 cell) const {
@@ -91,16 +91,12 @@ std::optional<CellPiece> PlaneSections::at(glm::vec3 cell) const {
     const int step = std::min(static_cast<int>(std::abs(distance) * to_step_), SectionTable::kDistances - 1);
     const Section& section = sections_[step];
     const float side = distance < 0.0f ? -1.0f : 1.0f;
-    glm::vec3 from_middle(0.0f);
-    from_middle[order_.x] = std::copysign(section.centre.x, section.centre.x * normal_[order_.x] * side);
-    from_middle[order_.y] = std::copysign(section.centre.y, section.centre.y * normal_[order_.y] * side);
+    const glm::vec2 shift = glm::vec2(section.centre) * side;
     // The last component follows from the plane.
-    const float rest =
-        distance - normal_[order_.x] * from_middle[order_.x] - normal_[order_.y] * from_middle[order_.y];
-    from_middle[order_.z] = rest * normal_[order_.z];
-    const glm::vec3 centre = middle + from_middle;
-    const float b = glm::dot(slopes_[0], centre - corner_);
-    const float c = glm::dot(slopes_[1], centre - corner_);
+    const glm::vec3 centre = middle + towards_[0] * shift.x + towards_[1] * shift.y +
+                             towards_[2] * (distance - glm::dot(slope_, shift));
+    const float b = glm::dot(barycentric_[0], centre - corner_);
+    const float c = glm::dot(barycentric_[1], centre - corner_);
     if (!(b >= 0.0f && c >= 0.0f && b + c <= 1.0f)) return std::nullopt;
     return CellPiece{.area = section.area, .centre = centre};
 }

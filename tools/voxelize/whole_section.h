@@ -46,10 +46,12 @@ class PlaneSections {
   private:
     glm::vec3 normal_{0.0f};  // its largest component is 1
     float offset_ = 0.0f;
-    float to_step_ = 0.0f;       // from distance to step of the table
-    glm::ivec3 order_{0, 1, 2};  // axes by rising absolute component
+    float to_step_ = 0.0f;  // from distance to step of the table
+    // Axes by rising absolute component of the normal, each towards the normal's side, and those components.
+    std::array<glm::vec3, 3> towards_{};
+    glm::vec2 slope_{0.0f};
     glm::vec3 corner_{0.0f};
-    std::array<glm::vec3, 2> slopes_{};  // of two barycentric coordinates
+    std::array<glm::vec3, 2> barycentric_{};  // slopes of two coordinates
     const SectionTable::Section* sections_;
 };
 
