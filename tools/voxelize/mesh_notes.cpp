@@ -34,7 +34,7 @@ std::string one_line(const std::string& text) {
 
 std::string quoted_name(const std::string& name) {
     constexpr std::size_t kLongest = 80;
-    return "'" + shown(name, kLongest) + "'";
+    return fmt::format("'{}'", shown(name, kLongest));
 }
 
 }  // namespace voxilux
