@@ -6,6 +6,7 @@
 
 #include "support/allocation_counter.h"
 #include "support/gltf_builder.h"
+#include "voxelize/decode_image.h"
 #include "voxelize/load_gltf.h"
 
 namespace voxilux {
@@ -221,6 +222,67 @@ TEST(HostileGltf, image_of_a_giant_size_is_left_out_before_it_is_decoded) {
     EXPECT_EQ(mesh.triangles.size(), 2u);
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_NE(notes.begin()->first.find("16384 x 16384 texels"), std::string::npos) << notes.begin()->first;
+}
+
+// The bits of a deflate stream, from the lowest of each byte (RFC 1951).
+struct Bits {
+    std::string bytes;
+    int used = 8;
+    void put(unsigned value, int count) {  // the lowest bit of `value` first
+        for (int i = 0; i < count; ++i) {
+            if (used == 8) {
+                bytes += '\0';
+                used = 0;
+            }
+            bytes.back() = static_cast<char>(bytes.back() | static_cast<char>((value >> i & 1u) << used++));
+        }
+    }
+};
+
+// A PNG of 2 x 2 texels that unpacks into 1 + 258 * matches bytes.
+std::string bomb(int matches) {
+    Bits bits;
+    bits.put(0x0178, 16);     // zlib's header
+    bits.put(0b011, 3);       // the last block, with the fixed codes
+    bits.put(0b00001100, 8);  // a zero
+    for (int i = 0; i < matches; ++i) {
+        bits.put(0b10100011, 8);  // length 258
+        bits.put(0, 5);           // from one byte before
+    }
+    bits.put(0, 7);  // the end
+    const auto big_endian = [](std::size_t value) {
+        return std::string{static_cast<char>(value >> 24), static_cast<char>(value >> 16),
+                           static_cast<char>(value >> 8), static_cast<char>(value)};
+    };
+    const std::string png = gltf_builder::small_png();
+    return png.substr(0, 33) + big_endian(bits.bytes.size()) + "IDAT" + bits.bytes + "crc " +
+           png.substr(png.size() - 12);
+}
+
+TEST(HostileImage, picture_that_unpacks_into_far_more_than_its_size_is_refused) {
+    const auto is_decoded = [](const std::string& png) {
+        return decode_image(std::as_bytes(std::span(png))).has_value();
+    };
+    EXPECT_TRUE(is_decoded(bomb(4)));
+    EXPECT_FALSE(is_decoded(bomb(100000)));
+}
+
+TEST(HostileImage, jpeg_of_too_many_scans_is_refused_before_they_are_read) {
+    // A grey progressive JPEG of 8 x 8 texels whose scans hold nothing.
+    const auto jpeg = [](int scans) {
+        std::string bytes("\xFF\xD8\xFF\xC2\x00\x0B\x08\x00\x08\x00\x08\x01\x01\x11\x00", 15);
+        bytes += std::string("\xFF\xDB\x00\x43\x00", 5) + std::string(64, '\x01');
+        bytes += std::string("\xFF\xC4\x00\x14\x00\x01", 6) + std::string(15, '\0') + std::string(1, '\0');
+        for (int i = 0; i < scans; ++i)
+            bytes += std::string("\xFF\xDA\x00\x08\x01\x01\x00\x00\x00\x00\x00", 11);
+        return bytes + "\xFF\xD9";
+    };
+    const auto is_decoded = [&](int scans) {
+        const std::string bytes = jpeg(scans);
+        return decode_image(std::as_bytes(std::span(bytes))).has_value();
+    };
+    EXPECT_TRUE(is_decoded(3));
+    EXPECT_FALSE(is_decoded(65));
 }
 
 TEST(HostileGltf, many_nodes_on_one_mesh_stop_at_the_limits) {
