@@ -11,6 +11,7 @@
 #include "plan/plan.h"
 #include "render/render.h"
 #include "scene/nearest_name.h"
+#include "voxelize/voxelize.h"
 
 namespace voxilux {
 namespace {
@@ -130,11 +131,13 @@ int run_command_line(int argc, const char* const* argv) {
     DevicesCommand devices;
     CompareOptions compare;
     BenchCommand bench;
+    VoxelizeCommand voxelize;
     const CLI::App* const render_app = add_render(app, render);
     const CLI::App* const plan_app = add_plan(app, plan);
     const CLI::App* const info_app = add_info(app, info);
     const CLI::App* const devices_app = add_devices(app, devices);
     const CLI::App* const compare_app = add_compare(app, compare);
+    const CLI::App* const voxelize_app = add_voxelize(app, voxelize);
     const CLI::App* const bench_app = add_bench(app, bench);
     app.footer(kFooter);
 
@@ -148,6 +151,7 @@ int run_command_line(int argc, const char* const* argv) {
     if (plan_app->parsed()) return run_plan(plan);
     if (info_app->parsed()) return run_info(info);
     if (devices_app->parsed()) return run_devices(devices);
+    if (voxelize_app->parsed()) return run_voxelize(voxelize);
     if (bench_app->parsed()) return run_bench(*bench_app, bench);
     VX_ASSERT(compare_app->parsed());
     return run_compare(compare);
