@@ -164,7 +164,7 @@ TEST(VoxelizeMesh, points_of_the_surface_lie_in_voxels) {
 
 TEST(VoxelizeMesh, thin_surface_is_part_of_the_conservative_one_and_keeps_inside_and_outside_apart) {
     const Mesh mesh = torus(1.0, 0.35, 23, 11);
-    VoxelizeRequest request = request_at(70);
+    VoxelizeRequest request = request_at(44);
     const VoxelSet whole = voxelize_mesh(mesh, request);
     request.coverage = Coverage::thin;
     const VoxelSet thin = voxelize_mesh(mesh, request);
@@ -174,21 +174,21 @@ TEST(VoxelizeMesh, thin_surface_is_part_of_the_conservative_one_and_keeps_inside
     EXPECT_TRUE(std::ranges::includes(all, cells));
     const std::set<Cell> outside = outside_of(cells, thin.grid.cells);
     std::size_t inside = 0;
-    for (int i = 0; i < 70 * 70 * 70; ++i) {
-        const Cell cell{i % 70, i / 70 % 70, i / 4900};
-        const bool is_in_grid = i / 70 % 70 < thin.grid.cells.y && i / 4900 < thin.grid.cells.z;
+    for (int i = 0; i < 44 * 44 * 44; ++i) {
+        const Cell cell{i % 44, i / 44 % 44, i / 1936};
+        const bool is_in_grid = i / 44 % 44 < thin.grid.cells.y && i / 1936 < thin.grid.cells.z;
         if (!is_in_grid || cells.contains(cell) || outside.contains(cell)) continue;
         ++inside;
         EXPECT_GT(winding_about(mesh, middle_of(thin, cell)), 0.5);
     }
-    EXPECT_GT(inside, 1000u);
+    EXPECT_GT(inside, 200u);
     // One voxel less that has both sides as neighbours is a hole.
     for (const auto& [x, y, z] : std::set<Cell>(cells)) {
         const bool is_wall = outside.contains(Cell{x - 1, y, z}) && !outside.contains(Cell{x + 1, y, z}) &&
                              !cells.contains(Cell{x + 1, y, z});
         if (!is_wall) continue;
         cells.erase(Cell{x, y, z});
-        EXPECT_GT(outside_of(cells, thin.grid.cells).size(), outside.size() + 1000);
+        EXPECT_GT(outside_of(cells, thin.grid.cells).size(), outside.size() + 200);
         return;
     }
     FAIL() << "no wall of one voxel";
@@ -196,7 +196,7 @@ TEST(VoxelizeMesh, thin_surface_is_part_of_the_conservative_one_and_keeps_inside
 
 TEST(VoxelizeMesh, solid_fill_is_where_the_winding_number_is_one) {
     const Mesh mesh = torus(1.0, 0.35, 23, 11);
-    VoxelizeRequest request = request_at(70);
+    VoxelizeRequest request = request_at(44);
     request.is_solid = true;
     const VoxelSet set = voxelize_mesh(mesh, request);
     EXPECT_EQ(set.solid.open_edges, 0u);
@@ -205,8 +205,8 @@ TEST(VoxelizeMesh, solid_fill_is_where_the_winding_number_is_one) {
     const std::set<Cell> inside = interior_of(set);
     const std::set<Cell> surface = cells_of(set);
     EXPECT_EQ(inside.size(), set.interior);
-    for (int i = 0; i < 70 * 70 * 70; i += 7) {
-        const Cell cell{i % 70, i / 70 % 70, i / 4900};
+    for (int i = 0; i < 44 * 44 * 44; i += 7) {
+        const Cell cell{i % 44, i / 44 % 44, i / 1936};
         if (surface.contains(cell)) {
             EXPECT_FALSE(inside.contains(cell));
         } else {
@@ -299,8 +299,9 @@ TEST(VoxelizeMesh, any_number_of_threads_gives_the_same_voxels) {
         const VoxelSet many = voxelize_mesh(mesh, request);
         ASSERT_EQ(many.blocks.size(), one.blocks.size());
         for (std::size_t i = 0; i < one.blocks.size(); ++i)
-            EXPECT_EQ(many.blocks[i].surface, one.blocks[i].surface);
-        EXPECT_EQ(interior_of(many), interior_of(one));
+            EXPECT_TRUE(many.blocks[i].surface == one.blocks[i].surface &&
+                        many.blocks[i].interior == one.blocks[i].interior)
+                << i;
     }
 }
 

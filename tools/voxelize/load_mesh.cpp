@@ -38,7 +38,7 @@ void drop_unread_coordinates(Mesh& mesh) {
 
 Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
     const auto refuse = [&](const std::string& reason) {
-        return Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), reason));
+        return Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), one_line(reason)));
     };
     const std::string suffix = suffix_of(path);
     const bool is_gltf = suffix == ".gltf" || suffix == ".glb";

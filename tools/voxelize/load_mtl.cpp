@@ -187,25 +187,29 @@ std::vector<std::byte> read_library(const std::string& name, const MtlLibrary& l
 
 }  // namespace
 
+void read_mtl(std::string_view text, MtlLibrary& library, Mesh& mesh, MeshNotes& notes) {
+    ObjLines lines(text);
+    std::optional<Entry> entry;
+    while (lines.next_line()) {
+        if (lines.peek_word() == "newmtl") {
+            (void)lines.next_word();
+            if (entry) add_material(*entry, library, mesh, notes);
+            entry.emplace();
+            entry->material.name = lines.rest();
+        } else if (entry) {
+            read_field(lines, *entry);
+        }
+    }
+    if (entry) add_material(*entry, library, mesh, notes);
+}
+
 void load_mtl(const std::string& name, MtlLibrary& library, Mesh& mesh, MeshNotes& notes) {
     const std::vector<std::byte> bytes = read_library(name, library, notes);
-    ObjLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    std::optional<Entry> entry;
     try {
-        while (lines.next_line()) {
-            if (lines.peek_word() == "newmtl") {
-                (void)lines.next_word();
-                if (entry) add_material(*entry, library, mesh, notes);
-                entry.emplace();
-                entry->material.name = lines.rest();
-            } else if (entry) {
-                read_field(lines, *entry);
-            }
-        }
+        read_mtl({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, library, mesh, notes);
     } catch (const MeshFault& fault) {
         throw MeshFault(fmt::format("{}: {}", quoted_name(name), fault.what()));
     }
-    if (entry) add_material(*entry, library, mesh, notes);
 }
 
 std::filesystem::path find_beside(const std::filesystem::path& folder, const std::string& name) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "voxelize/load_mesh.h"
 #include "voxelize/mesh_notes.h"
@@ -21,9 +22,12 @@ struct MtlLibrary {
     std::map<std::string, std::optional<std::uint32_t>> textures;
 };
 
-// Reads the MTL file `name` into `mesh` and `library`; one that cannot be read is noted. Factors are linear.
-// Source: Wavefront MTL, and the fields Pm, Pr, Ke and map_Ke of its extension for physically based shading.
-// Throws MeshFault for a broken number.
+// Reads the text of an MTL file into `mesh` and `library`. Factors are linear. Source: Wavefront MTL, and the
+// fields Pm, Pr, Ke and map_Ke of its extension for physically based shading. Throws MeshFault for a broken
+// number.
+void read_mtl(std::string_view text, MtlLibrary& library, Mesh& mesh, MeshNotes& notes);
+
+// The same for the file `name`; one that cannot be read is noted.
 void load_mtl(const std::string& name, MtlLibrary& library, Mesh& mesh, MeshNotes& notes);
 
 // Where a file that an OBJ or MTL names lies: inside `folder` as named, else there under its last name, for

@@ -13,6 +13,8 @@ namespace voxilux {
 struct InteriorRow {
     std::uint16_t row = 0;    // y + 64 z
     std::uint64_t cells = 0;  // bit x
+
+    bool operator==(const InteriorRow&) const = default;
 };
 
 // What is wrong with the inside of a mesh.
