@@ -27,7 +27,8 @@ struct CellPiece {
 // first corner; zero for a triangle without area.
 [[nodiscard]] std::array<glm::vec3, 2> barycentric_slopes(glm::vec3 edge_b, glm::vec3 edge_c);
 
-// Cuts one triangle; rows are asked for with ascending z, in each z with ascending y, cells with ascending x.
+// Cuts one triangle; rows are asked for with ascending z, in each z with ascending y, cells with
+// ascending x; all within the triangle's box.
 class PieceCutter {
   public:
     explicit PieceCutter(const std::array<glm::vec3, 3>& triangle);

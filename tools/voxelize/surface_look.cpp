@@ -71,7 +71,6 @@ Look coarser(const Look& look, int halvings) {
     Look result = look;
     if (look.kind != LookKind::diffuse && look.kind != LookKind::emit) result.rough = coarse(look.rough, 7);
     result.level = coarse(look.level, kTopLevel);
-    result.ior = coarse(look.ior, kTopLevel);
     return result;
 }
 

@@ -29,7 +29,8 @@ struct Look {
 [[nodiscard]] std::uint16_t packed(const Look& look);
 [[nodiscard]] Look unpacked(std::uint16_t bits);
 
-// Fewer steps: roughness, transparency and emission rounded to every 2nd, 4th, ... step.
+// Fewer steps: roughness, transparency and emission rounded to every 2nd, 4th, ... step. The refractive index
+// stays: a mesh has few.
 [[nodiscard]] Look coarser(const Look& look, int halvings);
 
 // The attributes of a MATL chunk; ours and MagicaVoxel's readers take the colour from the palette.

@@ -121,6 +121,11 @@ void add_graph(VoxFile& file, const std::vector<ModelPart>& parts, const MeshGri
     file.layers.push_back({.id = 0, .attributes = {{"_name", name}}});
 }
 
+// To 4 places, and no minus before a zero.
+std::string tidy(double value) {
+    return fmt::format("{}", std::round(value * 1e4) / 1e4 + 0.0);
+}
+
 // MagicaVoxel's camera looks at a focus from a distance, with pitch and yaw in degrees: yaw 0 looks along +y,
 // pitch is positive downwards. A pinhole has no focus; the middle of the grid's depth is as good as any.
 VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
@@ -132,11 +137,11 @@ VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
     const double pitch = glm::degrees(std::asin(std::clamp(-forward.z, -1.0, 1.0)));
     const double yaw = glm::degrees(std::atan2(-forward.x, forward.y));
     return {{"_mode", "pers"},
-            {"_focus", fmt::format("{:.6g} {:.6g} {:.6g}", focus.x, focus.y, focus.z)},
-            {"_angle", fmt::format("{:.6g} {:.6g} 0", pitch, yaw)},
-            {"_radius", fmt::format("{:.6g}", radius)},
+            {"_focus", fmt::format("{} {} {}", tidy(focus.x), tidy(focus.y), tidy(focus.z))},
+            {"_angle", fmt::format("{} {} 0", tidy(pitch), tidy(yaw))},
+            {"_radius", tidy(radius)},
             {"_frustum", "0.414214"},
-            {"_fov", fmt::format("{:.6g}", camera.fov_y_deg)}};
+            {"_fov", tidy(camera.fov_y_deg)}};
 }
 
 }  // namespace
