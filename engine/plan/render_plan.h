@@ -104,6 +104,7 @@ struct RenderPlan {
     }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
+    [[nodiscard]] bool keeps_radii() const { return has_photons() && settings.photons.classic; }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const { return has_photons() && !settings.photons.radius; }
     [[nodiscard]] std::uint64_t total_bytes() const;

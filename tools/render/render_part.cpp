@@ -62,6 +62,11 @@ FilmStart resume_from(const RenderCommand& command, const fs::path& file, const 
         throw Error(ExitCode::usage,
                     "--resume: pixels that share occlusion cannot go on from a checkpoint; use --ao brute");
     }
+    if (plan.keeps_radii()) {
+        throw Error(
+            ExitCode::usage,
+            "--resume: classic radii of photons are not in a checkpoint; use photons.classic = false");
+    }
     if (!fs::exists(file)) {
         if (!command.quiet)
             fmt::print(stderr, "note: there is no {}: the render starts anew\n", file.string());
