@@ -110,6 +110,16 @@ const Lie kLies[] = {
      }},
     {"glTF '1.0' is not read", [](json& r) { r["asset"]["version"] = "1.0"; }},
     {"asset.version is missing", [](json& r) { r.erase("asset"); }},
+    {"numbers from 2^31 on", [](json& r) { r["meshes"][0]["primitives"][0]["indices"] = 4294967297; }},
+    {"bufferView is not a whole number", [](json& r) { r["images"][0]["bufferView"] = -1; }},
+    {"images[0].bufferView names bufferViews[4]", [](json& r) { r["images"][0]["bufferView"] = 4; }},
+    {"bufferViews[3] reaches byte", [](json& r) { r["bufferViews"][3]["byteOffset"] = 100000; }},
+    {"bufferViews[3], which images[0] reads, is empty",
+     [](json& r) { r["bufferViews"][3]["byteLength"] = 0; }},
+    {"holds indices, but has no bufferView", [](json& r) { r["accessors"][1].erase("bufferView"); }},
+    {"not valid glTF: Unsupported `type`", [](json& r) { r["accessors"][0]["type"] = "VEC5"; }},
+    {"the buffers have over", [](json& r) { r["buffers"][0]["byteLength"] = 9007199254740991; }},
+    {"buffers[0].byteLength is 0", [](json& r) { r["buffers"][0]["byteLength"] = 0; }},
 };
 
 std::string told(const Lie& lie) {
@@ -207,6 +217,34 @@ TEST(HostileGltf, deep_json_is_refused_without_recursion) {
     EXPECT_EQ(refusal("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep + "}"), "");
     EXPECT_NE(refusal(deep), "");
     EXPECT_EQ(refusal("{\"a\":1e999}"), "not valid JSON: a number is too large");
+}
+
+TEST(HostileGltf, long_lists_of_tiny_items_take_memory_in_proportion_and_have_a_limit) {
+    const std::pair<const char*, json> tiny[] = {
+        {"scenes", json::object()},
+        {"nodes", json::object()},
+        {"cameras", json::object()},
+        {"meshes", json::object()},
+        {"materials", json::object()},
+        {"textures", json::object()},
+        {"images", json::object()},
+        {"samplers", json::object()},
+        {"animations", json::object()},
+        {"skins", json::object()},
+        {"accessors", {{"type", "VEC3"}, {"count", 1}, {"componentType", 5126}}},
+        {"meshes", {{"primitives", std::vector<json>(3, {{"attributes", json::object()}})}}},
+        {"materials", {{"extensions", {{"KHR_materials_ior", json::object()}}}}}};
+    for (const auto& [key, item] : tiny) {
+        File file = textured_square();
+        file.root[key] = std::vector<json>(20000, item);
+        const std::string bytes = file.glb();
+        const PeakAllocation peak;
+        (void)refusal(bytes);
+        EXPECT_LT(peak.bytes(), 1024 * bytes.size()) << key;
+    }
+    File file = textured_square();
+    file.root["materials"] = std::vector<json>(65537, json::object());
+    EXPECT_EQ(refusal(file.glb()), "materials has 65537 items; at most 65536 are read");
 }
 
 TEST(HostileGltf, image_of_a_giant_size_is_left_out_before_it_is_decoded) {

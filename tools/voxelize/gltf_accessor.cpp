@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <span>
-#include <string_view>
-#include <utility>
+#include <string>
 
 namespace voxilux {
 namespace {
@@ -35,23 +35,27 @@ std::size_t bytes_of(Component component) {
     }
 }
 
-Component read_component(const JsonItem& item) {
-    const std::uint64_t code = require_count(item, "componentType");
+Component checked_component(int code, const std::string& owner) {
     for (const Component known :
          {Component::i8, Component::u8, Component::i16, Component::u16, Component::u32, Component::f32}) {
-        if (code == static_cast<std::uint32_t>(known)) return known;
+        if (code == static_cast<int>(known)) return known;
     }
-    throw MeshFault(fmt::format("{}.componentType {} is not one of glTF 2.0", item.name, code));
+    throw MeshFault(fmt::format("{}.componentType {} is not one of glTF 2.0", owner, code));
 }
 
-std::size_t read_width(const JsonItem& item) {
-    constexpr std::pair<std::string_view, std::size_t> kWidths[] = {
-        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
-    const std::string type = read_text(item, "type", "");
-    for (const auto& [name, width] : kWidths) {
-        if (type == name) return width;
+std::size_t width_of(const tinygltf::Accessor& accessor, const std::string& name) {
+    switch (accessor.type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return 1;
+        case TINYGLTF_TYPE_VEC2:
+            return 2;
+        case TINYGLTF_TYPE_VEC3:
+            return 3;
+        case TINYGLTF_TYPE_VEC4:
+            return 4;
+        default:
+            throw MeshFault(name + ".type is none of SCALAR, VEC2, VEC3, VEC4");
     }
-    throw MeshFault(item.name + ".type is none of SCALAR, VEC2, VEC3, VEC4");
 }
 
 // Where the elements of a block lie: element i at first + i * stride.
@@ -68,27 +72,34 @@ struct ElementType {
     std::size_t width = 1;
 };
 
-// `count` elements from byteOffset of `item` in the view that it names. Products stay below 2^64: counts and
-// strides come from JSON numbers of at most 2^53, so they are held against the view before they are
-// multiplied.
-Elements locate(GltfDocument& document, const JsonItem& item, const ElementType& type, std::uint64_t count) {
-    const auto view = read_index(item, "bufferView", document.root, "bufferViews");
-    if (!view) throw MeshFault(item.name + ".bufferView is missing");
+// A block of elements as the model gives it, and what to call it in messages.
+struct Block {
+    std::string name;
+    int view = -1;
+    std::uint64_t offset = 0;
+};
+
+// `count` elements of a block. Products stay below 2^64: counts, offsets and strides are held against the
+// view before they are multiplied.
+Elements locate(const GltfDocument& document, const Block& block, const ElementType& type,
+                std::uint64_t count) {
+    const auto& views = document.model.bufferViews;
+    const auto view = checked_index(block.view, views.size(), block.name + ".bufferView", "bufferViews");
+    if (!view) throw MeshFault(block.name + ".bufferView is missing");
     const Bytes bytes = view_bytes(document, *view);
-    const JsonItem view_item = list_item(document.root, "bufferViews", *view);
     const std::uint64_t size = bytes_of(type.component) * type.width;
-    const std::uint64_t stride = read_count(view_item, "byteStride").value_or(size);
+    const std::uint64_t stride = views[*view].byteStride == 0 ? size : views[*view].byteStride;
     if (stride < size || stride > 65536)
-        throw MeshFault(
-            fmt::format("{}.byteStride {} does not fit elements of {} bytes", view_item.name, stride, size));
-    const std::uint64_t offset = read_count(item, "byteOffset").value_or(0);
-    if (offset > bytes.size() ||
-        (count > 0 && (bytes.size() - offset < size || (bytes.size() - offset - size) / stride < count - 1)))
+        throw MeshFault(fmt::format("bufferViews[{}].byteStride {} does not fit elements of {} bytes", *view,
+                                    stride, size));
+    if (block.offset > bytes.size() ||
+        (count > 0 &&
+         (bytes.size() - block.offset < size || (bytes.size() - block.offset - size) / stride < count - 1)))
         throw MeshFault(
             fmt::format("{} reaches past its view: {} elements from byte {}, every {} bytes, in {}",
-                        item.name, count, offset, stride, bytes.size()));
-    return {bytes.subspan(static_cast<std::size_t>(offset)), static_cast<std::size_t>(stride), type.component,
-            type.width, static_cast<std::size_t>(count)};
+                        block.name, count, block.offset, stride, bytes.size()));
+    return {bytes.subspan(static_cast<std::size_t>(block.offset)), static_cast<std::size_t>(stride),
+            type.component, type.width, static_cast<std::size_t>(count)};
 }
 
 std::uint32_t bits_at(const std::byte* at, std::size_t size) {
@@ -133,81 +144,100 @@ void copy_values(const Elements& from, std::size_t index, bool is_normalized, st
     }
 }
 
-std::uint64_t read_element_count(const GltfDocument& document, const JsonItem& item) {
-    const std::uint64_t count = require_count(item, "count");
+std::uint64_t checked_count(const GltfDocument& document, std::uint64_t count, const std::string& name) {
     if (count > document.limits.vertices)
-        throw MeshFault(fmt::format("{} has {} elements; at most {} are read", item.name, count,
-                                    document.limits.vertices));
+        throw MeshFault(
+            fmt::format("{} has {} elements; at most {} are read", name, count, document.limits.vertices));
     return count;
 }
 
-// Calls put(place, elements, which) for each sparse element of `accessor`, which has `count` elements.
+// accessors[index], checked but for its ranges.
+struct Source {
+    const tinygltf::Accessor& accessor;
+    std::string name;
+    ElementType type;
+    std::size_t count = 0;
+    std::optional<Elements> elements;  // zeros without
+};
+
+Source read_source(const GltfDocument& document, std::size_t index) {
+    const tinygltf::Accessor& accessor = document.model.accessors.at(index);
+    const std::string name = fmt::format("accessors[{}]", index);
+    Source source{.accessor = accessor,
+                  .name = name,
+                  .type = {checked_component(accessor.componentType, name), width_of(accessor, name)},
+                  .elements = {}};
+    source.count = static_cast<std::size_t>(checked_count(document, accessor.count, name));
+    if (accessor.bufferView != -1)
+        source.elements =
+            locate(document, {name, accessor.bufferView, accessor.byteOffset}, source.type, source.count);
+    return source;
+}
+
+bool is_unsigned(Component component) {
+    return component == Component::u8 || component == Component::u16 || component == Component::u32;
+}
+
+// Calls put(place, elements, which) for each sparse element of `source`.
 template <class Put>
-void for_each_sparse(GltfDocument& document, const JsonItem& accessor, const ElementType& type, Put put) {
-    if (!has(accessor, "sparse")) return;
-    const JsonItem sparse = child(accessor, "sparse");
-    const std::uint64_t count = read_element_count(document, accessor);
-    const std::uint64_t stored = read_element_count(document, sparse);
-    if (stored > count) throw MeshFault(sparse.name + ".count is above that of its accessor");
-    const JsonItem indices = child(sparse, "indices");
-    const Component index_type = read_component(indices);
-    if (index_type != Component::u8 && index_type != Component::u16 && index_type != Component::u32)
-        throw MeshFault(indices.name + ".componentType is not unsigned");
-    const Elements places = locate(document, indices, {index_type, 1}, stored);
-    const Elements values = locate(document, child(sparse, "values"), type, stored);
+void for_each_sparse(const GltfDocument& document, const Source& source, Put put) {
+    const auto& sparse = source.accessor.sparse;
+    if (!sparse.isSparse) return;
+    const std::string name = source.name + ".sparse";
+    // A number below 0, which the form of a document lets no field have, is far above every limit.
+    const std::uint64_t stored = checked_count(document, static_cast<std::uint64_t>(sparse.count), name);
+    if (stored > source.count) throw MeshFault(name + ".count is above that of its accessor");
+    const Component index_type = checked_component(sparse.indices.componentType, name + ".indices");
+    if (!is_unsigned(index_type)) throw MeshFault(name + ".indices.componentType is not unsigned");
+    const Elements places = locate(
+        document,
+        {name + ".indices", sparse.indices.bufferView, static_cast<std::uint64_t>(sparse.indices.byteOffset)},
+        {index_type, 1}, stored);
+    const Elements values = locate(
+        document,
+        {name + ".values", sparse.values.bufferView, static_cast<std::uint64_t>(sparse.values.byteOffset)},
+        source.type, stored);
     for (std::size_t i = 0; i < stored; ++i) {
         const std::uint32_t place = bits_at(element(places, i), bytes_of(index_type));
-        if (place >= count)
-            throw MeshFault(fmt::format("{} names element {} of {}", indices.name, place, count));
+        if (place >= source.count)
+            throw MeshFault(fmt::format("{}.indices names element {} of {}", name, place, source.count));
         put(place, values, i);
     }
 }
 
 }  // namespace
 
-AccessorValues read_accessor(GltfDocument& document, std::size_t index) {
-    const JsonItem accessor = list_item(document.root, "accessors", index);
-    const ElementType type = {read_component(accessor), read_width(accessor)};
-    const bool is_normalized = read_flag(accessor, "normalized", false);
-    AccessorValues result;
-    const std::uint64_t count = read_element_count(document, accessor);
-    std::optional<Elements> elements;
-    if (has(accessor, "bufferView")) elements = locate(document, accessor, type, count);
-    result.count = static_cast<std::size_t>(count);
-    result.width = type.width;
-    result.values.resize(result.count * result.width);
-    const auto target = [&](std::size_t i) {
-        return std::span(result.values).subspan(i * type.width, type.width);
-    };
-    for (std::size_t i = 0; elements && i < result.count; ++i)
-        copy_values(*elements, i, is_normalized, target(i));
-    for_each_sparse(document, accessor, type, [&](std::size_t place, const Elements& values, std::size_t i) {
+AccessorValues read_accessor(const GltfDocument& document, std::size_t index) {
+    const Source source = read_source(document, index);
+    const bool is_normalized = source.accessor.normalized;
+    const std::size_t width = source.type.width;
+    AccessorValues result{.count = source.count, .width = width, .values = {}};
+    result.values.resize(result.count * width);
+    const auto target = [&](std::size_t i) { return std::span(result.values).subspan(i * width, width); };
+    for (std::size_t i = 0; source.elements && i < result.count; ++i)
+        copy_values(*source.elements, i, is_normalized, target(i));
+    for_each_sparse(document, source, [&](std::size_t place, const Elements& values, std::size_t i) {
         copy_values(values, i, is_normalized, target(place));
     });
     return result;
 }
 
-std::vector<std::uint32_t> read_vertex_indices(GltfDocument& document, std::size_t index,
+std::vector<std::uint32_t> read_vertex_indices(const GltfDocument& document, std::size_t index,
                                                std::size_t vertex_count) {
-    const JsonItem accessor = list_item(document.root, "accessors", index);
-    const ElementType type = {read_component(accessor), read_width(accessor)};
-    if (type.width != 1 || (type.component != Component::u8 && type.component != Component::u16 &&
-                            type.component != Component::u32))
-        throw MeshFault(accessor.name + " holds vertex indices, but is not an unsigned SCALAR");
-    const std::uint64_t count = read_element_count(document, accessor);
-    std::optional<Elements> elements;
-    if (has(accessor, "bufferView")) elements = locate(document, accessor, type, count);
-    std::vector<std::uint32_t> indices(static_cast<std::size_t>(count));
-    const std::size_t size = bytes_of(type.component);
-    for (std::size_t i = 0; elements && i < indices.size(); ++i)
-        indices[i] = bits_at(element(*elements, i), size);
-    for_each_sparse(document, accessor, type, [&](std::size_t place, const Elements& values, std::size_t i) {
+    const Source source = read_source(document, index);
+    if (source.type.width != 1 || !is_unsigned(source.type.component))
+        throw MeshFault(source.name + " holds vertex indices, but is not an unsigned SCALAR");
+    std::vector<std::uint32_t> indices(source.count);
+    const std::size_t size = bytes_of(source.type.component);
+    for (std::size_t i = 0; source.elements && i < indices.size(); ++i)
+        indices[i] = bits_at(element(*source.elements, i), size);
+    for_each_sparse(document, source, [&](std::size_t place, const Elements& values, std::size_t i) {
         indices[place] = bits_at(element(values, i), size);
     });
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= vertex_count)
-            throw MeshFault(fmt::format("{} element {} names vertex {} of {}", accessor.name, i, indices[i],
-                                        vertex_count));
+            throw MeshFault(
+                fmt::format("{} element {} names vertex {} of {}", source.name, i, indices[i], vertex_count));
     }
     return indices;
 }

@@ -18,10 +18,10 @@ struct AccessorValues {
 // accessors[index] as floats, normalised as it says, sparse values put in. Each range is checked in 64 bits
 // against its view before it is read. Throws MeshFault, also where it has more than limits.vertices elements.
 // Source: glTF 2.0 specification, section 3.6.2 and 3.11.
-[[nodiscard]] AccessorValues read_accessor(GltfDocument& document, std::size_t index);
+[[nodiscard]] AccessorValues read_accessor(const GltfDocument& document, std::size_t index);
 
 // The same for indices: whole numbers of a SCALAR accessor without sign, below `vertex_count`.
-[[nodiscard]] std::vector<std::uint32_t> read_vertex_indices(GltfDocument& document, std::size_t index,
+[[nodiscard]] std::vector<std::uint32_t> read_vertex_indices(const GltfDocument& document, std::size_t index,
                                                              std::size_t vertex_count);
 
 }  // namespace voxilux

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "voxelize/load_mesh.h"
 
@@ -11,23 +12,26 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLargestCount = 9007199254740992.0;  // 2^53: whole numbers are exact in a double up to here
+constexpr double kLargestWhole = 9007199254740992.0;  // 2^53: whole numbers are exact in a double up to here
 
 const json* find(const JsonItem& item, const char* key) {
     const auto found = item.json->find(key);
     return found == item.json->end() ? nullptr : &*found;
 }
 
-[[noreturn]] void refuse(const JsonItem& item, const char* key, const std::string& what) {
-    throw MeshFault(fmt::format("{}{}{} {}", item.name, item.name.empty() ? "" : ".", key, what));
-}
-
-std::uint64_t count_of(const json& value, const JsonItem& item, const char* key) {
+std::uint64_t whole_of(const json& value, const JsonItem& item, const char* key) {
     if (!value.is_number()) refuse(item, key, "is not a number");
     const double number = value.get<double>();
-    if (!(number >= 0.0) || number > kLargestCount || number != std::floor(number))
+    if (!(number >= 0.0) || number > kLargestWhole || number != std::floor(number))
         refuse(item, key, "is not a whole number from 0 to 2^53");
     return static_cast<std::uint64_t>(number);
+}
+
+int int_of(const json& value, const JsonItem& item, const char* key) {
+    const std::uint64_t whole = whole_of(value, item, key);
+    if (whole > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+        refuse(item, key, fmt::format("is {}: numbers from 2^31 on are not read here", whole));
+    return static_cast<int>(whole);
 }
 
 double number_of(const json& value, const JsonItem& item, const char* key) {
@@ -37,31 +41,32 @@ double number_of(const json& value, const JsonItem& item, const char* key) {
     return number;
 }
 
-const json* find_array(const JsonItem& item, const char* key) {
-    const json* value = find(item, key);
-    if (value != nullptr && !value->is_array()) refuse(item, key, "is not an array");
-    return value;
+const std::string& text_of(const json& value, const JsonItem& item, const char* key) {
+    if (!value.is_string()) refuse(item, key, "is not a text");
+    return value.get_ref<const std::string&>();
 }
 
-std::size_t index_of(const json& value, const JsonItem& item, const char* key, const char* list,
-                     std::size_t size) {
-    const std::uint64_t index = count_of(value, item, key);
-    if (index >= size) refuse(item, key, fmt::format("names {}[{}], but there are {}", list, index, size));
-    return index;
+const json& array_at(const JsonItem& item, const char* key) {
+    const json& value = item.json->at(key);
+    if (!value.is_array()) refuse(item, key, "is not an array");
+    return value;
 }
 
 }  // namespace
 
-std::size_t list_size(const JsonItem& root, const char* key) {
-    const json* list = find_array(root, key);
-    return list == nullptr ? 0 : list->size();
+void refuse(const JsonItem& item, const char* key, const std::string& what) {
+    throw MeshFault(fmt::format("{}{}{} {}", item.name, item.name.empty() ? "" : ".", key, what));
 }
 
-JsonItem list_item(const JsonItem& root, const char* key, std::size_t index) {
-    const json& value = find_array(root, key)->at(index);
-    JsonItem item = {&value, fmt::format("{}{}{}[{}]", root.name, root.name.empty() ? "" : ".", key, index)};
-    if (!value.is_object()) throw MeshFault(item.name + " is not an object");
-    return item;
+std::size_t list_size(const JsonItem& item, const char* key) {
+    return has(item, key) ? array_at(item, key).size() : 0;
+}
+
+JsonItem list_item(const JsonItem& item, const char* key, std::size_t index) {
+    const json& value = array_at(item, key).at(index);
+    JsonItem found = {&value, fmt::format("{}{}{}[{}]", item.name, item.name.empty() ? "" : ".", key, index)};
+    if (!value.is_object()) throw MeshFault(found.name + " is not an object");
+    return found;
 }
 
 JsonItem child(const JsonItem& item, const char* key) {
@@ -76,67 +81,49 @@ bool has(const JsonItem& item, const char* key) {
     return find(item, key) != nullptr;
 }
 
-JsonItem extension(const JsonItem& item, const char* key) {
-    return child(child(item, "extensions"), key);
+std::uint64_t read_whole(const JsonItem& item, const char* key) {
+    return whole_of(item.json->at(key), item, key);
 }
 
-std::optional<std::uint64_t> read_count(const JsonItem& item, const char* key) {
-    const json* value = find(item, key);
-    if (value == nullptr) return std::nullopt;
-    return count_of(*value, item, key);
+int read_int(const JsonItem& item, const char* key) {
+    return int_of(item.json->at(key), item, key);
 }
 
-std::uint64_t require_count(const JsonItem& item, const char* key) {
-    const auto count = read_count(item, key);
-    if (!count) refuse(item, key, "is missing");
-    return *count;
+std::vector<int> read_ints(const JsonItem& item, const char* key) {
+    std::vector<int> numbers;
+    for (const json& value : array_at(item, key))
+        numbers.push_back(int_of(value, item, key));
+    return numbers;
 }
 
-std::optional<std::size_t> read_index(const JsonItem& item, const char* key, const JsonItem& root,
-                                      const char* list) {
-    const json* value = find(item, key);
-    if (value == nullptr) return std::nullopt;
-    return index_of(*value, item, key, list, list_size(root, list));
+double read_number(const JsonItem& item, const char* key) {
+    return number_of(item.json->at(key), item, key);
 }
 
-double read_number(const JsonItem& item, const char* key, double fallback) {
-    const json* value = find(item, key);
-    return value == nullptr ? fallback : number_of(*value, item, key);
+std::vector<double> read_numbers(const JsonItem& item, const char* key, std::size_t size) {
+    const json& list = array_at(item, key);
+    if (list.size() != size) refuse(item, key, fmt::format("has {} numbers, not {}", list.size(), size));
+    std::vector<double> numbers;
+    for (const json& value : list)
+        numbers.push_back(number_of(value, item, key));
+    return numbers;
 }
 
-bool read_flag(const JsonItem& item, const char* key, bool fallback) {
-    const json* value = find(item, key);
-    if (value == nullptr) return fallback;
-    if (!value->is_boolean()) refuse(item, key, "is neither true nor false");
-    return value->get<bool>();
+bool read_flag(const JsonItem& item, const char* key) {
+    const json& value = item.json->at(key);
+    if (!value.is_boolean()) refuse(item, key, "is neither true nor false");
+    return value.get<bool>();
 }
 
-std::string read_text(const JsonItem& item, const char* key, const std::string& fallback) {
-    const json* value = find(item, key);
-    if (value == nullptr) return fallback;
-    if (!value->is_string()) refuse(item, key, "is not a text");
-    return value->get_ref<const std::string&>();
+const std::string& read_text(const JsonItem& item, const char* key) {
+    return text_of(item.json->at(key), item, key);
 }
 
-bool read_numbers(const JsonItem& item, const char* key, std::span<double> wanted) {
-    const json* list = find_array(item, key);
-    if (list == nullptr) return false;
-    if (list->size() != wanted.size())
-        refuse(item, key, fmt::format("has {} numbers, not {}", list->size(), wanted.size()));
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        wanted[i] = number_of((*list)[i], item, key);
-    return true;
-}
-
-std::vector<std::size_t> read_indices(const JsonItem& item, const char* key, const JsonItem& root,
-                                      const char* list) {
-    std::vector<std::size_t> indices;
-    const json* values = find_array(item, key);
-    if (values == nullptr) return indices;
-    const std::size_t size = list_size(root, list);
-    for (const json& value : *values)
-        indices.push_back(index_of(value, item, key, list, size));
-    return indices;
+std::vector<std::string> read_texts(const JsonItem& item, const char* key) {
+    std::vector<std::string> texts;
+    for (const json& value : array_at(item, key))
+        texts.push_back(text_of(value, item, key));
+    return texts;
 }
 
 }  // namespace voxilux

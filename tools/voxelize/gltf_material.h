@@ -37,7 +37,7 @@ struct GltfMaterials {
 
 // The index in mesh.materials of a material, which is read, with the images that it uses, on its first use.
 // Source: glTF 2.0, section 3.9; the KHR_materials extensions of the same name as the fields.
-[[nodiscard]] std::uint32_t use_material(GltfDocument& document, const MaterialUse& use, GltfMaterials& known,
-                                         Mesh& mesh, MeshNotes& notes);
+[[nodiscard]] std::uint32_t use_material(const GltfDocument& document, const MaterialUse& use,
+                                         GltfMaterials& known, Mesh& mesh, MeshNotes& notes);
 
 }  // namespace voxilux

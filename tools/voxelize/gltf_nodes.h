@@ -5,7 +5,8 @@
 
 #include <glm/glm.hpp>
 
-#include "voxelize/gltf_document.h"
+#include "voxelize/gltf_model.h"
+#include "voxelize/mesh.h"
 #include "voxelize/mesh_notes.h"
 
 namespace voxilux {
@@ -24,7 +25,7 @@ struct PlacedNodes {
 // What stands in one scene: `scene`, else the file's own choice, else its first; in a file without scenes,
 // every node. Orthographic cameras and skins are noted and left out. Throws MeshFault for a scene that is not
 // there, and for a node that is reached twice: a cycle, or two parents. Source: glTF 2.0, section 3.5.
-[[nodiscard]] PlacedNodes place_nodes(const JsonItem& root, std::optional<std::size_t> scene,
+[[nodiscard]] PlacedNodes place_nodes(const tinygltf::Model& model, std::optional<std::size_t> scene,
                                       MeshNotes& notes);
 
 }  // namespace voxilux

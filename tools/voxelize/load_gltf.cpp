@@ -32,10 +32,18 @@ struct Loading {
     std::uint64_t triangles_read = 0;
 };
 
-AttributeKey read_attributes(const Loading& loading, const JsonItem& primitive) {
-    const JsonItem attributes = child(primitive, "attributes");
-    const auto index = [&](const char* key) {
-        return read_index(attributes, key, loading.document.root, "accessors");
+// A part of a mesh of the file, and what to call it in messages.
+struct Part {
+    const tinygltf::Primitive& primitive;
+    std::string name;
+};
+
+AttributeKey read_attributes(const Loading& loading, const Part& part) {
+    const auto index = [&](const char* key) -> std::optional<std::size_t> {
+        const auto found = part.primitive.attributes.find(key);
+        if (found == part.primitive.attributes.end()) return std::nullopt;
+        return checked_index(found->second, loading.document.model.accessors.size(),
+                             fmt::format("{}.attributes.{}", part.name, key), "accessors");
     };
     return {index("POSITION"), index("TEXCOORD_0"), index("TEXCOORD_1"), index("COLOR_0")};
 }
@@ -90,12 +98,12 @@ void append_colors(Loading& loading, std::optional<std::size_t> accessor, const 
 }
 
 // Positions that are all zero by omission are those of a mesh whose data only an extension can unpack.
-void check_has_data(const Loading& loading, const JsonItem& primitive, std::size_t positions) {
-    const JsonItem accessor = list_item(loading.document.root, "accessors", positions);
-    if (has(accessor, "bufferView") || has(accessor, "sparse")) return;
-    const bool is_draco = has(child(primitive, "extensions"), "KHR_draco_mesh_compression");
+void check_has_data(const Loading& loading, const Part& part, std::size_t positions) {
+    const tinygltf::Accessor& accessor = loading.document.model.accessors[positions];
+    if (accessor.bufferView != -1 || accessor.sparse.isSparse) return;
+    const bool is_draco = part.primitive.extensions.contains("KHR_draco_mesh_compression");
     throw MeshFault(
-        fmt::format("{} holds positions, but has no data{}", accessor.name,
+        fmt::format("accessors[{}] holds positions, but has no data{}", positions,
                     is_draco ? " but that of KHR_draco_mesh_compression, which is not read" : ""));
 }
 
@@ -121,7 +129,7 @@ VertexRange append_vertices(Loading& loading, const AttributeKey& key, const glm
 
 // The corners of the triangles of a list, a strip or a fan of `count` vertices. Source: glTF 2.0, section
 // 3.7.2.1.
-enum class Topology : std::uint64_t { list = 4, strip = 5, fan = 6 };
+enum class Topology { list = 4, strip = 5, fan = 6 };
 
 glm::uvec3 triangle_corners(Topology topology, std::uint32_t i) {
     switch (topology) {
@@ -174,34 +182,36 @@ void append_triangles(Loading& loading, const Corners& corners, std::uint32_t ma
     }
 }
 
-bool holds_triangles(const JsonItem& primitive, MeshNotes& notes) {
-    const std::uint64_t mode = read_count(primitive, "mode").value_or(4);
-    if (mode > 6) throw MeshFault(fmt::format("{}.mode {} is not one of glTF 2.0", primitive.name, mode));
+bool holds_triangles(const Part& part, MeshNotes& notes) {
+    const int mode = part.primitive.mode;
+    if (mode < 0 || mode > 6)
+        throw MeshFault(fmt::format("{}.mode {} is not one of glTF 2.0", part.name, mode));
     if (mode < 4) ++notes["points or lines are left out"];
     return mode >= 4;
 }
 
-void append_primitive(Loading& loading, const JsonItem& primitive, const glm::dmat4& matrix,
+void append_primitive(Loading& loading, const Part& part, const glm::dmat4& matrix,
                       std::map<AttributeKey, VertexRange>& shared) {
     if (++loading.parts_read > loading.document.limits.parts)
         throw MeshFault(fmt::format("over {} parts of meshes are not read", loading.document.limits.parts));
-    if (!holds_triangles(primitive, loading.notes)) return;
-    const AttributeKey key = read_attributes(loading, primitive);
-    const JsonItem& root = loading.document.root;
+    if (!holds_triangles(part, loading.notes)) return;
+    const AttributeKey key = read_attributes(loading, part);
+    const tinygltf::Model& model = loading.document.model;
     if (!key[0]) {
         ++loading.notes["a part of a mesh is left out: it has no positions"];
         return;
     }
-    if (has(primitive, "targets"))
+    if (!part.primitive.targets.empty())
         ++loading.notes["morph targets are ignored: the mesh is read without them"];
-    check_has_data(loading, primitive, *key[0]);
+    check_has_data(loading, part, *key[0]);
     if (!shared.contains(key)) shared[key] = append_vertices(loading, key, matrix);
-    Corners corners{.vertices = shared[key],
-                    .topology = static_cast<Topology>(read_count(primitive, "mode").value_or(4))};
-    const auto indices = read_index(primitive, "indices", root, "accessors");
+    Corners corners{.vertices = shared[key], .topology = static_cast<Topology>(part.primitive.mode)};
+    const auto indices =
+        checked_index(part.primitive.indices, model.accessors.size(), part.name + ".indices", "accessors");
     if (indices) corners.indices = read_vertex_indices(loading.document, *indices, corners.vertices.count);
-    const MaterialUse use = {read_index(primitive, "material", root, "materials"), key[1].has_value(),
-                             key[2].has_value()};
+    const MaterialUse use = {
+        checked_index(part.primitive.material, model.materials.size(), part.name + ".material", "materials"),
+        key[1].has_value(), key[2].has_value()};
     const std::uint32_t material =
         use_material(loading.document, use, loading.materials, loading.mesh, loading.notes);
     append_triangles(loading, corners, material, indices.has_value());
@@ -214,13 +224,16 @@ Mesh load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& fo
     Loading loading{
         .document = parse_gltf(bytes, folder, request.limits), .materials = {}, .mesh = {}, .notes = notes};
     loading.materials.budget.limits = request.limits;
-    PlacedNodes placed = place_nodes(loading.document.root, request.scene, notes);
+    const tinygltf::Model& model = loading.document.model;
+    PlacedNodes placed = place_nodes(model, request.scene, notes);
     loading.mesh.cameras = std::move(placed.cameras);
     for (const PlacedMesh& place : placed.meshes) {
-        const JsonItem item = list_item(loading.document.root, "meshes", place.mesh);
+        const auto& primitives = model.meshes[place.mesh].primitives;
         std::map<AttributeKey, VertexRange> shared;
-        for (std::size_t i = 0; i < list_size(item, "primitives"); ++i)
-            append_primitive(loading, list_item(item, "primitives", i), place.matrix, shared);
+        for (std::size_t i = 0; i < primitives.size(); ++i) {
+            const Part part = {primitives[i], fmt::format("meshes[{}].primitives[{}]", place.mesh, i)};
+            append_primitive(loading, part, place.matrix, shared);
+        }
     }
     return std::move(loading.mesh);
 }

@@ -52,8 +52,8 @@ Look look_of(const MeshMaterial& material, const SurfaceColor& value) {
 }
 
 std::uint16_t packed(const Look& look) {
-    return static_cast<std::uint16_t>(static_cast<unsigned>(look.kind) << 11 | look.rough << 8 |
-                                      look.level << 4 | look.ior);
+    return static_cast<std::uint16_t>(static_cast<unsigned>(look.kind) << 11 | unsigned{look.rough} << 8 |
+                                      unsigned{look.level} << 4 | look.ior);
 }
 
 Look unpacked(std::uint16_t bits) {
