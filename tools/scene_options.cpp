@@ -25,6 +25,7 @@ void add_sampling_flags(CLI::App& command, SceneOptions& options) {
         ->type_name("N")
         ->excludes("--spp")
         ->group(kSampling);
+    add_photon_flags(command, options.photons);
     command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
         ->type_name("N")
         ->group(kSampling);
@@ -99,6 +100,7 @@ Scene load_scene_with(const SceneOptions& options) {
     if (options.sequence) sequence = parse_sequence(*options.sequence);
     std::optional<AoMethod> ao;
     if (options.ao) ao = parse_ao_method(*options.ao);
+    (void)with_photons({}, options.photons);
 
     Scene scene = load_scene(options.input, {.overrides = options.overrides});
     RenderSettings& settings = scene.settings;
@@ -109,6 +111,7 @@ Scene load_scene_with(const SceneOptions& options) {
     settings.seed = options.seed.value_or(settings.seed);
     settings.sequence = sequence.value_or(settings.sequence);
     settings.ao.method = ao.value_or(settings.ao.method);
+    settings.photons = with_photons(settings.photons, options.photons);
     if (view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
         scene.camera = framing_camera(scene, *view, fov_y_deg);

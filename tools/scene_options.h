@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frame_list.h"
+#include "photon_options.h"
 #include "plan/render_plan.h"
 #include "scene/scene.h"
 
@@ -20,6 +21,7 @@ struct SceneOptions {
     std::optional<std::string> camera;
     std::optional<std::uint32_t> spp;
     std::optional<std::uint32_t> iterations;  // another name of spp
+    PhotonOptions photons;
     std::optional<std::uint32_t> ao_rays;
     std::optional<float> ao_radius;
     std::optional<std::uint32_t> seed;

@@ -31,9 +31,9 @@ constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
 double stored_per_photon(double most_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
+    if (!settings.roulette) return settings.depth;  // no path ends before, however dark the surfaces
     const double endless = 1.0 / std::max(1.0 - most_albedo, 1.0 / kMostStored);
-    const double deep = settings.roulette ? kMostStored : static_cast<double>(settings.depth);
-    return std::min(kStoreMargin * endless, deep);
+    return std::min(kStoreMargin * endless, kMostStored);
 }
 
 std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {

@@ -67,10 +67,10 @@ void check_shard(const RenderPlan& plan) {
         throw Error(ExitCode::usage,
                     "--shard: samples that share occlusion depend on those before; use --ao brute");
     }
-    if (plan.keeps_radii()) {
+    if (plan.has_own_radii()) {
         throw Error(
             ExitCode::usage,
-            "--shard: iterations with classic radii depend on those before; use photons.classic = false");
+            "--shard: classic radii of photons depend on the samples before; use photons.classic=false");
     }
     if (plan.samples() == 0) {
         throw Error(ExitCode::usage, fmt::format("--shard {}/{}: a render of {} samples has no such shard",

@@ -96,6 +96,8 @@ struct RenderPlan {
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
     [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
     [[nodiscard]] bool has_photons() const { return has(Effect::caustics) || has(Effect::indirect); }
+    // Radii of photons that outlive a sample: it depends on those before.
+    [[nodiscard]] bool has_own_radii() const { return has_photons() && settings.photons.classic; }
     // Whether samples of a pixel are independent of each other, so that their variance tells the error of
     // their mean. Those of a low-discrepancy sequence are not: they err less.
     // Iterations of photons are independent whatever leads the camera's rays.
@@ -104,7 +106,6 @@ struct RenderPlan {
     }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
-    [[nodiscard]] bool keeps_radii() const { return has_photons() && settings.photons.classic; }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const { return has_photons() && !settings.photons.radius; }
     [[nodiscard]] std::uint64_t total_bytes() const;

@@ -4,13 +4,6 @@
 #include "scene/toml_section.h"
 
 namespace voxilux {
-namespace {
-
-constexpr std::int64_t kMostPhotons = std::int64_t{1} << 24;
-constexpr double kLargestRadius = 65536.0;
-constexpr std::int64_t kDeepest = 4096;
-
-}  // namespace
 
 void read_photons(TomlScene& in) {
     const toml::table* table = find_section(in, "photons");
@@ -18,14 +11,14 @@ void read_photons(TomlScene& in) {
     const TomlSection section(*table, "[photons]",
                               {"count", "radius", "alpha", "scatter", "classic", "roulette", "depth"});
     PhotonSettings& photons = in.scene.settings.photons;
-    if (const auto count = section.integer("count", 0, kMostPhotons))
+    if (const auto count = section.integer("count", 0, PhotonSettings::kMostCount))
         photons.count = static_cast<std::uint32_t>(*count);
-    photons.radius = section.number("radius", {0.0, kLargestRadius, true});
+    photons.radius = section.number("radius", {0.0, PhotonSettings::kLargestRadius, true});
     photons.alpha = section.number("alpha", {0.0, 1.0, true}).value_or(photons.alpha);
     photons.scatter = section.boolean("scatter").value_or(photons.scatter);
     photons.classic = section.boolean("classic").value_or(photons.classic);
     photons.roulette = section.boolean("roulette").value_or(photons.roulette);
-    if (const auto depth = section.integer("depth", 1, kDeepest))
+    if (const auto depth = section.integer("depth", 1, PhotonSettings::kDeepest))
         photons.depth = static_cast<std::uint32_t>(*depth);
 }
 

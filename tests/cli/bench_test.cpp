@@ -162,5 +162,76 @@ TEST(BenchAo, scene_without_voxels_is_refused) {
         << ending.err;
 }
 
+Words small_photons(const Words& more) {
+    Words words = {"bench",     "photons", scene_file("cornell"), "--size", "32x32",
+                   "--photons", "2000",    "--iterations",        "4",      "--rounds",
+                   "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(BenchPhotons, prints_rows_with_their_keys_for_each_variant) {
+    const Ending ending = run(small_photons({"--growth", "none", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(ending.err, "");
+    const Json json = Json::parse(ending.out);
+    EXPECT_EQ(json["growth"].size(), 0u);
+    const Json& rows = json["rows"];
+    ASSERT_EQ(rows.size(), 4u);
+    for (const Json& row : rows) {
+        EXPECT_EQ(keys_of(row),
+                  (std::set<std::string>{
+                      "scene",     "series", "variant",  "photons",  "size",   "iterations", "radius",
+                      "alpha",     "method", "classic",  "roulette", "wall_s", "cpu_s",      "photons_per_s",
+                      "passes_ms", "stored", "segments", "faults",   "relmse", "mean_off",   "floor"}));
+        EXPECT_EQ(row["photons"], 2000);
+        EXPECT_EQ(row["iterations"], row["variant"] == "scatter" ? 1 : 4);
+        EXPECT_EQ(row["passes_ms"].contains("photon.gather"), row["method"] == "gather");
+        EXPECT_GT(row["passes_ms"]["photon.trace"], 0.0);
+        EXPECT_GT(row["photons_per_s"], 0.0);
+        EXPECT_TRUE(row["relmse"].is_null());
+        EXPECT_EQ(row["faults"], 0) << row;
+    }
+    // Paths that chance does not end are longer.
+    EXPECT_GT(rows[1]["segments"], rows[0]["segments"]);
+    EXPECT_GT(rows[1]["stored"], rows[0]["stored"]);
+}
+
+TEST(BenchPhotons, errors_are_those_against_the_reference) {
+    const ScratchFolder scratch;
+    const Ending picture = run({"render", scene_file("cornell"), "--size", "32x32", "--photons", "2000",
+                                "--radius", "2", "--iterations", "4", "-o", scratch / "a.exr"});
+    ASSERT_EQ(picture.code, 0) << picture.err;
+    const Ending ending =
+        run(small_photons({"--growth", "none", "--variant", "gather,no-roulette", "--reference",
+                           scratch / "a.exr", "--box", "8,8,24,24", "--json", "-"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    const Json rows = Json::parse(ending.out)["rows"];
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_LT(rows[0]["relmse"], 1e-6);  // the same render, rounded to half floats
+    EXPECT_LT(rows[0]["floor"], 1e-3);
+    EXPECT_GT(rows[1]["relmse"], 1e-4);
+    EXPECT_GT(rows[1]["floor"], 1e-3);
+}
+
+TEST(BenchPhotons, growth_has_an_exponent_for_time_and_passes) {
+    const ScratchFolder scratch;
+    const Ending ending = run(
+        small_photons({"--variant", "gather", "--growth", "iterations", "--json", scratch / "rows.json"}));
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    EXPECT_NE(ending.out.find("exponent  of iterations: wall "), std::string::npos) << ending.out;
+    const Json json = Json::parse(bytes_of(scratch / "rows.json"));
+    EXPECT_EQ(json["rows"].size(), 4u);
+    ASSERT_EQ(json["growth"].size(), 1u);
+    EXPECT_EQ(json["growth"][0]["series"], "iterations");
+    EXPECT_GT(json["growth"][0]["passes"]["photon.trace"], 0.0);
+}
+
+TEST(BenchPhotons, scene_that_calls_for_none_is_refused) {
+    const Ending ending = run({"bench", "photons", scene_file("spheres"), "--size", "8x8"});
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_NE(ending.err.find("no photons are called for"), std::string::npos) << ending.err;
+}
+
 }  // namespace
 }  // namespace voxilux::test

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "--sequence: there is no 'sobl'; did you mean 'sobol'?"},
         Refused{"camera", with({"--camera", "frnt"}), "--camera: there is no 'frnt'; did you mean 'front'?"},
         Refused{"effect_unknown", with({"--effect", "fog=on"}),
-                "known are voxels, spheres, ao, sun, sky, emission, aov"},
+                "known are voxels, spheres, specular, ao, sun, sky, emission, direct, caustics"},
         Refused{"effect_without_state", with({"--effect", "ao"}), "must be NAME=on, NAME=off or NAME=auto"},
         Refused{"time_limit", with({"--time-limit", "soon"}), "--time-limit: 'soon' is not a time"},
         Refused{"error", with({"--error", "0"}), "--error: '0' is not a share above 0"},
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"device", with({"--device", "no such"}), "--device no such: no such device; there are: 0: "},
         Refused{"device_number", with({"--device", "99"}), "--device 99"},
         Refused{"output_ending", {"render", scene_file("one_voxel"), "-o", "a.jpg"}, "must be .exr or .png"},
-        Refused{"bench_what", {"bench"}, "bench what? known: march, ao"},
+        Refused{"bench_what", {"bench"}, "bench what? known: march, ao, photons"},
         Refused{"bench_unknown", {"bench", "marsh"}, "there is no bench 'marsh'; did you mean 'march'?"},
         Refused{"bench_unknown_flag", bench({"--extents", "32"}),
                 "no flag --extents; did you mean '--extent'?"},
@@ -117,6 +117,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "--reference: 65536 is not from 1 to 65535"},
         Refused{"bench_ao_extent", bench_ao({"--extent", "40"}), "--extent: 40 is not a multiple of 16"},
         Refused{"bench_ao_size", bench_ao({"--size", "64"}), "--size: '64' is not WIDTHxHEIGHT"},
+        Refused{"bench_photons_variant",
+                {"bench", "photons", "--variant", "scater"},
+                "no variant 'scater'; there are gather, no-roulette, classic, scatter"},
+        Refused{"bench_photons_growth",
+                {"bench", "photons", "--growth", "time"},
+                "--growth: there is no 'time'; there are photons, size, iterations, none"},
+        Refused{"bench_photons_rounds", {"bench", "photons", "--rounds", "0"}, "--rounds: 0 is not from 1"},
+        Refused{
+            "bench_photons_iterations", {"bench", "photons", "--iterations", "0"}, "--iterations: 0 is not"},
+        Refused{
+            "bench_photons_radius", {"bench", "photons", "--radius", "0"}, "--radius: '0' is neither auto"},
+        Refused{"bench_photons_box", {"bench", "photons", "--box", "0,0,2,2"}, "--box: there is nothing"},
         Refused{"bench_device", bench({"--device", "no such"}), "--device no such: no such device"},
         Refused{"compare_one_image", {"compare", "a.exr"}, "TEST is required"},
         Refused{"compare_box", {"compare", "a", "b", "--box", "1,2,3"}, "--box: '1,2,3' is not X0,Y0,X1,Y1"},
@@ -126,6 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 Words with_exr(Words more) {
     Words words = {"render", scene_file("turntable"), "-o", "a.exr", "-o", "b.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+Words classic_exr(Words more) {
+    Words words = {"render", scene_file("cornell"), "-D", "photons.classic=true", "--size", "8x8", "-o",
+                   "a.exr"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -150,6 +169,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"resume_of_a_png", with({"--resume"}), "checkpoints lie beside an EXR"},
         Refused{"resume_of_a_range", with_exr({"--resume", "--frames", "1-3"}),
                 "--resume is for one picture"},
+        Refused{"shard_of_classic_radii", classic_exr({"--shard", "1/2"}), "--shard: classic radii"},
+        Refused{"resume_of_classic_radii", classic_exr({"--resume"}), "--resume: classic radii"},
         Refused{"resume_of_cells", with_exr({"--resume", "--ao", "hash"}), "--resume: pixels that share"},
         Refused{"checkpoint_of_a_png", with({"--checkpoint", "5"}), "checkpoints lie beside an EXR"},
         Refused{"checkpoint_below_0", with_exr({"--checkpoint=-1"}),
@@ -161,13 +182,30 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Flags of effects and tools that do not exist yet must not be taken silently.
 INSTANTIATE_TEST_SUITE_P(later, UsageError,
-                         testing::Values(Refused{"photons", with({"--photons", "3"}), "no flag --photons"},
-                                         Refused{"radius", with({"--radius", "3"}), "no flag --radius"},
-                                         Refused{"alpha", with({"--alpha", "0.7"}), "no flag --alpha"},
-                                         Refused{"traversal", with({"--traversal", "octree"}),
+                         testing::Values(Refused{"traversal", with({"--traversal", "octree"}),
                                                  "no traversal 'octree'"},
                                          Refused{"metric", with({"--metric", "flip"}), "no flag --metric"}),
                          name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    photons, UsageError,
+    testing::Values(
+        Refused{"photons_negative", with({"--photons=-1"}), "--photons: -1 is not from 0 to 16777216"},
+        Refused{"photons_too_many", with({"--photons", "16777217"}), "--photons: 16777217 is not from 0 to"},
+        Refused{"photons_no_number", with({"--photons", "many"}), "--photons"},
+        Refused{"radius_0", with({"--radius", "0"}), "--radius: '0' is neither auto nor a number of voxels"},
+        Refused{"radius_negative", with({"--radius=-2"}), "--radius: '-2' is neither auto"},
+        Refused{"radius_too_large", with({"--radius", "65537"}), "above 0 and up to 65536"},
+        Refused{"radius_no_number", with({"--radius", "2x"}), "--radius: '2x' is neither auto"},
+        Refused{"radius_nan", with({"--radius", "nan"}), "--radius: 'nan' is neither auto"},
+        Refused{"alpha_0", with({"--alpha", "0"}), "--alpha: 0 is not above 0 and up to 1"},
+        Refused{"alpha_too_large", with({"--alpha", "1.01"}), "--alpha: 1.01 is not above 0 and up to 1"},
+        Refused{"alpha_nan", with({"--alpha", "nan"}), "--alpha: nan is not above 0 and up to 1"},
+        Refused{"photons_before_the_file",
+                {"plan", "no_such_file.toml", "--photons=-1"},
+                "--photons: -1 is not from 0 to"},
+        Refused{"iterations_and_spp", with({"--iterations", "2", "--spp", "2"}), "--spp"}),
+    name_of);
 
 TEST(UsageErrorOf, unnamed_picture_never_replaces_a_file) {
     const ScratchFolder scratch;

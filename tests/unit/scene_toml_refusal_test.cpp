@@ -90,6 +90,29 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
+    photons, SceneTomlRefusal,
+    testing::Values(
+        Refused{"count_negative", "[photons]\ncount = -1\n",
+                "s.toml:2:9: 'count' in [photons] must be a whole number in [0, 16777216], not -1"},
+        Refused{"count_huge", "[photons]\ncount = 16777217\n",
+                "s.toml:2:9: 'count' in [photons] must be a whole number in [0, 16777216], not 16777217"},
+        Refused{"radius_zero", "[photons]\nradius = 0\n",
+                "s.toml:2:10: 'radius' in [photons] must be a number in (0, 65536], not 0"},
+        Refused{"alpha_zero", "[photons]\nalpha = 0\n",
+                "s.toml:2:9: 'alpha' in [photons] must be a number in (0, 1], not 0"},
+        Refused{"alpha_high", "[photons]\nalpha = 1.5\n",
+                "s.toml:2:9: 'alpha' in [photons] must be a number in (0, 1], not 1.5"},
+        Refused{"depth_zero", "[photons]\ndepth = 0\n",
+                "s.toml:2:9: 'depth' in [photons] must be a whole number in [1, 4096], not 0"},
+        Refused{"scatter_is_number", "[photons]\nscatter = 1\n",
+                "s.toml:2:11: 'scatter' in [photons] must be true or false, not 1"},
+        Refused{
+            "key", "[photons]\nphotons = 1\n",
+            "s.toml:2:1: unknown key 'photons' in [photons]; known: 'count', 'radius', 'alpha', 'scatter', "
+            "'classic', 'roulette', 'depth'"}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
     camera, SceneTomlRefusal,
     testing::Values(
         Refused{"fov_zero", "[camera]\nfov = 0\n",

@@ -44,6 +44,21 @@ TEST(SceneToml, all_settings_reach_the_scene) {
     EXPECT_EQ(scene.camera->fov_y_deg, 50.0);
 }
 
+TEST(SceneToml, settings_of_photons_reach_the_scene) {
+    const Scene scene = parse_scene(
+        "[photons]\ncount = 16777216\nradius = 65536\nalpha = 1\nscatter = true\nclassic = true\n"
+        "roulette = false\ndepth = 4096\n",
+        "s.toml");
+    EXPECT_EQ(scene.settings.photons, (PhotonSettings{.count = 16777216,
+                                                      .radius = 65536.0,
+                                                      .alpha = 1.0,
+                                                      .scatter = true,
+                                                      .classic = true,
+                                                      .roulette = false,
+                                                      .depth = 4096}));
+    EXPECT_EQ(parse_scene("[photons]\n", "s.toml").settings.photons, PhotonSettings{});
+}
+
 TEST(SceneToml, empty_text_gives_the_defaults) {
     EXPECT_EQ(scene_hash(parse_scene("", "s.toml")), scene_hash(Scene{}));
     EXPECT_NE(scene_hash(parse_scene("[render]\nspp = 17\n", "s.toml")), scene_hash(Scene{}));

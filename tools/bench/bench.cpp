@@ -38,7 +38,7 @@ MarchBenchOptions march_options(const BenchMarchCommand& command) {
 }
 
 CLI::App* add_bench(CLI::App& app, BenchCommand& command) {
-    CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march, ao");
+    CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march, ao, photons");
     bench->require_subcommand(1);
     CLI::App* march = bench->add_subcommand(
         "march", "rays through each structure of a world, in millions per second of CPU and of wall time");
@@ -46,11 +46,16 @@ CLI::App* add_bench(CLI::App& app, BenchCommand& command) {
     CLI::App* ao = bench->add_subcommand(
         "ao", "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays");
     add_ao_flags(*ao, command.ao);
+    CLI::App* photons = bench->add_subcommand(
+        "photons",
+        "ways of tracing photons: time of each pass, growth with the job, and error against a picture");
+    add_photon_bench_flags(*photons, command.photons);
     return bench;
 }
 
 int run_bench(const CLI::App& bench, const BenchCommand& command) {
     if (bench.got_subcommand("ao")) return run_bench_ao(command.ao);
+    if (bench.got_subcommand("photons")) return run_bench_photons(command.photons);
     return run_bench_march(command.march);
 }
 

@@ -2,6 +2,7 @@
 
 #include "bench/ao_flags.h"
 #include "bench/march_bench.h"
+#include "bench/photon_flags.h"
 
 namespace voxilux {
 
@@ -23,6 +24,7 @@ void add_march_flags(CLI::App& command, BenchMarchCommand& march);
 struct BenchCommand {
     BenchMarchCommand march;
     BenchAoCommand ao;
+    BenchPhotonsCommand photons;
 };
 
 // Declares the subcommand `bench` and what it measures; parsing fills `command`, which must outlive the app.

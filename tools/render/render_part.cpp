@@ -28,11 +28,11 @@ bool is_finished(const RenderOutcome& outcome) {
     return stop == StopReason::finished || stop == StopReason::error_target;
 }
 
-// The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that share
-// occlusion cannot be gone on from.
+// The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that depend
+// on those before cannot be gone on from.
 void save_checkpoint(const RenderCommand& command, const fs::path& file, const Scene& scene,
                      RenderOutcome outcome) {
-    if (outcome.plan.has_ao_cells()) return;
+    if (outcome.plan.has_ao_cells() || outcome.plan.has_own_radii()) return;
     try {
         FilmPart part = part_to_write(command, scene, std::move(outcome));
         const ExrOptions options = part.file;
@@ -62,10 +62,9 @@ FilmStart resume_from(const RenderCommand& command, const fs::path& file, const 
         throw Error(ExitCode::usage,
                     "--resume: pixels that share occlusion cannot go on from a checkpoint; use --ao brute");
     }
-    if (plan.keeps_radii()) {
-        throw Error(
-            ExitCode::usage,
-            "--resume: classic radii of photons are not in a checkpoint; use photons.classic = false");
+    if (plan.has_own_radii()) {
+        throw Error(ExitCode::usage,
+                    "--resume: classic radii of photons are not in a checkpoint; use photons.classic=false");
     }
     if (!fs::exists(file)) {
         if (!command.quiet)

@@ -1,0 +1,41 @@
+#pragma once
+
+// What `bench photons` measures of pictures and times, as numbers.
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "film/image.h"
+#include "film/metrics.h"
+
+namespace voxilux {
+
+inline constexpr double kLampLuminance =
+    5.0;                                   // above it a pixel shows a lamp, whose border is all antialiasing
+inline constexpr int kLampMargin = 3;      // pixels around lamps that are left out, too
+inline constexpr double kBlurSigma = 2.0;  // pixels; hides noise, and keeps what light from glass draws
+
+// White where a picture is judged: black within kLampMargin steps along rows and columns of a pixel whose
+// luminance in `reference` is above kLampLuminance.
+[[nodiscard]] Image lamp_mask(const Image& reference);
+
+// RMS of the difference in luminance over the box, after a Gaussian filter of kBlurSigma that is cut at four
+// deviations; at its borders the picture is mirrored. Both pictures have one size and colours.
+[[nodiscard]] double blurred_rmse(const Image& reference, const Image& test, const PixelBox& box);
+
+struct PhotonErrors {
+    double relmse = 0.0;           // over all pixels that show no lamp
+    std::array<double, 3> bias{};  // mean over that of the reference, less 1, of each channel
+    std::optional<double> floor;   // blurred_rmse
+};
+
+// Throws Error(input_refused) when the pictures differ in size or the box leaves them.
+[[nodiscard]] PhotonErrors photon_errors(const Image& reference, const Image& test,
+                                         const std::optional<PixelBox>& box);
+
+// The exponent p of y = c x^p that fits best: the least-squares slope of log y over log x. Nothing for fewer
+// than two values of x and for values that have no logarithm.
+[[nodiscard]] std::optional<double> growth_exponent(std::span<const double> x, std::span<const double> y);
+
+}  // namespace voxilux
