@@ -46,7 +46,7 @@ TEST(Report, render_has_exactly_its_keys) {
                                      "error", "forecast", "faults",
                                      // Beyond the contract:
                                      "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings",
-                                     "traversal", "occlusion"}));
+                                     "traversal", "occlusion", "photons"}));
     EXPECT_EQ(report["command"], "render");
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
@@ -60,7 +60,7 @@ TEST(Report, render_has_exactly_its_keys) {
         EXPECT_EQ(keys_of(pass), (Keys{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
         EXPECT_EQ(keys_of(row), (Keys{"buffer", "bytes"}));
-    ASSERT_EQ(report["effects"].size(), 7u);
+    ASSERT_EQ(report["effects"].size(), 11u);
     for (const Json& effect : report["effects"])
         EXPECT_EQ(keys_of(effect), (Keys{"name", "on", "reason", "ms"}));
 }
@@ -108,7 +108,8 @@ TEST(Report, plan_promises_what_the_render_does) {
     words[0] = "plan";
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan), (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
-                                   "memory", "forecast", "rays", "notes", "traversal", "occlusion"}));
+                                   "memory", "forecast", "rays", "notes", "traversal", "occlusion",
+                                   "photons"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
     EXPECT_EQ(keys_of(plan["occlusion"]), (Keys{"method", "reason", "slots"}));
@@ -126,7 +127,7 @@ TEST(Report, plan_promises_what_the_render_does) {
 }
 
 TEST(Report, plan_without_an_output_is_that_of_the_default_picture) {
-    const auto aov_of = [](const Words& words) { return json_of(words)["effects"][6]["on"].get<bool>(); };
+    const auto aov_of = [](const Words& words) { return json_of(words)["effects"].back()["on"].get<bool>(); };
     EXPECT_FALSE(aov_of({"plan", scene_file("mixed"), "--json", "-"}));
     EXPECT_FALSE(aov_of({"plan", scene_file("mixed"), "--json", "-", "-o", "x.png"}));
     EXPECT_TRUE(aov_of({"plan", scene_file("mixed"), "--json", "-", "-o", "x.png", "-o", "y.exr"}));
@@ -229,9 +230,10 @@ TEST(Streams, verbose_plan_prints_the_first_frame_too) {
 
 TEST(Streams, what_a_picture_lacks_is_noted_on_standard_error) {
     const ScratchFolder scratch;
-    const Words words = {"render", scene_file("emitters"), "--size", "16x9", "--spp", "1",
-                         "-o",     scratch / "a.png"};
-    EXPECT_EQ(run(words).err, "note: emitters glow but do not light other surfaces yet\n");
+    const Words words = {"render", scene_file("spheres"), "--size", "16x9", "--spp", "1",
+                         "-D",     "material.red.surface='metal'", "-o", scratch / "a.png"};
+    EXPECT_EQ(run(words).err,
+              "note: light of the sky reaches surfaces past glass and mirrors as through a wall\n");
     Words quiet = words;
     quiet.push_back("-q");
     EXPECT_EQ(run(quiet).err, "");

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "embedded.h"
+#include "shared/alias.h"
 #include "shared/gpu_types.h"
 #include "shared/photon_types.h"
 #include "vk/spirv_reflect.h"
@@ -41,6 +42,8 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(SurfaceMaterial, mirror), VX_MEMBER(SurfaceMaterial, glass),
                   VX_MEMBER(SurfaceMaterial, ior)),
         VX_LAYOUT(LightRecord, VX_MEMBER(LightRecord, cell), VX_MEMBER(LightRecord, what)),
+        VX_LAYOUT(AliasEntry, VX_MEMBER(AliasEntry, keep), VX_MEMBER(AliasEntry, other),
+                  VX_MEMBER(AliasEntry, pdf)),
         VX_LAYOUT(PhotonStart, VX_MEMBER(PhotonStart, cell), VX_MEMBER(PhotonStart, fraction),
                   VX_MEMBER(PhotonStart, direction), VX_MEMBER(PhotonStart, sphere),
                   VX_MEMBER(PhotonStart, power)),

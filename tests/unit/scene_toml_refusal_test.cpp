@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"ior_huge", "[material.a]\nior = 1e9\n",
                 "s.toml:2:7: 'ior' in [material.a] must be a number in [1, 4], not 1000000000"},
         Refused{"emission_nan", "[material.a]\nemission = [0, nan, 0]\n",
-                "s.toml:2:13: 'emission' in [material.a] must be [x, y, z] with numbers in [0, 1000000], not "
+                "s.toml:2:16: 'emission' in [material.a] must be [x, y, z] with numbers in [0, 1000000], not "
                 "nan"},
         Refused{
             "emission_negative", "[material.a]\nemission = [-1, 0, 0]\n",
