@@ -48,7 +48,7 @@ else
     check "format (clang-format-14 -i mends it)" check_format
     build asan unit_tests
     check "unit tests under sanitizers" run_tests build/asan --label-regex unit --label-exclude nightly
-    build fuzz vox_fuzz
+    build fuzz vox_fuzz mesh_fuzz
     check "fuzzing" run_tests build/fuzz --label-regex fuzz
     build release
     check "all tests" run_tests build/release --label-exclude nightly

@@ -12,6 +12,7 @@
 #include "plan/plan.h"
 #include "render/render.h"
 #include "scene/nearest_name.h"
+#include "voxelize/voxelize.h"
 
 namespace voxilux {
 namespace {
@@ -132,12 +133,14 @@ int run_command_line(int argc, const char* const* argv) {
     CompareOptions compare;
     MergeCommand merge;
     BenchCommand bench;
+    VoxelizeCommand voxelize;
     const CLI::App* const render_app = add_render(app, render);
     const CLI::App* const plan_app = add_plan(app, plan);
     const CLI::App* const info_app = add_info(app, info);
     const CLI::App* const devices_app = add_devices(app, devices);
     const CLI::App* const compare_app = add_compare(app, compare);
     const CLI::App* const merge_app = add_merge(app, merge);
+    const CLI::App* const voxelize_app = add_voxelize(app, voxelize);
     const CLI::App* const bench_app = add_bench(app, bench);
     app.footer(kFooter);
 
@@ -152,6 +155,7 @@ int run_command_line(int argc, const char* const* argv) {
     if (info_app->parsed()) return run_info(info);
     if (devices_app->parsed()) return run_devices(devices);
     if (merge_app->parsed()) return run_merge(merge);
+    if (voxelize_app->parsed()) return run_voxelize(voxelize);
     if (bench_app->parsed()) return run_bench(*bench_app, bench);
     VX_ASSERT(compare_app->parsed());
     return run_compare(compare);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "film/film.h"
@@ -17,6 +18,10 @@ struct ErrorEstimate {
     double low = 0.0;
     double high = 0.0;  // infinity when there are too few pixels or samples to tell
     double confidence = kErrorConfidence;
+    // Where the samples tell of their bias, too: the two parts of the estimate, the root of the sum of whose
+    // squares it is.
+    std::optional<double> noise;
+    std::optional<double> bias;
 
     [[nodiscard]] bool is_known() const { return !std::isnan(estimate); }
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
+#include "film/bias_estimate.h"
 #include "film/exr.h"
 #include "film/film.h"
 
@@ -21,8 +22,9 @@ std::size_t pixels_of(const FilmSums& film) {
     return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
 }
 
-bool is_beauty(const std::string& plane) {
-    return plane == "beauty_a" || plane == "beauty_b";
+// Planes that are summed in two halves, and are no AOV as they are.
+bool is_half(const std::string& plane) {
+    return plane.ends_with("_a") || plane.ends_with("_b");
 }
 
 std::string channel_of(const std::string& plane, std::size_t component, std::size_t components) {
@@ -111,15 +113,24 @@ void add_variance(const FilmSums& film, const Halves& halves, Image& image) {
         image.channels[channel_of("variance", c, 3)] = {Image::Precision::single, std::move(planes[c])};
 }
 
+std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+// The mean of both halves.
+void add_bias(const FilmSums& film, Image& image) {
+    FilmSums whole{.width = film.width, .height = film.height, .even = film.even, .odd = film.odd};
+    std::vector<std::int64_t>& sums = whole.sums["bias"];
+    sums = film.sums.at("bias_a");
+    std::ranges::transform(sums, film.sums.at("bias_b"), sums.begin(), wrapped_sum);
+    add_means(whole, "bias", image);
+}
+
 // Sums that are 0 or above; a full one stays full, so that the order does not matter.
 std::int64_t full_sum(std::int64_t a, std::int64_t b) {
     const std::int64_t sum = std::max<std::int64_t>(a, 0);
     const std::int64_t more = std::max<std::int64_t>(b, 0);
     return sum > kSquaresFull - more ? kSquaresFull : sum + more;
-}
-
-std::int64_t wrapped_sum(std::int64_t a, std::int64_t b) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
 std::string word_plane(const std::string& plane, std::size_t component, const char* half) {
@@ -177,11 +188,12 @@ Image picture_of(const FilmSums& film) {
     const Halves halves(film);
     Image image = film_image(film.width, film.height, halves.a, halves.b);
     for (const auto& [name, sums] : film.sums) {
-        if (!is_beauty(name) && name != kSquares) add_means(film, name, image);
+        if (!is_half(name) && name != kSquares) add_means(film, name, image);
     }
     for (const auto& [name, values] : film.firsts)
         add_first(film, name, image);
     if (film.sums.contains(kSquares)) add_variance(film, halves, image);
+    if (film.sums.contains("bias_a")) add_bias(film, image);
     return image;
 }
 
@@ -189,8 +201,11 @@ ErrorEstimate error_of(const FilmSums& film) {
     const Halves halves(film);
     const auto squares = film.sums.find(kSquares);
     const bool has_squares = film.is_independent && squares != film.sums.end();
-    return estimate_error(film.width, film.height, halves.a, halves.b,
-                          has_squares ? FilmSquares(squares->second) : FilmSquares{});
+    const ErrorEstimate noise = estimate_error(film.width, film.height, halves.a, halves.b,
+                                               has_squares ? FilmSquares(squares->second) : FilmSquares{});
+    if (!film.sums.contains("bias_a")) return noise;
+    return with_bias(noise, estimate_bias(film.width, film.height, halves.a, halves.b, film.sums.at("bias_a"),
+                                          film.sums.at("bias_b")));
 }
 
 void store_sums(FilmSums film, Image& image) {

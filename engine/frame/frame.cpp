@@ -119,6 +119,10 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     const Plane color = record_shade_resolve(plan, slice, inputs, rec);
     record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
     if (plan.sums_squares) record_film_square(plan, slice, {"squares", 3}, color, rec);
+    if (plan.sums_bias) {
+        const Plane bias = record_photon_bias(plan, slice, seen, photons, rec);
+        record_film_add(plan, slice, {sample % 2 == 0 ? "bias_a" : "bias_b", 3}, bias, rec);
+    }
 
     if (!plan.has(Effect::aov)) return;
     const SurfacePlanes surface = record_aov_surface(plan, slice, hits, rec);

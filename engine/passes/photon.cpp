@@ -179,4 +179,22 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
     return planes;
 }
 
+Plane record_photon_bias(const RenderPlan& plan, const Slice& slice, const SpecularPlanes& seen,
+                         const PhotonPlanes& photons, Recording& recording) {
+    const Plane bias{use_buffer(plan, "photon.bias", recording)};
+    recording.dispatch(
+        {.label = "photon.bias",
+         .shader = "photon_bias",
+         .extent = pixel_extent(plan, slice),
+         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                      {"Materials", materials_buffer(plan, recording)},
+                      {"Hits", seen.hits.buffer},
+                      {"Weights", seen.weights.buffer},
+                      {"Light", photons.light.buffer},
+                      {"NarrowLight", photons.narrow.buffer},
+                      {"Bias", bias.buffer}},
+         .constants = {{"hits_stride", seen.hits.stride}, {"weights_stride", seen.weights.stride}}});
+    return bias;
+}
+
 }  // namespace voxilux

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "passes/plane.h"
+#include "passes/specular.h"
 #include "shared/photon_types.h"
 
 namespace voxilux {
@@ -47,5 +48,9 @@ enum class PhotonRadii { common, own };
 // not be sorted (constant sorts_photons of the pass that stores them is 0).
 [[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
                                                const Slice& slice, const Plane& hits, Recording& recording);
+
+// How far the radiance of each pixel is off because discs smooth the light of photons.
+[[nodiscard]] Plane record_photon_bias(const RenderPlan& plan, const Slice& slice, const SpecularPlanes& seen,
+                                       const PhotonPlanes& photons, Recording& recording);
 
 }  // namespace voxilux

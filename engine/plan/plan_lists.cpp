@@ -65,6 +65,7 @@ void list_photon_buffers(RenderPlan& plan) {
     const std::uint64_t pixels = plan.slice_pixels();
     list("photon.light", pixels * sizeof(gpu::vec3));
     list("photon.narrow", pixels * sizeof(gpu::vec3));
+    if (plan.sums_bias) list("photon.bias", pixels * sizeof(gpu::vec3));
     if (plan.settings.photons.classic)
         plan.buffers.push_back({"photon.radii", pixels * sizeof(gpu::PixelRadius), true});
     if (plan.settings.photons.scatter) {
@@ -118,9 +119,11 @@ void list_passes(RenderPlan& plan) {
     add(plan.has(Effect::direct), "direct.trace", slices);
     list_photon_passes(plan, slices, add);
     add(true, "shade.resolve", slices);
+    add(plan.sums_bias, "photon.bias", slices);
     add(plan.has(Effect::aov), "aov.surface", slices);
     add(plan.has(Effect::aov), "aov.position", slices_of_a_sample(plan));
-    add(true, "film.add", slices * (film_planes(plan).size() - (plan.sums_squares ? 2 : 1)));
+    const std::size_t not_added = 1 + (plan.sums_squares ? 1 : 0) + (plan.sums_bias ? 1 : 0);
+    add(true, "film.add", slices * (film_planes(plan).size() - not_added));
     add(plan.sums_squares, "film.square", slices);
 }
 

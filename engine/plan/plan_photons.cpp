@@ -26,7 +26,6 @@ constexpr std::uint32_t kMostBuckets = 1u << 22;
 // photons is far below a half. Below: of photons that bounce between caustics only.
 constexpr double kStoreMargin = 1.5;
 constexpr double kMostStored = 64.0;
-constexpr double kDefaultRadius = 1.0;
 // Over the rounding of a photon's power on the device, four products: no photon may seem to pass the most.
 constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
@@ -93,7 +92,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
                     fmt::format("{} photons in an iteration need room for {:.0f}, more than {} bytes of {}; "
                                 "use fewer of them and more iterations",
                                 wanted, stored, limits.max_binding_bytes, limits.name));
-    plan.radius = settings.radius.value_or(kDefaultRadius);
+    plan.radius = settings.radius.value_or(0.0);
     plan.capacity = static_cast<std::uint32_t>(stored);
     plan.buckets = std::min(std::bit_ceil(std::max(plan.capacity, 1024u)), kMostBuckets);
     if (plan.lamp_photons != 0)

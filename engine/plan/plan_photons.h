@@ -33,7 +33,7 @@ struct PhotonPlan {
     std::uint32_t capacity = 0;  // photons that can be stored in an iteration
     std::uint32_t buckets = 0;   // that they are sorted into, a power of two
     glm::dvec3 most_power{0.0};  // of one photon, W
-    double radius = 0.0;         // of the first iteration, voxels
+    double radius = 0.0;         // of the first iteration, voxels; 0: a pilot has to find it
 
     bool operator==(const PhotonPlan&) const = default;
     [[nodiscard]] std::uint32_t count() const { return lamp_photons + sun_photons; }

@@ -151,6 +151,7 @@ std::uint64_t RenderPlan::total_bytes() const {
 std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     std::vector<FilmPlane> planes = {{"beauty_a", 3}, {"beauty_b", 3}};
     if (plan.sums_squares) planes.push_back({"squares", 3});
+    if (plan.sums_bias) planes.insert(planes.end(), {{"bias_a", 3}, {"bias_b", 3}});
     if (!plan.has(Effect::aov)) return planes;
     planes.push_back({"albedo", 3});
     planes.push_back({"normal", 3});
@@ -200,6 +201,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_shard(plan);
     const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.has_ao_cells() && (plan.has(Effect::aov) || decides);
+    plan.sums_bias = plan.has_photons() && (plan.has(Effect::aov) || request.wants_error);
     split_image(plan, limits);
     count_rays(plan);
     list_passes(plan);
@@ -234,6 +236,11 @@ std::string describe(const RenderPlan& plan) {
     if (plan.has(Effect::ao)) {
         text += fmt::format("occlusion {:<10} {}\n", plan.ao.uses_cells() ? "hash" : "brute", plan.ao.reason);
     }
+    if (plan.has_photons())
+        text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
+                            plan.photons.count(), plan.photons.capacity,
+                            plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
+                            plan.settings.photons.alpha);
     for (const PlannedPass& pass : plan.passes)
         text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
     for (const PlannedBuffer& planned : plan.buffers)

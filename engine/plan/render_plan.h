@@ -82,6 +82,7 @@ struct RenderPlan {
     bool has_glass_voxels = false;
     PhotonPlan photons;           // all zero without caustics and indirect light
     bool sums_squares = false;    // of the beauty, for its variance
+    bool sums_bias = false;       // of photons
     std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
@@ -105,6 +106,8 @@ struct RenderPlan {
     }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
+    // Whether the render itself has to find the first radius of photons.
+    [[nodiscard]] bool needs_pilot() const { return has_photons() && !settings.photons.radius; }
     [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);

@@ -96,7 +96,8 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         merge(root, tree);
     }
     const TomlSection sections(
-        root, "the scene", {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
+        root, "the scene",
+        {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     read_render(in);
     read_ao(in);

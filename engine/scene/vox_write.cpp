@@ -1,12 +1,15 @@
 #include "scene/vox_write.h"
 
 #include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <limits>
-#include <span>
 #include <string_view>
 
 #include "base/checked_cast.h"
 #include "base/error.h"
+#include "base/file.h"
 
 namespace voxilux {
 namespace {
@@ -183,17 +186,8 @@ void write_rest(Writer& out, const VoxFile& file) {
     }
 }
 
-}  // namespace
-
-std::vector<std::byte> write_vox(const VoxFile& file) {
-    Writer out;
-    out.id("VOX ");
-    out.i32(file.version);
-    const std::size_t main = out.begin_chunk("MAIN");
-    const std::size_t begin = out.length();
-    if (file.pack) write_chunk(out, "PACK", [&] { out.u32(*file.pack); });
-    for (const VoxModel& model : file.models)
-        write_model(out, model);
+// All chunks that follow the models.
+void write_after_models(Writer& out, const VoxFile& file) {
     for (const VoxNode& node : file.nodes)
         std::visit([&](const auto& n) { write_node(out, n); }, node);
     for (const VoxLayer& layer : file.layers) {
@@ -207,6 +201,78 @@ std::vector<std::byte> write_vox(const VoxFile& file) {
     write_records(out, "MATL", file.materials);
     write_old_materials(out, file);
     write_rest(out, file);
+}
+
+// SIZE, and XYZI up to its voxels.
+void write_model_head(Writer& out, const VoxModelHead& model) {
+    write_chunk(out, "SIZE", [&] {
+        for (int axis = 0; axis < 3; ++axis)
+            out.i32(model.size[axis]);
+    });
+    out.id("XYZI");
+    out.size(4 + 4 * model.voxels);
+    out.u32(0);
+    out.size(model.voxels);
+}
+
+void put(std::ofstream& stream, std::span<const std::byte> bytes) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
+}
+
+std::vector<std::byte> bytes_of(const VoxModelHead& model) {
+    Writer out;
+    write_model_head(out, model);
+    return out.take();
+}
+
+void put_model(std::ofstream& stream, const VoxModelHead& head, const std::vector<VoxVoxel>& voxels) {
+    static_assert(sizeof(VoxVoxel) == 4, "stored as the file has it");
+    VX_ASSERT_EQ(voxels.size(), head.voxels);
+    put(stream, bytes_of(head));
+    put(stream, std::as_bytes(std::span(voxels)));
+}
+
+}  // namespace
+
+std::uint64_t write_vox_models(const std::filesystem::path& path, std::span<const VoxModelHead> models,
+                               const std::function<std::vector<VoxVoxel>(std::size_t)>& voxels_of,
+                               const VoxFile& rest) {
+    Writer tail;
+    write_after_models(tail, rest);
+    std::size_t children = tail.length();
+    for (const VoxModelHead& model : models)
+        children += bytes_of(model).size() + 4 * model.voxels;
+    Writer head;
+    head.id("VOX ");
+    head.i32(rest.version);
+    head.id("MAIN");
+    head.u32(0);
+    head.size(children);
+    const std::uint64_t total = head.length() + children;
+    write_file_atomically(path, [&](const std::filesystem::path& temporary) {
+        errno = 0;
+        std::ofstream stream(temporary, std::ios::binary);
+        put(stream, head.take());
+        for (std::size_t i = 0; i < models.size(); ++i)
+            put_model(stream, models[i], voxels_of(i));
+        put(stream, tail.take());
+        stream.close();
+        if (!stream) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
+    });
+    return total;
+}
+
+std::vector<std::byte> write_vox(const VoxFile& file) {
+    Writer out;
+    out.id("VOX ");
+    out.i32(file.version);
+    const std::size_t main = out.begin_chunk("MAIN");
+    const std::size_t begin = out.length();
+    if (file.pack) write_chunk(out, "PACK", [&] { out.u32(*file.pack); });
+    for (const VoxModel& model : file.models)
+        write_model(out, model);
+    write_after_models(out, file);
     constexpr std::size_t kChildrenField = 4;  // after the field of the content's size
     out.set_u32(main + kChildrenField, out.length() - begin);
     return out.take();

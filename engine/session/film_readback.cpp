@@ -48,6 +48,9 @@ FilmSums read_error_film(const RenderPlan& plan, Executor& executor) {
     for (const char* half : {"beauty_a", "beauty_b"})
         film.sums[half] = read_plane<std::int64_t>(plan, half, 3, executor);
     if (plan.sums_squares) film.sums["squares"] = read_plane<std::int64_t>(plan, "squares", 3, executor);
+    if (!plan.sums_bias) return film;
+    for (const char* half : {"bias_a", "bias_b"})
+        film.sums[half] = read_plane<std::int64_t>(plan, half, 3, executor);
     return film;
 }
 

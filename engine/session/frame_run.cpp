@@ -147,6 +147,7 @@ void FrameRun::add_tally(const RunResult& result, const Slice& slice) {
         table[gpu::kTallyNames[i]] += tally[i];
     }
     state_.live_cells += std::uint64_t{tally[gpu::kWorkAoClaimed]} - tally[gpu::kWorkAoEvicted];
+    if (plan_.has_photons()) statistics_.work["photons_emitted"] += plan_.photons.count();
     if (plan_.rays.primary != 0)
         statistics_.work["primary_rays"] += std::uint64_t{inputs_.params.column_count} * slice.row_count;
 }

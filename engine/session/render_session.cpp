@@ -8,6 +8,7 @@
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
 #include "session/frame_run.h"
+#include "session/radius_pilot.h"
 #include "world/world_view.h"
 
 namespace voxilux {
@@ -60,13 +61,22 @@ bool RenderSession::update_world(const Scene& scene) {
     return true;
 }
 
+// One radius for all frames, so that they do not flicker.
+void RenderSession::choose_radius(const Recording& upload) {
+    (void)executor_->run(upload);
+    if (!first_radius_) first_radius_ = pilot_radius(*prepared_, *scene_, *executor_);
+    prepared_->plan.photons.radius = *first_radius_;
+}
+
 RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> time_limit_s,
                                     const std::function<void(const Progress&)>& on_progress) {
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
     scene_ = &player_.show(frame);
     Recording upload;
-    if (update_world(*scene_))
+    if (update_world(*scene_)) {
         record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, prepared_->lights, upload);
+        if (prepared_->plan.needs_pilot()) choose_radius(std::exchange(upload, Recording{}));
+    }
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;

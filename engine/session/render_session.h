@@ -118,6 +118,7 @@ class RenderSession {
 
   private:
     [[nodiscard]] bool update_world(const Scene& scene);
+    void choose_radius(const Recording& upload);
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();
 
@@ -128,6 +129,7 @@ class RenderSession {
     std::optional<PreparedScene> prepared_;  // of the world on the device
     FrameState state_;
     const Scene* scene_ = nullptr;
+    std::optional<double> first_radius_;  // of photons, once a pilot has found it
     std::size_t messages_told_ = 0;
     bool has_started_ = false;
 };

@@ -6,11 +6,28 @@
 
 #include "scene/scene_hash.h"
 #include "session/occlusion_report.h"
+#include "session/photon_report.h"
 
 namespace voxilux {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Passes that every picture has: no effect pays for them.
+bool is_of_frame(const std::string& stem) {
+    return stem == "shade" || stem == "film" || stem == "world";
+}
+
+// The effect whose time a pass is. Photons of indirect light and of caustics are the same ones.
+Effect payer_of(const RenderPlan& plan, const std::string& stem) {
+    if (stem == "primary") return Effect::voxels;
+    if (stem == "sphere") return Effect::spheres;
+    if (stem == "photon") return plan.has(Effect::indirect) ? Effect::indirect : Effect::caustics;
+    for (const EffectState& state : plan.effects) {
+        if (name_of(state.effect) == stem) return state.effect;
+    }
+    return Effect::aov;
+}
 
 Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
     Json rows = Json::array();
@@ -21,9 +38,8 @@ Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
             double ms = 0.0;
             for (const PassTime& pass : statistics->passes) {
                 const std::string stem = pass.label.substr(0, pass.label.find('.'));
-                const bool is_own = stem == name || (stem == "primary" && state.effect == Effect::voxels) ||
-                                    (stem == "sphere" && state.effect == Effect::spheres);
-                if (is_own) ms += pass.ms;
+                if (is_of_frame(stem)) continue;
+                if (payer_of(plan, stem) == state.effect) ms += pass.ms;
             }
             row["ms"] = ms;
         }
@@ -138,6 +154,8 @@ Json error_json(const ErrorEstimate& error) {
     Json json = {{"metric", error.metric}, {"estimate", error.estimate}, {"low", error.low}};
     json["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
     json["confidence"] = error.confidence;
+    if (error.noise) json["noise"] = *error.noise;
+    if (error.bias) json["bias"] = *error.bias;
     return json;
 }
 
@@ -149,6 +167,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
                       {"type", statistics.device.type}};
     json["traversal"] = traversal_json(outcome.plan);
     json["occlusion"] = occlusion_json(outcome.plan, statistics);
+    json["photons"] = photons_json(outcome.plan);
     json["samples"] = statistics.samples;
     json["stopped"] = name_of(statistics.stop);
     json["wall_s"] = statistics.wall_s;
@@ -220,6 +239,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     Json json = head_json(scene, plan, "plan");
     json["traversal"] = traversal_json(plan);
     json["occlusion"] = planned_occlusion_json(plan);
+    json["photons"] = photons_json(plan);
     json["effects"] = effects_json(plan, nullptr);
     json["passes"] = planned_passes_json(plan);
     json["memory"] = planned_memory_json(plan);
@@ -241,6 +261,9 @@ std::string describe(const RenderOutcome& outcome) {
     for (const PassTime& pass : s.passes)
         text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
     text += occlusion_text(outcome.plan, s);
+    if (outcome.plan.has_photons())
+        text += fmt::format("photons   {} per iteration, first radius {:.3g}\n", outcome.plan.photons.count(),
+                            outcome.plan.photons.radius);
     if (s.error.is_known()) {
         text +=
             fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,

@@ -142,9 +142,6 @@ Measure measure_render(const Scene& scene, int scale) {
     testing::Test::RecordProperty("mean_r", std::to_string(m.mean.x));
     testing::Test::RecordProperty("mean_g", std::to_string(m.mean.y));
     testing::Test::RecordProperty("mean_b", std::to_string(m.mean.z));
-    if (std::getenv("VX_Z") != nullptr)
-        printf("M relmse %.5f caustic %.5f mean %.5f %.5f %.5f\n", m.relmse, m.caustic, m.mean.x, m.mean.y,
-               m.mean.z);
     return m;
 }
 

@@ -119,7 +119,7 @@ TEST(LightForms, emitting_voxel_lights_a_floor_by_its_faces) {
     EXPECT_LT(z.rms, 1.15);
     EXPECT_LT(farthest(z), kFarOff);
     const auto moved = z_of(picture, [&](glm::ivec2 p) {
-        return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.05, 0.0));
+        return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.3, 0.0));
     });
     EXPECT_GT(farthest(moved), 2.0 * kFarOff) << "the twin";
 }
@@ -261,12 +261,16 @@ Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, 
     return scene;
 }
 
+// Standard deviations, of the root of the mean square of blocks that have photons in common: it is hardly more
+// than that of a single number.
+constexpr double kMostOfFew = 2.5;
+
 void expect_furnace(const Scene& scene, std::uint32_t iterations, double radiance, const char* what) {
     const std::array blocks{4, 16};
     const auto pictures = test::render_light(scene, {iterations, blocks, {}});
     const auto z = z_of(pictures[0], [&](glm::ivec2) { return radiance; });
     const auto whole = z_of(pictures[1], [&](glm::ivec2) { return radiance; });
-    EXPECT_LT(z.rms, 1.4) << what;
+    EXPECT_LT(z.rms, kMostOfFew) << what;
     EXPECT_LT(farthest(whole), kFarOff) << what;
     EXPECT_LT(std::sqrt(pictures[1].pixels[0].variance_of_mean.x), 0.02 * radiance) << what;
 }

@@ -55,7 +55,7 @@ TEST(Report, render_has_exactly_its_keys) {
     EXPECT_EQ(keys_of(report["error"]), (Keys{"metric", "estimate", "low", "high", "confidence"}));
     EXPECT_EQ(keys_of(report["forecast"]), (Keys{"low_s", "high_s"}));
     EXPECT_EQ(keys_of(report["traversal"]), (Keys{"name", "reason"}));
-    ASSERT_EQ(report["passes"].size(), 10u);
+    ASSERT_EQ(report["passes"].size(), 11u);
     for (const Json& pass : report["passes"])
         EXPECT_EQ(keys_of(pass), (Keys{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])

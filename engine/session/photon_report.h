@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "plan/render_plan.h"
+
+namespace voxilux {
+
+// The object `photons` of reports: {per_iteration, of_lamps, of_sun, capacity, first_radius (voxels; null as
+// long as no pilot has found it), alpha, method}; null without photons.
+[[nodiscard]] nlohmann::ordered_json photons_json(const RenderPlan& plan);
+
+}  // namespace voxilux

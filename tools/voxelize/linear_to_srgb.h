@@ -1,0 +1,11 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace voxilux {
+
+// The nearest sRGB bytes (IEC 61966-2-1) of a linear colour; what lies outside [0, 1] is cut. By table: equal
+// to rounding the formula.
+[[nodiscard]] glm::u8vec3 srgb_bytes(glm::vec3 linear);
+
+}  // namespace voxilux

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace voxilux {
+
+// The words of an OBJ or MTL file, line by line, without comments. A backslash at the end of a line joins the
+// next one to it.
+class ObjLines {
+  public:
+    explicit ObjLines(std::string_view text) : text_(text) {}
+    ObjLines(const ObjLines&) = delete;  // line_ may view joined_
+    ObjLines& operator=(const ObjLines&) = delete;
+
+    // Goes to the next line that holds a word; false at the end of the text.
+    bool next_line();
+
+    // The next word of the line, empty at its end.
+    std::string_view next_word();
+    [[nodiscard]] std::string_view peek_word() const;
+
+    // What the line still holds, without the blanks around it.
+    [[nodiscard]] std::string_view rest() const;
+
+    // The next word as a number, which may be inf or nan; a number too large is inf. Throws MeshFault where
+    // the word is something else; nothing at the end of the line.
+    std::optional<double> next_number();
+    double require_number();
+
+    [[noreturn]] void refuse(const std::string& reason) const;  // throws MeshFault with the line's number
+
+  private:
+    std::string_view text_;
+    std::string_view line_;
+    std::string joined_;
+    std::size_t at_ = 0;
+    std::uint64_t number_ = 0;
+};
+
+// The number that all of `word` is; nothing where it is none.
+[[nodiscard]] std::optional<double> number_in(std::string_view word);
+
+}  // namespace voxilux
