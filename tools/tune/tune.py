@@ -176,7 +176,7 @@ def describe(result):
     if result["gain"] <= 1.0:
         lines.append("note      nothing was gained: --radius auto serves this scene")
     if "estimated" in result["metric"]:
-        lines.append("note      the estimate knows noise alone: a large radius looks better than it is; see --reference")
+        lines.append("note      the error is the estimate of the render itself; --reference measures it")
     return "\n".join(lines)
 
 
