@@ -15,11 +15,11 @@ VX_CONST(uint, kFaultAoTableFull, 4u);     // hits that found no slot for their 
 VX_CONST(uint, kFaultPhotonStoreFull, 5u);  // photons that found no room in the store: they are lost
 VX_CONST(uint, kFaultPhotonPower, 6u);      // photons whose power or place was out of range: clamped or lost
 VX_CONST(uint, kFaultPathTooLong, 7u);      // paths that met kMostBounces surfaces, and ended there
-VX_CONST(uint, kFaultLoopCut, 8u);  // paths or sums that the device cut off (lib/loops.glsl)
+VX_CONST(uint, kFaultLoopCut, 8u);          // paths or sums that the device cut off (lib/loops.glsl)
 VX_CONST(uint, kFaultCount, 9u);
 
 VX_CONST(uint, kWorkHits, 9u);      // camera rays that hit something
-VX_CONST(uint, kWorkAoRays, 10u);    // occlusion rays marched
+VX_CONST(uint, kWorkAoRays, 10u);   // occlusion rays marched
 VX_CONST(uint, kWorkSunRays, 11u);  // shadow rays marched
 // Of the ambient occlusion hash:
 VX_CONST(uint, kWorkAoReused, 12u);       // hits whose cell was found by reprojection

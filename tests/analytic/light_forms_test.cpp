@@ -118,9 +118,8 @@ TEST(LightForms, emitting_voxel_lights_a_floor_by_its_faces) {
     const auto z = z_of(picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0)); });
     EXPECT_LT(z.rms, 1.15);
     EXPECT_LT(farthest(z), kFarOff);
-    const auto moved = z_of(picture, [&](glm::ivec2 p) {
-        return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.3, 0.0));
-    });
+    const auto moved = z_of(
+        picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.3, 0.0)); });
     EXPECT_GT(farthest(moved), 2.0 * kFarOff) << "the twin";
 }
 
@@ -261,8 +260,8 @@ Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, 
     return scene;
 }
 
-// Standard deviations, of the root of the mean square of blocks that have photons in common: it is hardly more
-// than that of a single number.
+// Standard deviations, of the root of the mean square of blocks that have photons in common: it is hardly
+// more than that of a single number.
 constexpr double kMostOfFew = 2.5;
 
 void expect_furnace(const Scene& scene, std::uint32_t iterations, double radiance, const char* what) {

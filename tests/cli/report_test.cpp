@@ -107,9 +107,9 @@ TEST(Report, plan_promises_what_the_render_does) {
     const Json report = json_of(words);
     words[0] = "plan";
     const Json plan = json_of(words);
-    EXPECT_EQ(keys_of(plan), (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
-                                   "memory", "forecast", "rays", "notes", "traversal", "occlusion",
-                                   "photons"}));
+    EXPECT_EQ(keys_of(plan),
+              (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes", "memory",
+                    "forecast", "rays", "notes", "traversal", "occlusion", "photons"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
     EXPECT_EQ(keys_of(plan["occlusion"]), (Keys{"method", "reason", "slots"}));
@@ -230,8 +230,8 @@ TEST(Streams, verbose_plan_prints_the_first_frame_too) {
 
 TEST(Streams, what_a_picture_lacks_is_noted_on_standard_error) {
     const ScratchFolder scratch;
-    const Words words = {"render", scene_file("spheres"), "--size", "16x9", "--spp", "1",
-                         "-D",     "material.red.surface='metal'", "-o", scratch / "a.png"};
+    const Words words = {"render", scene_file("spheres"),          "--size", "16x9",           "--spp", "1",
+                         "-D",     "material.red.surface='metal'", "-o",     scratch / "a.png"};
     EXPECT_EQ(run(words).err,
               "note: light of the sky reaches surfaces past glass and mirrors as through a wall\n");
     Words quiet = words;

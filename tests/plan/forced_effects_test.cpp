@@ -55,7 +55,8 @@ TEST(ForcedEffect, unneeded_effect_is_impossible_or_tested_here) {
         const RenderPlan plan = test::plan_of(scene, PlanRequest{});
         for (std::size_t i = 0; i < kEffectCount; ++i) {
             const auto effect = static_cast<Effect>(i);
-            if (plan.has(effect) || effect == Effect::ao || effect == Effect::aov || effect == Effect::indirect)
+            if (plan.has(effect) || effect == Effect::ao || effect == Effect::aov ||
+                effect == Effect::indirect)
                 continue;
             EXPECT_EQ(test::plan_of(scene, test::with_switch(PlanRequest{}, effect, Switch::on)), plan)
                 << name << ": " << name_of(effect);

@@ -40,8 +40,9 @@ using Names = std::set<std::string>;
 TEST(LeanRender, sun_below_the_horizon_leaves_no_command_buffer_or_pipeline) {
     for (const char* scene : {"night", "overcast"}) {
         const LeanRun run = run_lean(scene);
-        EXPECT_EQ(run.shaders, (Names{"world_grow", "primary_beam", "primary_march", "ao_trace",
-                                      "shade_resolve", "film_add", "film_square", "aov_surface", "aov_position"}));
+        EXPECT_EQ(run.shaders,
+                  (Names{"world_grow", "primary_beam", "primary_march", "ao_trace", "shade_resolve",
+                         "film_add", "film_square", "aov_surface", "aov_position"}));
         EXPECT_EQ(run.pipelines, run.shaders.size()) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "sun")) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "film.sun")) << scene;

@@ -1,7 +1,5 @@
 #include "merge/merge.h"
 
-
-
 #include "base/error.h"
 #include "film/png.h"
 #include "output_files.h"
