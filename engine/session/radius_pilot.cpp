@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -20,6 +21,9 @@ constexpr double kPilotGrowth = 4.0;
 constexpr int kMostPilots = 10;  // up to a radius of 16,384 voxels
 // Fewer photons in the middle disc say too little.
 constexpr double kEnoughPhotons = 3.0;
+// Parts of the longest side of a world of voxels that no disc may be wider than: where hardly a photon comes,
+// noise is better than a smear.
+constexpr double kFinestParts = 128.0;
 constexpr double kUnlitRadius = 1.0;  // voxels, where no photon reaches what is seen
 
 // One iteration in which each pixel counts the photons of its disc.
@@ -56,6 +60,12 @@ std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams
     return photons;
 }
 
+double largest_radius(const PreparedScene& prepared) {
+    if (!prepared.plan.has(Effect::voxels)) return std::numeric_limits<double>::infinity();
+    const glm::i64vec3 extent = prepared.facts.extent;
+    return std::max(1.0, static_cast<double>(std::max({extent.x, extent.y, extent.z})) / kFinestParts);
+}
+
 }  // namespace
 
 double median_of_met(std::vector<float> photons) {
@@ -69,13 +79,15 @@ double median_of_met(std::vector<float> photons) {
 double pilot_radius(const PreparedScene& prepared, const Scene& scene, Executor& executor) {
     double radius = kSmallestPilot;
     double met = 0.0;
+    const double most = largest_radius(prepared);
     for (int i = 0; i < kMostPilots; ++i) {
         const RenderPlan pilot = counting_plan(prepared.plan, radius);
         met = median_of_met(count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor));
-        if (met >= kEnoughPhotons || i + 1 == kMostPilots) break;
+        if (met >= kEnoughPhotons || radius >= most || i + 1 == kMostPilots) break;
         radius *= kPilotGrowth;
     }
-    return met > 0.0 ? radius * std::sqrt(kPilotPhotons / met) : kUnlitRadius;
+    if (!(met > 0.0)) return kUnlitRadius;
+    return std::min(radius * std::sqrt(kPilotPhotons / met), most);
 }
 
 }  // namespace voxilux
