@@ -34,7 +34,8 @@ SurfaceShares surface_shares(const Material& material) {
 std::vector<std::uint32_t> sphere_order(const Scene& scene) {
     std::vector<std::uint32_t> order(scene.spheres.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_partition(order, [&](std::uint32_t i) { return has_glass(scene, i); });
+    // Not the range algorithm, which clang 14 cannot compile.
+    std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return has_glass(scene, i); });
     return order;
 }
 
