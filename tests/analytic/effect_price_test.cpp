@@ -213,7 +213,7 @@ TEST(ChangedSession, renders_something_else_with_another_seed) {
     scene.settings.spp = 1;
     RenderSession session(scene, validated());
     const RenderOutcome first = session.render(0, std::nullopt);
-    scene.settings.seed = 1;
+    ++scene.settings.seed;
     session.change(scene.settings, {});
     EXPECT_FALSE(has_same_colours(first.image, session.render(0, std::nullopt).image));
 }
