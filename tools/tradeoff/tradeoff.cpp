@@ -30,14 +30,17 @@ constexpr const char* kPrice = "Price list";
 constexpr int kMostRepeats = 100;
 
 // How the time is shared. The rest is for compiling, reading back, comparing and writing.
-constexpr double kReferenceShare = 0.35;
+constexpr double kReferenceShare = 0.30;
 constexpr double kEffectShare = 0.08;
-constexpr double kRunShare = 0.30;
-constexpr double kRowShare = 0.10;
-constexpr double kLoadShare = 0.04;  // most that a world of its own may take
+constexpr double kRunShare = 0.30;  // of the runs that are planned; more are made until kRunsEnd
+constexpr double kRunsEnd = 0.80;   // since the start
+constexpr double kRowsEnd = 0.95;
+constexpr double kMostRowShare = 0.02;  // of one picture of equal error
+constexpr double kLoadShare = 0.04;     // most that a world of its own may take
 // A reference is of use up to so many times the samples of the longest run: its noise is then an eighth.
 constexpr double kReferenceSamples = 64.0;
 constexpr std::uint32_t kMostEffectSamples = 16;
+constexpr std::size_t kEffectTrials = 5;  // times of short pictures scatter
 
 // Time since the start, and what of it is left.
 struct Budget {
@@ -47,7 +50,7 @@ struct Budget {
     [[nodiscard]] double elapsed_s() const {
         return std::chrono::duration<double>(Clock::now() - start).count();
     }
-    [[nodiscard]] bool is_past(double share) const { return elapsed_s() > share * limit_s; }
+    [[nodiscard]] double left_s(double share) const { return share * limit_s - elapsed_s(); }
 };
 
 // Progress of the whole command: stages one after the other, each with its share.
@@ -79,8 +82,6 @@ class Stages {
 };
 
 void prepare_folder(const TradeoffCommand& command) {
-    if (command.output.empty())
-        throw Error(ExitCode::usage, "tradeoff: -o DIR is missing: where the price list goes");
     const fs::path pictures = fs::path(command.output) / "pictures";
     std::error_code failure;
     fs::create_directories(pictures, failure);
@@ -107,14 +108,14 @@ double cost_of_way(const MeasuredWay& way) {
 
 std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& workshop, const Way& base,
                                    double per_sample_s, double budget_s) {
-    const double pictures = static_cast<double>(kEffectCount * kFewestTrials);
+    const double pictures = static_cast<double>(kEffectCount * kEffectTrials);
     const double samples = budget_s / (pictures * per_sample_s);
     return price_effects(
         session, {.frame = workshop.frame,
                   .settings = base.settings,
                   .request = base.request,
                   .samples = static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostEffectSamples})),
-                  .trials = std::max(workshop.repeats, kFewestTrials)});
+                  .trials = std::max(workshop.repeats, kEffectTrials)});
 }
 
 // The base of all ways: a first picture finds the radius of photons.
@@ -151,7 +152,7 @@ PriceList measure_all(const TradeoffCommand& command, const Scene& scene, std::i
         open_ways(workshop, list.design, session, [&](double load_s) { return load_s < kLoadShare * limit; });
     const SamplePlan samples = plan_samples(list.ways, list.asked, workshop.repeats, kRunShare * limit);
     stages.begin(0.1, 0.4);
-    const double most = kReferenceSamples * 2.0 * samples.top;
+    const double most = kReferenceSamples * 2.0 * list.asked;
     list.reference =
         make_reference(session, {.frame = frame,
                                  .base = base,
@@ -163,10 +164,12 @@ PriceList measure_all(const TradeoffCommand& command, const Scene& scene, std::i
     stages.begin(0.4, 0.5);
     list.effects = price_all(session, workshop, base, cost_of_way(list.ways.front()), kEffectShare * limit);
     stages.begin(0.5, 0.85);
-    list.top = measure_levels(workshop, samples, list.ways, [&] { return budget.is_past(1.0 - kRowShare); });
+    workshop.left_s = [&] { return budget.left_s(kRunsEnd); };
+    list.top = measure_levels(workshop, samples, list.asked, list.ways);
     stages.begin(0.85, 0.99);
+    workshop.left_s = [&] { return budget.left_s(kRowsEnd); };
     list.equal_time = equal_time_row(workshop, list.design, list.ways, list.top);
-    list.equal_error = equal_error_row(workshop, list.design, list.ways, list.top, 0.25 * kRowShare * limit);
+    list.equal_error = equal_error_row(workshop, list.design, list.ways, list.top, kMostRowShare * limit);
     const RenderOutcome last = measure_once(session, {.way = base, .frame = frame}).outcome;
     list.device = last.statistics.device;
     list.wall_s = budget.elapsed_s();
@@ -240,6 +243,8 @@ int run_tradeoff(const TradeoffCommand& command) {
                                                  kFewestTrials, kMostRepeats));
     if (command.scene.frames)
         throw Error(ExitCode::usage, "tradeoff: --frames: a price list is of one picture; --frame names it");
+    if (command.output.empty())
+        throw Error(ExitCode::usage, "tradeoff: -o DIR is missing: where the price list goes");
     ProgressLine line(command.progress, command.quiet);
     const Budget budget{.limit_s = parse_duration(command.time_limit)};
     Scene scene = load_scene_with(command.scene);
