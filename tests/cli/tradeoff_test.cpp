@@ -17,10 +17,10 @@ using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
 // White noise, whose error falls with the root of the samples: of other sequences it falls faster.
-Words small_list(const fs::path& folder) {
+Words small_list(const fs::path& folder, const std::string& time = "6s") {
     return {
         "tradeoff", scene_file("night"), "--size", "64x64",     "--spp", "16", "--sequence", "white", "-o",
-        folder,     "--time-limit",      "6s",     "--no-page", "-q"};
+        folder,     "--time-limit",      time,     "--no-page", "-q"};
 }
 
 Json json_of(const fs::path& file) {
@@ -35,13 +35,14 @@ std::map<std::string, Json> runs_of(const Json& list, const std::string& knob) {
     return runs;
 }
 
-// One price list for all tests that only read it.
+// A price list, and where it is.
 struct Made {
     ScratchFolder folder;
     Ending ending;
     Json list;
 
-    Made() : ending(run(small_list(folder / "list"), surroundings())) {
+    explicit Made(const std::string& time = "6s")
+        : ending(run(small_list(folder / "list", time), surroundings())) {
         if (ending.code == 0) list = json_of(folder / "list" / "tradeoff.json");
     }
     [[nodiscard]] Surroundings surroundings() const {
@@ -49,23 +50,16 @@ struct Made {
     }
 };
 
-const Made& made() {
-    static const Made once;
-    return once;
-}
-
-TEST(Tradeoff, ends_with_0_and_leaves_whole_files) {
-    ASSERT_EQ(made().ending.code, 0) << made().ending.err;
-    EXPECT_EQ(made().ending.out, "");
-    EXPECT_EQ(names_in(made().folder / "list"), (Words{"pictures", "tradeoff.csv", "tradeoff.json"}));
-    const std::vector<std::string> pictures = names_in(made().folder / "list" / "pictures");
+void expect_whole_files(const Made& made) {
+    EXPECT_EQ(names_in(made.folder / "list"), (Words{"pictures", "tradeoff.csv", "tradeoff.json"}));
+    const std::vector<std::string> pictures = names_in(made.folder / "list" / "pictures");
     const std::set<std::string> there(pictures.begin(), pictures.end());
     std::set<std::string> named = {"pictures/reference.png"};
-    for (const Json& run : made().list["runs"])
+    for (const Json& run : made.list["runs"])
         for (const char* key : {"picture", "difference"})
             if (!run[key].is_null()) named.insert(run[key]);
     for (const char* row : {"equal_time", "equal_error"})
-        for (const Json& picture : made().list[row]["runs"])
+        for (const Json& picture : made.list[row]["runs"])
             for (const char* key : {"picture", "difference"})
                 named.insert(picture[key]);
     EXPECT_EQ(there.size(), named.size());
@@ -73,9 +67,9 @@ TEST(Tradeoff, ends_with_0_and_leaves_whole_files) {
         EXPECT_TRUE(there.contains(fs::path(name).filename())) << name;
 }
 
-TEST(Tradeoff, has_the_knobs_of_the_plan) {
+void expect_knobs_of_the_plan(const Made& made) {
     std::set<std::string> names;
-    for (const Json& knob : made().list["knobs"]) {
+    for (const Json& knob : made.list["knobs"]) {
         names.insert(knob["name"]);
         EXPECT_TRUE(knob["left_out"].empty()) << knob["left_out"];
     }
@@ -83,8 +77,8 @@ TEST(Tradeoff, has_the_knobs_of_the_plan) {
                                             "estimate"}));
 }
 
-TEST(Tradeoff, structures_of_the_world_change_no_pixel) {
-    const std::map<std::string, Json> runs = runs_of(made().list, "traversal");
+void expect_structures_to_change_no_pixel(const Made& made) {
+    const std::map<std::string, Json> runs = runs_of(made.list, "traversal");
     EXPECT_EQ(runs.size(), 6u);
     for (const auto& [setting, run] : runs) {
         EXPECT_EQ(run["differing_pixels"], 0) << setting;
@@ -93,31 +87,31 @@ TEST(Tradeoff, structures_of_the_world_change_no_pixel) {
 }
 
 // The twin: another sequence does change pixels.
-TEST(Tradeoff, sequences_change_pixels_and_less_noise_is_seen) {
-    const std::map<std::string, Json> runs = runs_of(made().list, "sequence");
+void expect_sequences_to_change_pixels(const Made& made) {
+    const std::map<std::string, Json> runs = runs_of(made.list, "sequence");
     ASSERT_EQ(runs.size(), 3u);
     EXPECT_EQ(runs.at("white")["differing_pixels"], 0);
     EXPECT_GT(runs.at("sobol")["differing_pixels"], 0);
     EXPECT_LT(runs.at("sobol")["error"]["total"], runs.at("white")["error"]["total"]);
 }
 
-TEST(Tradeoff, error_of_white_noise_falls_with_the_root_of_the_samples) {
-    const Json& knob = made().list["knobs"][0];
+void expect_the_slope_of_white_noise(const Made& made) {
+    const Json& knob = made.list["knobs"][0];
     ASSERT_EQ(knob["name"], "samples");
     const Json& slope = knob["slope_of_samples"];
     ASSERT_FALSE(slope.is_null());
     EXPECT_NEAR(slope["value"], -0.5, 0.04);
     EXPECT_LT(slope["low"], slope["high"]);
     std::map<int, double> errors;
-    for (const auto& [setting, run] : runs_of(made().list, "samples"))
+    for (const auto& [setting, run] : runs_of(made.list, "samples"))
         errors[std::stoi(setting)] = run["error"]["total"];
     ASSERT_GE(errors.size(), 3u);
     for (auto it = std::next(errors.begin()); it != errors.end(); ++it)
         EXPECT_LT(it->second, std::prev(it)->second) << it->first;
 }
 
-TEST(Tradeoff, what_a_render_says_of_its_error_agrees) {
-    for (const auto& [setting, run] : runs_of(made().list, "samples")) {
+void expect_claims_to_agree(const Made& made) {
+    for (const auto& [setting, run] : runs_of(made.list, "samples")) {
         if (setting == "1") continue;  // one half alone tells nothing
         const double total = run["error"]["total"];
         EXPECT_GT(run["claimed"]["estimate"], 0.7 * total) << setting;
@@ -125,9 +119,9 @@ TEST(Tradeoff, what_a_render_says_of_its_error_agrees) {
     }
 }
 
-TEST(Tradeoff, effects_are_priced_on_and_off) {
+void expect_prices_of_effects(const Made& made) {
     std::map<std::string, Json> effects;
-    for (const Json& effect : made().list["effects"])
+    for (const Json& effect : made.list["effects"])
         effects[effect["name"]] = effect;
     EXPECT_EQ(effects.size(), 11u);
     EXPECT_TRUE(effects.at("ao")["is_beyond_noise"]);
@@ -138,21 +132,21 @@ TEST(Tradeoff, effects_are_priced_on_and_off) {
     EXPECT_TRUE(effects.at("sun")["error"].is_null());
 }
 
-TEST(Tradeoff, reference_is_better_than_what_it_judges) {
-    const Json& reference = made().list["reference"];
+void expect_a_better_reference(const Made& made) {
+    const Json& reference = made.list["reference"];
     EXPECT_FALSE(reference["cached"]);
     EXPECT_GT(reference["noise"], 0.0);
-    for (const Json& run : made().list["runs"])
+    for (const Json& run : made.list["runs"])
         if (!run["error"]["is_limited"]) EXPECT_LT(reference["noise"], run["error"]["total"]) << run["id"];
 }
 
-TEST(Tradeoff, front_rises_in_time_and_falls_in_error) {
+void expect_a_front(const Made& made) {
     std::map<std::string, Json> runs;
-    for (const Json& run : made().list["runs"])
+    for (const Json& run : made.list["runs"])
         runs[run["id"]] = run;
-    ASSERT_FALSE(made().list["front"].empty());
+    ASSERT_FALSE(made.list["front"].empty());
     double time = 0.0, error = 1e9;
-    for (const Json& id : made().list["front"]) {
+    for (const Json& id : made.list["front"]) {
         const Json& run = runs.at(id);
         EXPECT_GT(run["time_s"]["median"], time);
         EXPECT_LT(run["error"]["total"], error);
@@ -161,19 +155,35 @@ TEST(Tradeoff, front_rises_in_time_and_falls_in_error) {
     }
 }
 
+// Each check would measure anew if it were a test of its own.
+TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
+    const Made made;
+    ASSERT_EQ(made.ending.code, 0) << made.ending.err;
+    EXPECT_EQ(made.ending.out, "");
+    expect_whole_files(made);
+    expect_knobs_of_the_plan(made);
+    expect_structures_to_change_no_pixel(made);
+    expect_sequences_to_change_pixels(made);
+    expect_the_slope_of_white_noise(made);
+    expect_claims_to_agree(made);
+    expect_prices_of_effects(made);
+    expect_a_better_reference(made);
+    expect_a_front(made);
+}
+
 TEST(TradeoffReference, is_cached_and_rebuilt_when_the_file_is_damaged) {
-    const Made& first = made();
+    const Made first("2s");
     ASSERT_EQ(first.ending.code, 0);
     const fs::path references = first.folder / "cache" / "voxilux" / "references";
     const std::vector<std::string> files = names_in(references);
     ASSERT_EQ(files.size(), 1u);
     const fs::path file = references / files.front();
     const Surroundings surroundings = first.surroundings();
-    const Ending again = run(small_list(first.folder / "again"), surroundings);
+    const Ending again = run(small_list(first.folder / "again", "2s"), surroundings);
     ASSERT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(json_of(first.folder / "again" / "tradeoff.json")["reference"]["cached"]);
     fs::resize_file(file, fs::file_size(file) / 2);
-    const Ending rebuilt = run(small_list(first.folder / "rebuilt"), surroundings);
+    const Ending rebuilt = run(small_list(first.folder / "rebuilt", "2s"), surroundings);
     ASSERT_EQ(rebuilt.code, 0) << rebuilt.err;
     EXPECT_FALSE(json_of(first.folder / "rebuilt" / "tradeoff.json")["reference"]["cached"]);
     EXPECT_EQ(names_in(references), files);
@@ -217,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;
-    Words words = small_list(folder / "list");
+    Words words = small_list(folder / "list", "1s");
     std::erase(words, "--no-page");
     const Ending ending = run(words, {.environment = {{"PYTHONHOME", "/nonexistent"}}});
     EXPECT_EQ(ending.code, 73);
