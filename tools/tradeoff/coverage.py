@@ -28,7 +28,7 @@ LONG_RUN_S = 30.0
 Z_95 = 1.959964  # of a normal distribution, two-sided
 FIRST_SEED = 1
 REFERENCE_SEEDS = (1000003, 2000003)
-REFERENCE_SHARE = 0.5  # error of a reference over the least error target of its view
+REFERENCE_SHARE, LONG_REFERENCE_SHARE = 0.5, 1.0  # error of a reference over the error targets of its view
 RADIUS_SHARE = 0.5  # first radius of photons of a reference over that of a run: its blur is a quarter
 CONTINUES = (0, 4)  # exit codes of a render that has written its picture
 STOPPED_BY_ERROR = "error target reached"
@@ -98,7 +98,7 @@ class Renderer:
 
     def references(self, view, report):
         """Two pictures of the view, and the relMSE between them. A report of a run names the radius of photons."""
-        error = REFERENCE_SHARE * min(one for one in (view["error"], view["long_error"]) if one)
+        error = min(REFERENCE_SHARE * view["error"], LONG_REFERENCE_SHARE * (view["long_error"] or 1.0))
         words = ["--error", f"{100 * error:.4g}%", "--time-limit", f"{self.options.reference_limit:g}s"]
         radius = (report.get("photons") or {}).get("first_radius")
         if radius:
