@@ -36,7 +36,7 @@ std::vector<std::string> overrides_of(const QualityPreset& preset) {
 std::string quality_help() {
     std::string text = fmt::format(
         "settings in one word, which other flags win over; medians of {} scenes\non {}:", kPricedScenes,
-        kNewLine, kPricedOn);
+        kPricedOn);
     for (const QualityPreset& preset : kPresets) {
         text += fmt::format("\n{:<9} {:>5} samples, error {:>3.2g} %, {:>5g} s per megapixel", preset.name,
                             preset.spp, 100.0 * preset.error, preset.seconds_per_megapixel);
