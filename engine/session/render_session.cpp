@@ -7,6 +7,7 @@
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
+#include "session/error_pilot.h"
 #include "session/frame_run.h"
 #include "session/radius_pilot.h"
 #include "world/world_view.h"
@@ -35,6 +36,9 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
     if (gpu::cell_state(gpu::find_cell(march_world, cell, march_world.chunks_size).cell) == gpu::kCellSolid)
         warnings.push_back("the camera is inside a solid voxel: the picture shows its inside, which is dark");
 }
+
+// Share of a time limit that a pilot may take: its samples are not in the picture.
+constexpr double kPilotTimeShare = 0.1;
 
 RenderOptions with_error_wish(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
@@ -68,15 +72,57 @@ void RenderSession::choose_radius(const Recording& upload) {
     prepared_->plan.photons.radius = *first_radius_;
 }
 
+// Shows the frame; returns what must be on the device before its first sample.
+Recording RenderSession::prepare_frame(std::int64_t frame) {
+    scene_ = &player_.show(frame);
+    Recording upload;
+    if (!update_world(*scene_)) return upload;
+    record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, prepared_->lights, upload);
+    if (prepared_->plan.needs_pilot()) choose_radius(std::exchange(upload, Recording{}));
+    return upload;
+}
+
+std::optional<ErrorPilot> RenderSession::run_pilot(Recording& upload, const std::function<bool()>& stops) {
+    if (!options_.error_target || prepared_->plan.has_ao_cells() || prepared_->plan.has_own_radii())
+        return {};
+    (void)executor_->run(std::exchange(upload, Recording{}));
+    return run_error_pilot({.prepared = *prepared_,
+                            .scene = *scene_,
+                            .error = *options_.error_target,
+                            .is_cpu = device_.limits().is_cpu,
+                            .stops = stops},
+                           *executor_);
+}
+
+std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
+    Recording upload = prepare_frame(frame);
+    return run_pilot(upload, {});
+}
+
+// The first frame has a pilot; each later one is expected to need what the one before did.
+ErrorGuess RenderSession::guess_error(Recording& upload, const RenderOptions& options,
+                                      std::uint32_t samples_done, Clock::time_point start) {
+    if (!options.error_target) return {};
+    if (state_.frames_done > 0) return {.points = last_points_, .from = DecidedBy::frame_before};
+    const auto stops = [&] {
+        if (options.interrupted != nullptr && options.interrupted->load()) return true;
+        return options.time_limit_s && seconds_since(start) > kPilotTimeShare * *options.time_limit_s;
+    };
+    const std::optional<ErrorPilot> pilot = run_pilot(upload, stops);
+    if (!pilot) return {};
+    forecast_ = make_forecast(*pilot, *options.error_target,
+                              {.most_samples = prepared_->plan.samples(),
+                               .samples_done = samples_done,
+                               .pilot_s = seconds_since(start),
+                               .film_values = film_values(prepared_->plan),
+                               .time_limit_s = options.time_limit_s});
+    return {.points = pilot->points, .from = DecidedBy::pilot};
+}
+
 RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> time_limit_s,
                                     const std::function<void(const Progress&)>& on_progress) {
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
-    scene_ = &player_.show(frame);
-    Recording upload;
-    if (update_world(*scene_)) {
-        record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, prepared_->lights, upload);
-        if (prepared_->plan.needs_pilot()) choose_radius(std::exchange(upload, Recording{}));
-    }
+    Recording upload = prepare_frame(frame);
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;
@@ -86,15 +132,22 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                              .film = film,
                              .params = frame_params(prepared_->plan, *scene_, prepared_->march_world),
                              .is_cpu = device_.limits().is_cpu,
-                             .start = start};
+                             .start = start,
+                             .guess = guess_error(upload, options, film.samples, start),
+                             .shares = shares_};
     FrameRun run(inputs, std::move(upload), *executor_, state_);
-    run.run(on_progress, [&] {
-        RenderOutcome so_far = run.outcome();
-        complete(so_far, load_s, start);
-        options_.on_checkpoint(*scene_, std::move(so_far));
-    });
+    FrameCalls calls{.on_progress = on_progress, .save = [&] {
+                         RenderOutcome so_far = run.outcome();
+                         complete(so_far, load_s, start);
+                         options_.on_checkpoint(*scene_, std::move(so_far));
+                     }};
+    if (options_.rehearse_end)
+        calls.rehearse = [&](RenderOutcome strip) { options_.rehearse_end(*scene_, std::move(strip)); };
+    run.run(calls);
     RenderOutcome outcome = run.outcome();
+    if (state_.frames_done == 0) outcome.statistics.forecast = forecast_;
     ++state_.frames_done;
+    last_points_ = run.own_points();
     complete(outcome, load_s, start);
     outcome.statistics.validation = new_messages();
     return outcome;
