@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "frame/frame.h"
@@ -9,6 +10,7 @@
 #include "scene/scene_camera.h"
 #include "session/error_pilot.h"
 #include "session/frame_run.h"
+#include "session/noise_shares.h"
 #include "session/radius_pilot.h"
 #include "world/world_view.h"
 
@@ -39,6 +41,8 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
 
 // Share of a time limit that a pilot may take: its samples are not in the picture.
 constexpr double kPilotTimeShare = 0.1;
+// What finding out whose noise it is may take, or kPilotShare of the render, if that is more.
+constexpr double kShareBudget_s = 1.0;
 
 RenderOptions with_error_wish(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
@@ -86,12 +90,23 @@ std::optional<ErrorPilot> RenderSession::run_pilot(Recording& upload, const std:
     if (!options_.error_target || prepared_->plan.has_ao_cells() || prepared_->plan.has_own_radii())
         return {};
     (void)executor_->run(std::exchange(upload, Recording{}));
-    return run_error_pilot({.prepared = *prepared_,
-                            .scene = *scene_,
-                            .error = *options_.error_target,
-                            .is_cpu = device_.limits().is_cpu,
-                            .stops = stops},
-                           *executor_);
+    const bool is_cpu = device_.limits().is_cpu;
+    ErrorPilot pilot = run_error_pilot({.prepared = *prepared_,
+                                        .scene = *scene_,
+                                        .error = *options_.error_target,
+                                        .is_cpu = is_cpu,
+                                        .stops = stops},
+                                       *executor_);
+    const std::optional<Forecast> rough = make_forecast(pilot, *options_.error_target, {});
+    if (!rough || !pilot.is_complete) return pilot;
+    shares_ = share_noise({.prepared = *prepared_,
+                           .scene = *scene_,
+                           .is_cpu = is_cpu,
+                           .sample_s = rough->expected_s / rough->samples,
+                           .budget_s = std::max(kShareBudget_s, kPilotShare * rough->expected_s),
+                           .stops = stops},
+                          *executor_);
+    return pilot;
 }
 
 std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
