@@ -129,6 +129,10 @@ class RenderSession {
     // The plan of the frame last worked on.
     [[nodiscard]] const RenderPlan& plan() const { return prepared_->plan; }
 
+    // The frames from now on have these settings and this plan, as in a session of their own; device,
+    // pipelines and voxels are kept. So the structure of the world stays, whichever `request` names.
+    void change(const RenderSettings& settings, const PlanRequest& request);
+
     // The still scene of the frame rendered last.
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
@@ -137,8 +141,9 @@ class RenderSession {
 
   private:
     [[nodiscard]] bool update_world(const Scene& scene);
+    [[nodiscard]] Recording prepare(const Scene& scene);
+    void replan(const Scene& scene, Recording& upload);
     void choose_radius(const Recording& upload);
-    [[nodiscard]] Recording prepare_frame(std::int64_t frame);
     [[nodiscard]] std::optional<ErrorPilot> run_pilot(Recording& upload, const std::function<bool()>& stops);
     [[nodiscard]] ErrorGuess guess_error(Recording& upload, const RenderOptions& options,
                                          std::uint32_t samples_done,
@@ -159,6 +164,7 @@ class RenderSession {
     std::optional<double> first_radius_;  // of photons, once a pilot has found it
     std::size_t messages_told_ = 0;
     bool has_started_ = false;
+    bool is_changed_ = false;  // settings or request, since the last plan
 };
 
 // The picture of a scene, of an animated one that of its first frame.
