@@ -113,7 +113,8 @@ def how_to_read(data):
 
 def overview(plots, data):
     return section("Error against time", f"<figure>{plot_all(plots, data)}<figcaption>", paragraph(
-        "One mark for each setting, at the median of its times; its line reaches from the fastest to the slowest repeat. "
+        "One mark for each setting, at the median of its times; its bar reaches from the fastest to the slowest repeat. "
+        "Thin lines follow a setting to fewer and more samples. "
         "Both axes are logarithmic, so a power law is a straight line: dotted lines are fits, their slopes stand in the legend "
         "with 95 % intervals. Pure noise has slope -0.5: four times the time for half the error. The staircase is the Pareto "
         "front, the least error that any setting reached in that time."), "</figcaption></figure>")
@@ -140,10 +141,18 @@ def front_table(data):
 def knobs(plots, data):
     figures = []
     for index, knob in enumerate(data["knobs"]):
-        figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}<figcaption>"
-                       f"{esc(knob['why'])} Changed: {esc(knob['axis'])}; {esc(slope_words(knob['slope']))}.</figcaption></figure>")
+        words = [knob["why"], f"Changed: {knob['axis']}."]
+        if knob["slope"]:
+            words.append(f"Fitted: {slope_words(knob['slope'])}.")
+        words += [f"Left out: {one['setting']}, {one['why']}." for one in knob.get("left_out") or []]
+        same = [data["by_id"][i]["setting"] for i in knob["runs"] if data["by_id"][i].get("differing_pixels") == 0]
+        if same:
+            words.append(f"Every pixel is the same as with the default settings: {', '.join(same)}.")
+        figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}"
+                       f"<figcaption>{esc(' '.join(words))}</figcaption></figure>")
     return section("One knob at a time", paragraph(
-        "Coloured: the values of this knob. Grey: all other runs. A ring marks the default settings."),
+        "Coloured: the values of this knob; a line follows a value to fewer and more samples. Grey: all other runs. A ring "
+        "marks the default settings, a hollow mark an error so small that the reference's own noise blurs it."),
         f'<div class="knobs">{"".join(figures)}</div>')
 
 
@@ -166,7 +175,8 @@ def picture_row(data, folder, key):
         words = f"{seconds(run['time_s'])}, error {percent(run['error'])}"
         cards.append(f"<figure>{image(folder, run['picture'], 'Picture: ' + run['label'] + ', ' + words)}"
                      f"{image(folder, run['difference'], 'Difference from the reference: ' + run['label'])}"
-                     f"<figcaption><b>{esc(run['label'])}</b><br>{esc(words)}</figcaption></figure>")
+                     f"<figcaption><b>{esc(run['label'])}</b><br>{esc(words)}"
+                     f"{'' if run.get('is_reached', True) else '; did not get there'}</figcaption></figure>")
     title = (f"Pictures at equal time: about {seconds(group['time_s'])}" if key == "equal_time"
              else f"Pictures at equal error: about {percent(group['error'])}")
     scale = data.get("difference_scale") or "black where a pixel is right, brighter the further it is from the reference"
