@@ -53,10 +53,15 @@ WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording) {
     if (plan.has(Effect::voxels)) record_world_build(march_world, build_buffers(plan, recording), recording);
+    record_matter_upload(plan, scene, march_world.origin, lights, recording);
+}
+
+void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
+                          const LightList& lights, Recording& recording) {
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
         for (const std::uint32_t number : sphere_order(scene))
-            records.push_back(sphere_record(scene.spheres[number], march_world.origin));
+            records.push_back(sphere_record(scene.spheres[number], origin));
         upload_all(plan, "sphere.records", records, recording);
     }
     if (plan.has(Effect::voxels) || plan.has(Effect::spheres))

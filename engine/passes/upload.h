@@ -10,6 +10,10 @@ namespace voxilux {
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording);
 
+// Of the above what depends on which effects run, and not on the voxels: materials, spheres, lamps.
+void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
+                          const LightList& lights, Recording& recording);
+
 // Puts the parameters of one slice on the device and sets the tally to zero.
 void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording);
 

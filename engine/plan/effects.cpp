@@ -5,12 +5,13 @@
 namespace voxilux {
 namespace {
 
-// One row per effect: its need (without it the effect has no meaning), and whether the scene's picture would
-// change.
+// One row per effect: its need (without it the effect has no meaning), whether the scene calls for it, and
+// whether leaving it out all the same changes the picture.
 struct Verdict {
     bool possible = false;
     bool called_for = false;
     std::string reason;
+    bool by_choice = false;
 };
 
 struct EffectRow {
@@ -75,7 +76,7 @@ Verdict judge_indirect(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
     if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
     if (!facts.has_emitters)
-        return {true, false, "no lamps: occlusion of the sky stands for light between surfaces"};
+        return {true, false, "no lamps: occlusion of the sky stands for light between surfaces", true};
     return {true, true, "photons: surfaces send the light of lamps on"};
 }
 
@@ -103,10 +104,11 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
     const auto asked = request.switches.find(row.effect);
     const Switch choice = asked == request.switches.end() ? Switch::automatic : asked->second;
     if (choice == Switch::off && verdict.possible)
-        return {row.effect, false, fmt::format("switched off by the user ({})", verdict.reason)};
+        return {row.effect, false, fmt::format("switched off by the user ({})", verdict.reason),
+                verdict.called_for || verdict.by_choice};
     if (choice == Switch::on && verdict.possible && !verdict.called_for)
         return {row.effect, true, fmt::format("switched on by the user, though {}", verdict.reason)};
-    return {row.effect, verdict.possible && verdict.called_for, verdict.reason};
+    return {row.effect, verdict.possible && verdict.called_for, verdict.reason, verdict.by_choice};
 }
 
 // Light that has not been let out, or finds no mirror, needs no photons.
@@ -115,7 +117,7 @@ void drop_unlit(EffectStates& states) {
         return states[static_cast<std::size_t>(effect)];
     };
     const auto drop = [&](Effect effect, const char* reason) {
-        if (state(effect).on) state(effect) = {effect, false, reason};
+        if (state(effect).on) state(effect) = {effect, false, reason, true};
     };
     if (!state(Effect::specular).on) drop(Effect::caustics, "mirrors and glass are switched off");
     if (state(Effect::emission).on) return;

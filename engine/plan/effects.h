@@ -32,7 +32,8 @@ enum class Switch : std::uint8_t { automatic, on, off };
 struct EffectState {
     Effect effect = Effect::voxels;
     bool on = false;
-    std::string reason;  // one clause, shown to the user
+    std::string reason;      // one clause, shown to the user
+    bool by_choice = false;  // off although the picture would be another one with it
 
     bool operator==(const EffectState&) const = default;
 };

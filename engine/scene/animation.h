@@ -31,6 +31,9 @@ class FramePlayer {
     // The still scene at `frame`, until the next call. Throws as the constructor does.
     const Scene& show(std::int64_t frame);
 
+    // What show() gives from now on has these settings.
+    void change_settings(const RenderSettings& settings) { still_.settings = settings; }
+
     // Whether the last show() changed the voxels; true of the first.
     [[nodiscard]] bool has_new_voxels() const { return has_new_voxels_; }
 

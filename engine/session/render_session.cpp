@@ -61,6 +61,39 @@ bool RenderSession::update_world(const Scene& scene) {
     return true;
 }
 
+void RenderSession::change(const RenderSettings& settings, const PlanRequest& request) {
+    player_.change_settings(settings);
+    options_.plan = request;
+    first_radius_.reset();
+    is_changed_ = true;
+}
+
+void RenderSession::replan(const Scene& scene, Recording& upload) {
+    const bool had_voxels = prepared_->plan.has(Effect::voxels);
+    const WorldFacts world = prepared_->plan.world;
+    prepared_->plan = plan_render(scene, prepared_->facts, world, options_.plan, device_.limits());
+    state_ = {};
+    if (!had_voxels)
+        record_scene_upload(prepared_->plan, scene, prepared_->march_world, prepared_->lights, upload);
+    else
+        record_matter_upload(prepared_->plan, scene, prepared_->march_world.origin, prepared_->lights,
+                             upload);
+}
+
+// What the device lacks for the frame.
+Recording RenderSession::prepare(const Scene& scene) {
+    Recording upload;
+    const bool is_changed = std::exchange(is_changed_, false);
+    if (update_world(scene))
+        record_scene_upload(prepared_->plan, scene, prepared_->march_world, prepared_->lights, upload);
+    else if (is_changed)
+        replan(scene, upload);
+    else
+        return upload;
+    if (prepared_->plan.needs_pilot()) choose_radius(std::exchange(upload, Recording{}));
+    return upload;
+}
+
 // One radius for all frames, so that they do not flicker.
 void RenderSession::choose_radius(const Recording& upload) {
     (void)executor_->run(upload);
@@ -72,11 +105,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                                     const std::function<void(const Progress&)>& on_progress) {
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
     scene_ = &player_.show(frame);
-    Recording upload;
-    if (update_world(*scene_)) {
-        record_scene_upload(prepared_->plan, *scene_, prepared_->march_world, prepared_->lights, upload);
-        if (prepared_->plan.needs_pilot()) choose_radius(std::exchange(upload, Recording{}));
-    }
+    Recording upload = prepare(*scene_);
     const double load_s = seconds_since(start);
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;

@@ -110,6 +110,10 @@ class RenderSession {
     [[nodiscard]] RenderOutcome render(std::int64_t frame, std::optional<double> time_limit_s,
                                        const std::function<void(const Progress&)>& on_progress = {});
 
+    // The frames from now on have these settings and this plan, as in a session of their own; device,
+    // pipelines and voxels are kept. So the structure of the world stays, whichever `request` names.
+    void change(const RenderSettings& settings, const PlanRequest& request);
+
     // The still scene of the frame rendered last.
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
@@ -118,6 +122,8 @@ class RenderSession {
 
   private:
     [[nodiscard]] bool update_world(const Scene& scene);
+    [[nodiscard]] Recording prepare(const Scene& scene);
+    void replan(const Scene& scene, Recording& upload);
     void choose_radius(const Recording& upload);
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();
@@ -132,6 +138,7 @@ class RenderSession {
     std::optional<double> first_radius_;  // of photons, once a pilot has found it
     std::size_t messages_told_ = 0;
     bool has_started_ = false;
+    bool is_changed_ = false;  // settings or request, since the last plan
 };
 
 // The picture of a scene, of an animated one that of its first frame.
