@@ -141,6 +141,9 @@ def price_list(folder):
                       "cached": True, "noise": 0.0037, "bias": None,
                       "error": {"estimate": 0.0037, "low": 0.0035, "high": 0.0039, "confidence": 0.95}},
         "runs": found, "knobs": knobs(found), "front": front(found), "effects": effects(),
+        "difference_scale": "relative difference of a pixel",
+        "difference_colours": [{"value": 0.001, "colour": "#000004"}, {"value": 0.03, "colour": "#b73779"},
+                               {"value": 1.0, "colour": "#fcfdbf"}],
         "equal_time": {"time_s": 0.8, "runs": group(folder, found, ("samples-16", "ao_cell-10 px", "sequence-white"))},
         "equal_error": {"error": 0.03, "runs": group(folder, found, ("samples-64", "ao_cell-5 px"))},
     }

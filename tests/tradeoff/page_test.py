@@ -164,6 +164,10 @@ class Page(unittest.TestCase):
         groups = self.data["equal_time"]["runs"] + self.data["equal_error"]["runs"]
         self.assertEqual(self.source.count("data:image/png;base64,iVBOR"), 2 * len(groups) + 2)
 
+    def test_difference_maps_have_a_scale(self):
+        self.assertIn("Scale: relative difference of a pixel.", self.page.text)
+        self.assertIn("0.10 % 3.0 % 100 %", self.page.text)
+
     def test_colours_follow_light_and_dark(self):
         self.assertIn("prefers-color-scheme: dark", self.source)
         self.assertEqual(re.findall(r"#0[1-4]0[0-9a-f]0[1-4]\b", self.source), [])
@@ -263,6 +267,10 @@ class Refusal(unittest.TestCase):
         self.expect(3, "time is not above 0",
                     self.changed(lambda data: data["runs"][0]["time_s"].update(median=0)))
         self.expect(3, "front names the run 'ghost'", self.changed(lambda data: data["front"].append("ghost")))
+
+    def test_colour_that_is_none(self):
+        self.expect(3, "difference_colours: 'red;' is not '#rrggbb'",
+                    self.changed(lambda data: data["difference_colours"][0].update(colour="red;")))
 
     def test_files_that_are_not_there(self):
         with tempfile.TemporaryDirectory() as folder:

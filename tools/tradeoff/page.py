@@ -35,6 +35,8 @@ h3 { margin: 0 0 .3rem; font-size: 1.02rem } p { max-width: 52rem; margin: .5rem
 figure { margin: 0; break-inside: avoid } figcaption { font-size: .9rem; line-height: 1.4 }
 svg { width: 100%; height: auto; display: block } svg text { font-family: inherit }
 img { width: 100%; display: block; background: var(--grid); image-rendering: auto; margin-bottom: .3rem }
+.scale { max-width: 30rem; font-size: .85rem } .scale i { display: block; height: .9rem; print-color-adjust: exact }
+.scale div { display: flex; justify-content: space-between }
 .wide { overflow-x: auto } table { border-collapse: collapse; width: 100%; font-size: .92rem }
 th, td { text-align: left; padding: .3rem .7rem .3rem 0; border-bottom: 1px solid var(--grid); vertical-align: top }
 td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
@@ -164,6 +166,16 @@ def parts(plots, data):
         f"<figure>{plot_parts(plots, data)}</figure>")
 
 
+def scale_bar(data):
+    """The colours of difference maps, evenly spaced, with their values below."""
+    stops = data.get("difference_colours") or []
+    if len(stops) < 2:
+        return ""
+    ticks = "".join(f"<span>{percent(stop['value'])}</span>" for stop in stops)
+    return (f'<div class="scale" role="img" aria-label="Colours of differences"><i style="background:linear-gradient(to right,'
+            f'{",".join(stop["colour"] for stop in stops)})"></i><div>{ticks}</div></div>')
+
+
 def picture_row(data, folder, key):
     group = data.get(key)
     if not group or not group["runs"]:
@@ -181,7 +193,7 @@ def picture_row(data, folder, key):
              else f"Pictures at equal error: about {percent(group['error'])}")
     scale = data.get("difference_scale") or "black where a pixel is right, brighter the further it is from the reference"
     return section(title, paragraph(f"Above the picture, below it its difference from the reference. Scale: {esc(scale)}."),
-                   f'<div class="row">{"".join(cards)}</div>')
+                   scale_bar(data), f'<div class="row">{"".join(cards)}</div>')
 
 
 def effects(plots, data):

@@ -6,6 +6,7 @@ All errors are roots of relMSE, where 0.01 is called 1 %.
 import html
 import json
 import math
+import re
 
 
 class Malformed(Exception):
@@ -50,7 +51,7 @@ SHAPE = {
     "equal_time": Maybe({"time_s": NUMBER, "runs": PICTURED}),
     "equal_error": Maybe({"error": NUMBER, "runs": PICTURED}),
     "fixed": Maybe([{"name": TEXT, "value": TEXT, "why": TEXT}]),
-    "difference_scale": Maybe(TEXT),
+    "difference_scale": Maybe(TEXT), "difference_colours": Maybe([{"value": NUMBER, "colour": TEXT}]),
 }
 
 
@@ -102,6 +103,9 @@ def load(path):
         if not all(one["time_s"]["median"] > 0 for one in [run, *(run.get("curve") or [])]):
             raise Malformed(f"run '{run['id']}': its time is not above 0")
         run["words"] = name_of(data, run)
+    for stop in data.get("difference_colours") or []:
+        if not re.fullmatch("#[0-9a-f]{6}", stop["colour"]):
+            raise Malformed(f"difference_colours: '{stop['colour']}' is not '#rrggbb'")
     if not data["front"]:
         raise Malformed("tradeoff.front is empty")
     return data
