@@ -141,6 +141,13 @@ class Page(unittest.TestCase):
         self.assertIn("samples per pixel: slope -0.50 (-0.52 to -0.48)", self.page.text)
         self.assertIn("4.0 times the time", self.page.text)
 
+    def test_settings_stand_with_the_slopes_of_their_own_samples(self):
+        self.assertIn("white: slope -0.49 (-0.55 to -0.43)", self.page.text)
+
+    def test_settings_that_change_nothing_or_were_left_out_are_told(self):
+        self.assertIn("Every pixel is the same as with the default settings: dda, brick8, naadf.", self.page.text)
+        self.assertIn("Left out: deep, needs more memory.", self.page.text)
+
     def test_bias_stands_apart_from_noise(self):
         self.assertIn("4.0 % (3.2 % to 4.9 %)", self.page.text)
         self.assertIn("none found, at most 0.10 %", self.page.text)
@@ -156,6 +163,10 @@ class Page(unittest.TestCase):
     def test_pictures_are_inside(self):
         groups = self.data["equal_time"]["runs"] + self.data["equal_error"]["runs"]
         self.assertEqual(self.source.count("data:image/png;base64,iVBOR"), 2 * len(groups) + 2)
+
+    def test_difference_maps_have_a_scale(self):
+        self.assertIn("Scale: relative difference of a pixel.", self.page.text)
+        self.assertIn("0.10 % 3.0 % 100 %", self.page.text)
 
     def test_colours_follow_light_and_dark(self):
         self.assertIn("prefers-color-scheme: dark", self.source)
@@ -215,7 +226,7 @@ class Changed(unittest.TestCase):
         def change(data, _):
             for index in range(12):
                 data["knobs"].append(dict(data["knobs"][0], name=f"k{index}", label=f"knob {index}"))
-        self.assertIn("knob 11: slope", self.made(change))
+        self.assertIn("knob 11 ", self.made(change))
 
 
 class Refusal(unittest.TestCase):
@@ -256,6 +267,10 @@ class Refusal(unittest.TestCase):
         self.expect(3, "time is not above 0",
                     self.changed(lambda data: data["runs"][0]["time_s"].update(median=0)))
         self.expect(3, "front names the run 'ghost'", self.changed(lambda data: data["front"].append("ghost")))
+
+    def test_colour_that_is_none(self):
+        self.expect(3, "difference_colours: 'red;' is not '#rrggbb'",
+                    self.changed(lambda data: data["difference_colours"][0].update(colour="red;")))
 
     def test_files_that_are_not_there(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -26,8 +26,10 @@ DEFAULTS = {"ao_rays": 1, "photons": 0}
 
 
 def worth(rows, knob):
-    """By value of the knob: time for an error over that of the default, and ratios of error and time."""
-    default = next((row for row in rows if row["is_default"]), None)
+    """By value of the knob: time for an error over that of the default, and ratios of error and time. The default of
+    the knob was measured with as many samples as its other values."""
+    defaults = [row for row in rows if row["is_default"]]
+    default = next((row for row in defaults if row["knob"] == knob), defaults[0] if defaults else None)
     if default is None:
         return {}
     return {row["setting"]: (row["error"] ** 2 * row["time_s"] / (default["error"] ** 2 * default["time_s"]),
