@@ -1,7 +1,7 @@
 # What the commands of the README share. Sourced by a POSIX shell in the top folder; needs only Debian's base system.
 
 # Space that the steps take at most, MiB.
-packages_mib=1500
+packages_mib=2000
 build_mib=1000
 
 say() { printf '\n== %s\n' "$*"; }

@@ -6,6 +6,7 @@
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "parse_values.h"
+#include "quality.h"
 #include "scene/animation.h"
 #include "scene/scene_camera.h"
 #include "scene/scene_toml.h"
@@ -18,6 +19,7 @@ constexpr const char* kSampling = "Sampling";
 constexpr std::uint64_t kMostMib = std::numeric_limits<std::uint64_t>::max() >> 20;
 
 void add_sampling_flags(CLI::App& command, SceneOptions& options) {
+    command.add_option("--quality", options.quality, quality_help())->type_name("NAME")->group(kSampling);
     command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
     command
         .add_option("--iterations", options.iterations,
@@ -48,6 +50,14 @@ void add_sampling_flags(CLI::App& command, SceneOptions& options) {
     command.add_option("--sequence", options.sequence, "sample sequence: sobol, halton or white")
         ->type_name("NAME")
         ->group(kSampling);
+}
+
+// The -D overrides, after those of the preset, so that they win.
+std::vector<std::string> overrides_with_quality(const SceneOptions& options) {
+    if (!options.quality) return options.overrides;
+    std::vector<std::string> overrides = overrides_of(quality_named(*options.quality));
+    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+    return overrides;
 }
 
 }  // namespace
@@ -102,7 +112,7 @@ Scene load_scene_with(const SceneOptions& options) {
     if (options.ao) ao = parse_ao_method(*options.ao);
     (void)with_photons({}, options.photons);
 
-    Scene scene = load_scene(options.input, {.overrides = options.overrides});
+    Scene scene = load_scene(options.input, {.overrides = overrides_with_quality(options)});
     RenderSettings& settings = scene.settings;
     settings.size = size.value_or(settings.size);
     settings.spp = options.iterations.value_or(options.spp.value_or(settings.spp));

@@ -19,6 +19,7 @@ struct SceneOptions {
     std::string input;
     std::optional<std::string> size;
     std::optional<std::string> camera;
+    std::optional<std::string> quality;
     std::optional<std::uint32_t> spp;
     std::optional<std::uint32_t> iterations;  // another name of spp
     PhotonOptions photons;

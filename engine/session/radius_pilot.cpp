@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "frame/frame.h"
@@ -49,11 +48,8 @@ std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams
     Recording recording;
     record_frame(pilot, slice, params, {}, recording);
     recording.readback("photon.radii");
-    const RunResult result = executor.run(recording);
-    const std::vector<std::byte>& bytes = result.readbacks.at("photon.radii");
-    const std::size_t pixels = std::size_t{slice.row_count} * static_cast<std::size_t>(pilot.settings.size.x);
-    std::vector<gpu::PixelRadius> radii(pixels);
-    std::memcpy(radii.data(), bytes.data(), pixels * sizeof(gpu::PixelRadius));
+    auto radii = values_of<gpu::PixelRadius>(executor.run(recording), "photon.radii");
+    radii.resize(std::size_t{slice.row_count} * static_cast<std::size_t>(pilot.settings.size.x));
     std::vector<float> photons;
     for (const gpu::PixelRadius& pixel : radii)
         photons.push_back(pixel.photons);

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "embedded.h"
@@ -38,6 +40,16 @@ struct RunResult {
     std::map<std::string, std::vector<std::byte>> readbacks;  // by buffer
     std::vector<PassTime> passes;                             // in order of first dispatch
 };
+
+// The values of a buffer that was read back.
+template <class T>
+[[nodiscard]] std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
+}
 
 struct MemoryRow {
     std::string buffer;

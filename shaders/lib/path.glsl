@@ -199,7 +199,8 @@ Interface interface_at(PathRay path, PathHit found) {
     if (has_glass_spheres != 0u)
         around = glass_around(local_position(found.hit.cell, found.hit.fraction), on_sphere ? found.hit.sphere : kNoSphere);
     uint sphere_medium = around == kNoSphere ? kNoMedium : spheres[around].material;
-    float outside = sphere_medium != kNoMedium ? ior_of(sphere_medium) : ior_of(path.medium);
+    uint outer_medium = sphere_medium != kNoMedium ? sphere_medium : path.medium;
+    float outside = ior_of(outer_medium);
     Interface between;
     if (on_sphere) {
         bool leaves = found.hit.face == kFaceSphereInside;
@@ -208,7 +209,7 @@ Interface interface_at(PathRay path, PathHit found) {
         float curvature = around == kNoSphere ? 0.0 : spheres[around].shape.curvature;
         bool is_inner = around != kNoSphere && (curvature > own_curvature ||
                                                 (curvature == own_curvature && around > found.hit.sphere));
-        between.is_none = is_inner || sphere_medium == found.hit.material;
+        between.is_none = is_inner || outer_medium == found.hit.material;
         between.near = leaves ? own : outside;
         between.far = leaves ? outside : own;
     } else {

@@ -29,7 +29,8 @@ struct Photon {
     vec3 power;       // at the start
     vec3 throughput;  // since then
     uint id;
-    uint bounces;
+    uint events;        // surfaces and borders of glass that are none: each draws its own random numbers
+    uint bounces;       // surfaces
     bool has_passed;    // a border of glass that is no surface, behind which no shadow ray looks
     bool is_scattered;  // by a diffuse surface
 };
@@ -45,6 +46,7 @@ Photon start_photon(uint id) {
     photon.power = start.power;
     photon.throughput = vec3(1.0);
     photon.id = id;
+    photon.events = 0u;
     photon.bounces = 0u;
     photon.has_passed = false;
     photon.is_scattered = false;
@@ -52,7 +54,7 @@ Photon start_photon(uint id) {
 }
 
 float draw(Photon photon, uint number) {
-    uint dimension = 2u * (kPairBounce + kPairsOfBounce * photon.bounces) + number;
+    uint dimension = 2u * (kPairBounce + kPairsOfBounce * photon.events) + number;
     return rng_float(frame.seed, frame.sample_index, photon.id, dimension);
 }
 
@@ -63,7 +65,8 @@ bool bounce(inout Photon photon, PathHit found) {
     bool is_diffuse = event.kind == kEventDiffuse;
     bool is_caustic = (photon.bounces > 0u || photon.has_passed) && !photon.is_scattered;
     bool is_kept = photon.is_scattered ? keeps_indirect != 0u : is_caustic && keeps_caustics != 0u;
-    if (is_diffuse && is_kept)
+    bool sends = max(event.albedo.x, max(event.albedo.y, event.albedo.z)) > 0.0;
+    if (is_diffuse && is_kept && sends)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
     vec3 scattered = cosine_about(found.normal, vec2(draw(photon, 2u), draw(photon, 3u)));
     PathRay off_surface = path_from(found.hit, scattered);
@@ -72,11 +75,15 @@ bool bounce(inout Photon photon, PathHit found) {
     photon.is_scattered = photon.is_scattered || is_diffuse;
     photon.path = next;
     photon.has_passed = photon.has_passed || event.kind == kEventPass;
-    if (event.kind == kEventPass) return true;
+    if (event.kind == kEventPass) {
+        ++photon.events;
+        return true;
+    }
     photon.throughput *= event.albedo;
     float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;
     bool survives = draw(photon, 4u) < survival && (keeps_indirect != 0u || !is_diffuse);
     photon.throughput /= survives ? survival : 1.0;
+    ++photon.events;
     ++photon.bounces;
     return survives && (depth_limit == 0u || photon.bounces < depth_limit);
 }

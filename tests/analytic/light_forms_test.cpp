@@ -348,8 +348,8 @@ TEST(LightForms, lamp_in_a_hollow_ball_of_any_size_gives_the_series_of_reflectio
     }
 }
 
-// A photon is stored where it arrives after the first wall: with probability a a first time, then again and
-// again with probability a (1 - F), until roulette or the black lamp, where it is stored too, takes it.
+// A photon is stored where it arrives after the first wall, again and again with probability a (1 - F), until
+// roulette takes it or the black lamp, which keeps none because it sends none on.
 TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
     for (const float albedo : {0.5f, 0.9f}) {
         constexpr double kPhotons = 16384.0 * 16.0;
@@ -357,9 +357,9 @@ TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
         double stored = 0.0;
         for (std::uint32_t i = 0; i < 16; ++i)
             stored += rig.render(i).tally[gpu::kWorkPhotonsStored];
-        const double a = albedo, q = a * (1.0 - kLampPart);
-        const double mean = a / (1.0 - q);  // of one photon
-        const double variance = a * (1.0 + q) / ((1.0 - q) * (1.0 - q)) - mean * mean;
+        const double q = albedo * (1.0 - kLampPart);
+        const double mean = q / (1.0 - q);  // of one photon
+        const double variance = mean / (1.0 - q);
         EXPECT_LT(std::abs(stored - kPhotons * mean), kFarOff * std::sqrt(kPhotons * variance)) << albedo;
     }
 }

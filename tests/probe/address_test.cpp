@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
 #include "base/checked_cast.h"
@@ -22,13 +21,6 @@ constexpr std::uint32_t kBackground = 0xABCD0123u;
 
 std::span<const std::byte> bytes_of(const Words& words) {
     return std::as_bytes(std::span(words));
-}
-
-Words words_of(const RunResult& result, const std::string& buffer) {
-    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
-    Words words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
 }
 
 // Both ends, both sides of each power of two up to the end (the line of 128 MiB among them), and words spread
@@ -103,7 +95,7 @@ Words read_back_by_address(Executor& executor, const Words& indices, const Words
                          std::uint64_t{4} * indices[i]);
     recording.dispatch(gather("t.big", indices));
     recording.readback("t.out");
-    return words_of(executor.run(recording), "t.out");
+    return values_of<std::uint32_t>(executor.run(recording), "t.out");
 }
 
 TEST_F(Addresses, words_on_both_sides_of_the_binding_limit_are_read) {
@@ -140,14 +132,16 @@ TEST_F(Addresses, words_on_both_sides_of_the_binding_limit_are_written_and_no_ot
     recording.dispatch(scatter("t.big", indices));
     recording.dispatch(gather("t.big", indices));
     recording.readback("t.out");
-    EXPECT_EQ(words_of(executor_.run(recording), "t.out"), values_at(indices));
+    EXPECT_EQ(values_of<std::uint32_t>(executor_.run(recording), "t.out"), values_at(indices));
 
     constexpr std::uint32_t window = 1u << 16;
     for (const std::uint32_t first : {0u, kLine - window / 2, kLastWord + 1 - window}) {
         Recording look;
         look.declare(big);
         look.readback("t.big", std::uint64_t{4} * first, std::uint64_t{4} * window);
-        EXPECT_EQ(words_of(executor_.run(look), "t.big"), expected_window(indices, first, window)) << first;
+        EXPECT_EQ(values_of<std::uint32_t>(executor_.run(look), "t.big"),
+                  expected_window(indices, first, window))
+            << first;
     }
 }
 
@@ -168,7 +162,7 @@ TEST_F(Addresses, bound_and_addressed_uses_of_one_buffer_keep_their_order) {
     add("t.values", "t.a");  // writes bound what is read by address
     recording.dispatch(gather("t.a", indices));
     recording.readback("t.out");
-    const Words seen = words_of(executor_.run(recording), "t.out");
+    const Words seen = values_of<std::uint32_t>(executor_.run(recording), "t.out");
     for (std::uint32_t i = 0; i < indices.size(); ++i)
         ASSERT_EQ(seen[i], value_at(i) + 2) << i;
 }
@@ -187,7 +181,7 @@ TEST_F(Addresses, indirect_dispatch_reads_by_address_what_a_binding_reads) {
         dispatch.constants = {{"is_by_address", is_by_address}};
         recording.dispatch_indirect(dispatch, "t.groups");
         recording.readback("t.out");
-        seen.push_back(words_of(executor_.run(recording), "t.out"));
+        seen.push_back(values_of<std::uint32_t>(executor_.run(recording), "t.out"));
     }
     Words expected = values_at(indices);
     std::ranges::reverse(expected);

@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::uint32_t kPoison = 0xCDCDCDCDu;
 
-template <class T>
-std::vector<T> words_of(const RunResult& result, const std::string& buffer) {
-    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
-    std::vector<T> words(bytes.size() / sizeof(T));
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
-}
-
 std::span<const std::byte> bytes_of(const std::vector<std::uint32_t>& words) {
     return std::as_bytes(std::span(words));
 }
@@ -72,7 +64,7 @@ TEST_P(DispatchSize, each_invocation_runs_once) {
                         .bindings = {{"Counts", "t.counts"}},
                         .push = to_bytes(count)});
     recording.readback("t.counts");
-    const auto counts = words_of<std::uint32_t>(test_executor().run(recording), "t.counts");
+    const auto counts = values_of<std::uint32_t>(test_executor().run(recording), "t.counts");
     const auto wrong = std::ranges::count_if(counts, [](std::uint32_t n) { return n != 1; });
     EXPECT_EQ(wrong, count == 0 ? 1 : 0);
 }
@@ -97,7 +89,7 @@ TEST(Executor, indirect_dispatch_takes_its_groups_from_the_device) {
                                  .push = to_bytes(count)},
                                 "t.groups");
     recording.readback("t.counts");
-    const auto counts = words_of<std::uint32_t>(test_executor().run(recording), "t.counts");
+    const auto counts = values_of<std::uint32_t>(test_executor().run(recording), "t.counts");
     const std::uint32_t expected = (count / 2 + 63) / 64 * 64;
     for (std::uint32_t i = 0; i < count; ++i)
         ASSERT_EQ(counts[i], i < expected ? 1u : 0u) << i;
@@ -117,8 +109,9 @@ TEST(Executor, transfers_keep_the_order_of_the_recording) {
     recording.readback("t.a", 8, 12);
     recording.dispatch(add_constant(8, "t.a", "t.b"));
     const RunResult result = test_executor().run(recording);
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.b"), (std::vector<std::uint32_t>{1, 101, 3, 4, 5, 6, 7, 8}));
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.a"), (std::vector<std::uint32_t>{52, 53, 54}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.b"),
+              (std::vector<std::uint32_t>{1, 101, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.a"), (std::vector<std::uint32_t>{52, 53, 54}));
 }
 
 TEST(Executor, transfers_longer_than_the_staging_memory_arrive_whole) {
@@ -135,8 +128,8 @@ TEST(Executor, transfers_longer_than_the_staging_memory_arrive_whole) {
     recording.dispatch(add_constant(count, "t.b", "t.c"));
     recording.readback("t.c");
     const RunResult result = executor.run(recording);
-    const auto once = words_of<std::uint32_t>(result, "t.b");
-    const auto twice = words_of<std::uint32_t>(result, "t.c");
+    const auto once = values_of<std::uint32_t>(result, "t.b");
+    const auto twice = values_of<std::uint32_t>(result, "t.c");
     for (std::uint32_t i = 0; i < count; ++i) {
         ASSERT_EQ(once[i], i + 1);
         ASSERT_EQ(twice[i], i + 2);
@@ -161,9 +154,9 @@ TEST(Executor, constants_are_set_by_name) {
         recording.readback(name);
     Executor executor(test_device(), all_shaders());
     const RunResult result = executor.run(recording);
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.plain"), (std::vector<std::uint32_t>{11, 21, 31, 41}));
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.seven"), (std::vector<std::uint32_t>{17, 27, 37, 47}));
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.minus"), (std::vector<std::uint32_t>{8, 18, 28, 38}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.plain"), (std::vector<std::uint32_t>{11, 21, 31, 41}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.seven"), (std::vector<std::uint32_t>{17, 27, 37, 47}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.minus"), (std::vector<std::uint32_t>{8, 18, 28, 38}));
     EXPECT_EQ(executor.pipelines_created(), 3u);
     executor.run(recording);
     EXPECT_EQ(executor.pipelines_created(), 3u);
@@ -182,7 +175,7 @@ std::vector<Pixel> run_pixels(Executor& executor, std::uint32_t width, std::uint
                         .bindings = {{"Pixels", "t.pixels"}},
                         .push = to_bytes(std::array{width, height})});
     recording.readback("t.pixels");
-    return words_of<Pixel>(executor.run(recording), "t.pixels");
+    return values_of<Pixel>(executor.run(recording), "t.pixels");
 }
 
 TEST(Executor, group_size_option_shapes_image_groups_and_covers_odd_images) {
@@ -224,8 +217,8 @@ TEST(Executor, persistent_buffers_survive_and_transient_ones_do_not_matter) {
     second.readback("t.kept");
     second.readback("t.lost");
     const RunResult result = executor.run(second);
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.kept"), (std::vector<std::uint32_t>{1, 2, 3, 4}));
-    EXPECT_EQ(words_of<std::uint32_t>(result, "t.lost"), std::vector<std::uint32_t>(4, kPoison));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.kept"), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+    EXPECT_EQ(values_of<std::uint32_t>(result, "t.lost"), std::vector<std::uint32_t>(4, kPoison));
 }
 
 TEST(Executor, persistent_buffer_of_another_size_starts_anew) {
@@ -269,7 +262,7 @@ TEST(Executor, hundred_runs_of_two_dependent_dispatches_give_right_sums) {
     for (int run = 0; run < 99; ++run)
         executor.run(step);
     step.readback("t.sum");
-    const auto sums = words_of<std::uint32_t>(executor.run(step), "t.sum");
+    const auto sums = values_of<std::uint32_t>(executor.run(step), "t.sum");
     for (std::uint32_t i = 0; i < count; ++i)
         ASSERT_EQ(sums[i], i + 200);
 }

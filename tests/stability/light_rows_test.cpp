@@ -203,6 +203,18 @@ TEST(Row28, lamp_and_ball_inside_glass_balls_of_one_material_agree_with_paths) {
     expect_equal(render(scene, 64), truth_of(scene, 1024), "lamp in balls");
 }
 
+// The same medium on both sides is no surface: what colour the ball's would take does not show.
+TEST(Row28, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
+    Scene block = voxel_room(32);
+    const std::uint16_t glass = test::add_glass(block, 1.5f, 0.5f);
+    test::add_box(block, {2, 3, 0}, {7, 7, 4}, glass);
+    Scene with_ball = block, with_other = block;
+    with_ball.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, glass});
+    expect_equal(render(with_ball, 64), render(block, 64), "same glass");
+    with_other.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, test::add_glass(with_other, 1.5f, 0.5f)});
+    EXPECT_GT(test::light_z(render(with_other, 64), render(block, 64)).rms, 1.5 * kMostRms);  // the twin
+}
+
 TEST(Row28, camera_inside_glass_agrees_with_paths) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {3, 0, 2}, {7, 3, 6}, test::add_glass(scene, 1.4f));
@@ -221,6 +233,9 @@ TEST(Row30, black_walls_send_nothing_on) {
     const LightPicture picture = render(scene, 4, 1);
     for (const test::TruthPixel& pixel : picture.pixels)
         EXPECT_TRUE(pixel.mean == glm::dvec3(0.0) || pixel.mean == glm::dvec3(12.0));
+    test::FrameRig rig(scene, PlanRequest{});
+    EXPECT_EQ(rig.render(0).tally[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
+    EXPECT_GT(test::FrameRig(voxel_room(16), PlanRequest{}).render(0).tally[gpu::kWorkPhotonsStored], 0u);
 }
 
 TEST(Row30, walls_of_albedo_0_and_1_agree_with_paths) {

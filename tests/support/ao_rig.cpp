@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
@@ -17,14 +15,6 @@
 
 namespace voxilux::test {
 namespace {
-
-template <class T>
-std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
-    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-}
 
 Scene with_hash(Scene scene) {
     scene.settings.ao.method = AoMethod::hash;

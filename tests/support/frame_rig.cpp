@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -12,13 +11,10 @@
 namespace voxilux::test {
 namespace {
 
+// Empty where the plan has no such buffer.
 template <class T>
-std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
-    const auto found = result.readbacks.find(buffer);
-    if (found == result.readbacks.end()) return {};
-    std::vector<T> values(found->second.size() / sizeof(T));
-    std::memcpy(values.data(), found->second.data(), values.size() * sizeof(T));
-    return values;
+std::vector<T> plane_of(const RunResult& result, const std::string& buffer) {
+    return result.readbacks.contains(buffer) ? values_of<T>(result, buffer) : std::vector<T>{};
 }
 
 Slice slice_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t rows) {
@@ -52,10 +48,10 @@ FramePlanes FrameRig::render(std::uint32_t sample) {
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
     }
     const RunResult result = executor_.run(recording);
-    FramePlanes planes{.hits = values_of<gpu::Hit>(result, hits),
-                       .ao = values_of<float>(result, "ao.open"),
-                       .sun = values_of<float>(result, "sun.lit"),
-                       .color = values_of<glm::vec3>(result, "shade.color")};
+    FramePlanes planes{.hits = plane_of<gpu::Hit>(result, hits),
+                       .ao = plane_of<float>(result, "ao.open"),
+                       .sun = plane_of<float>(result, "sun.lit"),
+                       .color = plane_of<glm::vec3>(result, "shade.color")};
     const std::vector<gpu::uint> tally = values_of<gpu::uint>(result, "tally");
     std::copy_n(tally.begin(), planes.tally.size(), planes.tally.begin());
     return planes;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <span>
 
 #include "base/checked_cast.h"
@@ -50,11 +49,8 @@ std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, cons
     recording.dispatch(std::move(dispatch));
     recording.readback("probe.marched");
     const RunResult result = test_executor().run(recording);
-    const std::vector<std::byte>& bytes = result.readbacks.at("probe.marched");
-    std::vector<gpu::MarchProbe> outputs(count);
-    std::memcpy(outputs.data(), bytes.data(), bytes.size());
     if (device_ms != nullptr) *device_ms = result.passes.front().ms;
-    return outputs;
+    return values_of<gpu::MarchProbe>(result, "probe.marched");
 }
 
 std::vector<gpu::MarchProbe> march_in_cpp(const MarchWorld& march_world, const std::vector<gpu::Ray>& rays) {

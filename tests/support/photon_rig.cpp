@@ -1,18 +1,9 @@
 #include "support/photon_rig.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace voxilux::test {
 namespace {
-
-template <class T>
-std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
-    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-}
 
 // What the pass that traces photons would have done.
 void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Recording& recording) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -30,11 +29,7 @@ template <class In, class Out>
                         .bindings = {{"In", "probe.in"}, {"Out", "probe.out"}},
                         .push = to_bytes(count)});
     recording.readback("probe.out");
-    const RunResult result = test_executor().run(recording);
-    std::vector<Out> outputs(count);
-    const std::vector<std::byte>& bytes = result.readbacks.at("probe.out");
-    std::memcpy(outputs.data(), bytes.data(), bytes.size());
-    return outputs;
+    return values_of<Out>(test_executor().run(recording), "probe.out");
 }
 
 }  // namespace voxilux

@@ -1,8 +1,6 @@
 """The page of a price list, from a made-up one.
 
-    page_test.py PAGE_FOLDER JOINED     exit code 77 where matplotlib is missing
-
-PAGE_FOLDER has page.py and its parts, JOINED is the file that they are joined to.
+    page_test.py FOLDER_OF_PAGE     exit code 77 where matplotlib is missing
 """
 
 import contextlib
@@ -12,7 +10,6 @@ import io
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -20,7 +17,6 @@ import unittest
 import fake_price_list
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
-JOINED = pathlib.Path(sys.argv[2])
 sys.path.insert(0, str(FOLDER))
 SKIPPED = 77
 VOID = {"meta", "img", "br", "link", "hr", "input"}
@@ -145,6 +141,13 @@ class Page(unittest.TestCase):
         self.assertIn("samples per pixel: slope -0.50 (-0.52 to -0.48)", self.page.text)
         self.assertIn("4.0 times the time", self.page.text)
 
+    def test_settings_stand_with_the_slopes_of_their_own_samples(self):
+        self.assertIn("white: slope -0.49 (-0.55 to -0.43)", self.page.text)
+
+    def test_settings_that_change_nothing_or_were_left_out_are_told(self):
+        self.assertIn("Every pixel is the same as with the default settings: dda, brick8, naadf.", self.page.text)
+        self.assertIn("Left out: deep, needs more memory.", self.page.text)
+
     def test_bias_stands_apart_from_noise(self):
         self.assertIn("4.0 % (3.2 % to 4.9 %)", self.page.text)
         self.assertIn("none found, at most 0.10 %", self.page.text)
@@ -161,6 +164,10 @@ class Page(unittest.TestCase):
         groups = self.data["equal_time"]["runs"] + self.data["equal_error"]["runs"]
         self.assertEqual(self.source.count("data:image/png;base64,iVBOR"), 2 * len(groups) + 2)
 
+    def test_difference_maps_have_a_scale(self):
+        self.assertIn("Scale: relative difference of a pixel.", self.page.text)
+        self.assertIn("0.10 % 3.0 % 100 %", self.page.text)
+
     def test_colours_follow_light_and_dark(self):
         self.assertIn("prefers-color-scheme: dark", self.source)
         self.assertEqual(re.findall(r"#0[1-4]0[0-9a-f]0[1-4]\b", self.source), [])
@@ -171,20 +178,6 @@ class Page(unittest.TestCase):
     def test_page_that_is_broken_is_found(self):
         self.assertNotEqual(read(self.source.replace("</table>", "", 1)).faults, [])
         self.assertNotEqual(read(self.source.replace("</svg>", "</figure>", 1)).faults, [])
-
-
-class Joined(unittest.TestCase):
-    def test_joined_source_runs_from_standard_input(self):
-        """As voxilux runs it, which carries the source inside."""
-        with tempfile.TemporaryDirectory() as folder:
-            source = fake_price_list.write(folder)
-            done = make(source, folder=folder)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            target = pathlib.Path(folder) / "joined.html"
-            done = subprocess.run([sys.executable, "-", str(source), str(target)], input=JOINED.read_text(encoding="utf-8"),
-                                  capture_output=True, text=True, check=False, cwd=folder)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertEqual(target.read_bytes(), (pathlib.Path(folder) / "page.html").read_bytes())
 
 
 class Changed(unittest.TestCase):
@@ -233,7 +226,7 @@ class Changed(unittest.TestCase):
         def change(data, _):
             for index in range(12):
                 data["knobs"].append(dict(data["knobs"][0], name=f"k{index}", label=f"knob {index}"))
-        self.assertIn("knob 11: slope", self.made(change))
+        self.assertIn("knob 11 ", self.made(change))
 
 
 class Refusal(unittest.TestCase):
@@ -274,6 +267,10 @@ class Refusal(unittest.TestCase):
         self.expect(3, "time is not above 0",
                     self.changed(lambda data: data["runs"][0]["time_s"].update(median=0)))
         self.expect(3, "front names the run 'ghost'", self.changed(lambda data: data["front"].append("ghost")))
+
+    def test_colour_that_is_none(self):
+        self.expect(3, "difference_colours: 'red;' is not '#rrggbb'",
+                    self.changed(lambda data: data["difference_colours"][0].update(colour="red;")))
 
     def test_files_that_are_not_there(self):
         with tempfile.TemporaryDirectory() as folder:

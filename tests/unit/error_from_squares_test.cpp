@@ -9,6 +9,7 @@
 #include "film/error_estimate.h"
 #include "film/film_sums.h"
 #include "film/metrics.h"
+#include "support/interval_coverage.h"
 
 namespace voxilux {
 namespace {
@@ -172,48 +173,21 @@ TEST(FilmVariance, full_sums_stay_full_in_any_order) {
     EXPECT_EQ(backwards.sums["squares"], forwards.sums["squares"]);
 }
 
-struct Coverage {
-    int covered = 0;
-    int above = 0;        // the truth is worse than the interval says
-    double width = 0.0;   // mean of high / low
-    double ratio = 0.0;   // mean of estimate / truth
-    double spread = 0.0;  // standard deviation of the estimate, relative
-};
-
-Coverage coverage_of(const Noise& noise, int trials, bool with_squares = true) {
+test::IntervalCoverage coverage_of(const Noise& noise, int trials, bool with_squares = true) {
     Random random(7);
-    Coverage result;
-    double sum = 0.0, squares = 0.0;
+    test::IntervalCoverage result;
     for (int trial = 0; trial < trials; ++trial) {
         Trial pixels = make_trial(noise, random);
         if (!with_squares) pixels.squares.clear();
-        const ErrorEstimate estimate = estimate_of(noise, pixels);
-        const double truth = true_error(pixels);
-        result.covered += estimate.low <= truth && truth <= estimate.high ? 1 : 0;
-        result.above += truth > estimate.high ? 1 : 0;
-        result.width += estimate.high / estimate.low / trials;
-        result.ratio += estimate.estimate / truth / trials;
-        sum += estimate.estimate / trials;
-        squares += estimate.estimate * estimate.estimate / trials;
+        result.add(estimate_of(noise, pixels), true_error(pixels));
     }
-    result.spread = std::sqrt(std::max(squares - sum * sum, 0.0)) / sum;
     return result;
 }
 
 class SquaresCoverage : public testing::TestWithParam<Noise> {};
 
 TEST_P(SquaresCoverage, interval_holds_the_true_error_as_often_as_it_claims) {
-    constexpr int kTrials = 1000;
-    const Coverage coverage = coverage_of(GetParam(), kTrials);
-    EXPECT_GE(coverage.covered, static_cast<int>(kErrorConfidence * kTrials));
-    EXPECT_LE(coverage.above, kTrials / 40);  // the side that would break a promise: half of 5 %
-    EXPECT_LT(coverage.width, 3.0);           // a wide enough interval covers anything
-    EXPECT_GT(coverage.ratio, 0.97);
-    EXPECT_LT(coverage.ratio, 1.25);
-    RecordProperty("covered", coverage.covered);
-    RecordProperty("above", coverage.above);
-    RecordProperty("width_percent", static_cast<int>(100 * coverage.width));
-    RecordProperty("ratio_percent", static_cast<int>(100 * coverage.ratio));
+    test::expect_honest(coverage_of(GetParam(), 1000));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -223,10 +197,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Noise{.kind = NoiseKind::decay, .n = 8}, Noise{.width = 16, .height = 12}));
 
 TEST(SquaresError, estimate_scatters_less_than_that_of_the_halves) {
-    const Coverage squares = coverage_of(Noise{}, 200);
-    const Coverage halves = coverage_of(Noise{}, 200, false);
-    EXPECT_LT(squares.spread, 0.4 * halves.spread);
-    EXPECT_LT(squares.width, halves.width);
+    const test::IntervalCoverage squares = coverage_of(Noise{}, 200);
+    const test::IntervalCoverage halves = coverage_of(Noise{}, 200, false);
+    EXPECT_LT(squares.spread(), 0.4 * halves.spread());
+    EXPECT_LT(squares.width(), halves.width());
 }
 
 // Must-fail twin: samples of which each is taken four times have half the error by their squares.

@@ -1,7 +1,6 @@
 #include "bench/ao_stage.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/error.h"
 #include "bench/bench_scene.h"
@@ -24,14 +23,6 @@ constexpr std::uint32_t kStripRows = 8;
 constexpr std::uint32_t kStripPeriod = 32;
 
 constexpr int kMaterials = 24;  // of procedural_scene
-
-template <class T>
-std::vector<T> values_of(const RunResult& result, const std::string& buffer) {
-    const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
-}
 
 // Occlusion and what it needs; no sun and no planes for files.
 PlanRequest occlusion_request(int frames) {

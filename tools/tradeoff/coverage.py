@@ -28,7 +28,7 @@ LONG_RUN_S = 30.0
 Z_95 = 1.959964  # of a normal distribution, two-sided
 FIRST_SEED = 1
 REFERENCE_SEEDS = (1000003, 2000003)
-REFERENCE_SHARE = 0.5  # error of a reference over the least error target of its view
+REFERENCE_SHARE, LONG_REFERENCE_SHARE = 0.5, 1.0  # error of a reference over the error targets of its view
 RADIUS_SHARE = 0.5  # first radius of photons of a reference over that of a run: its blur is a quarter
 CONTINUES = (0, 4)  # exit codes of a render that has written its picture
 STOPPED_BY_ERROR = "error target reached"
@@ -75,6 +75,14 @@ def read_views(file):
     return views
 
 
+def without_sequence(flags):
+    """The flags of a view for its references, which take the default sequence: the light is the same."""
+    if "--sequence" not in flags:
+        return flags
+    place = flags.index("--sequence")
+    return flags[:place] + flags[place + 2:]
+
+
 class Renderer:
     """Renders views; keeps references from run to run."""
 
@@ -98,18 +106,19 @@ class Renderer:
 
     def references(self, view, report):
         """Two pictures of the view, and the relMSE between them. A report of a run names the radius of photons."""
-        error = REFERENCE_SHARE * min(one for one in (view["error"], view["long_error"]) if one)
+        error = min(REFERENCE_SHARE * view["error"], LONG_REFERENCE_SHARE * (view["long_error"] or 1.0))
         words = ["--error", f"{100 * error:.4g}%", "--time-limit", f"{self.options.reference_limit:g}s"]
         radius = (report.get("photons") or {}).get("first_radius")
         if radius:
             words += ["--radius", f"{RADIUS_SHARE * radius:.4g}"]
         asked = json.dumps([report["version"], report["scene_hash"], view["flags"], words])
+        same = dict(view, flags=without_sequence(view["flags"]))
         key = hashlib.sha256(asked.encode()).hexdigest()[:16]
         files = [self.kept / f"{view['name']}-{key}-{seed}.exr" for seed in REFERENCE_SEEDS]
         for file, seed in zip(files, REFERENCE_SEEDS):
             if not file.exists():
                 part = self.folder / "reference.exr"
-                self.render(view, [*words, "--seed", str(seed)], part)
+                self.render(same, [*words, "--seed", str(seed)], part)
                 shutil.move(part, file)
         return files, self.relmse(*files)
 

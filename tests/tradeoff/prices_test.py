@@ -1,0 +1,185 @@
+"""The tables of prices, the presets chosen from them and the README's price list.
+
+    prices_test.py FOLDER_OF_TOOLS
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(TOOLS))
+
+import choose_presets  # noqa: E402
+import fake_price_list  # noqa: E402
+import prices  # noqa: E402
+import price_list  # noqa: E402
+
+TOP = TOOLS.parent.parent
+LARGEST_PICTURE = 200_000  # bytes: it is loaded with the front page
+
+
+def row(scene, spp, error, time_s, knob="samples", setting=None, is_default=False, ao_rays=1, photons=0):
+    return {"scene": scene, "knob": knob, "setting": setting or str(spp), "width": 1000, "height": 500,
+            "is_default": int(is_default), "spp": spp, "ao_rays": ao_rays, "photons": photons, "time_s": time_s,
+            "time_low_s": time_s, "time_high_s": time_s, "error": error, "noise": error, "bias": 0.0}
+
+
+def scene_rows(name, at_one, second=0.1):
+    """Error at_one / sqrt(spp), `second` seconds for a sample of half a megapixel."""
+    return [row(name, spp, at_one / spp**0.5, second * spp, is_default=spp == 16) for spp in (1, 4, 16, 64)]
+
+
+THREE = [one for name, at_one in (("easy", 0.08), ("middling", 0.4), ("hard", 2.0)) for one in scene_rows(name, at_one)]
+
+
+class Presets(unittest.TestCase):
+    def test_least_samples_whose_median_error_is_within_the_target(self):
+        """0.4 / sqrt(spp): 4 samples for 20 %, 32.7 for 7 %, 178 for 3 %, 1600 for 1 %."""
+        found = {preset["name"]: preset for preset in choose_presets.choose(THREE)}
+        self.assertEqual([found[name]["spp"] for name, _ in choose_presets.TARGETS], [4, 64, 256, 2048])
+        self.assertAlmostEqual(found["draft"]["error"], 0.2)
+        self.assertAlmostEqual(found["reference"]["error"], 0.4 / 2048**0.5)
+
+    def test_price_is_the_median_time_of_a_megapixel(self):
+        found = choose_presets.choose(THREE)
+        self.assertAlmostEqual(found[0]["seconds_per_megapixel"], 0.1 * 4 / 0.5)
+
+    def test_what_is_not_measured_is_told(self):
+        self.assertEqual([one["is_measured"] for one in choose_presets.choose(THREE)], [True, True, False, False])
+
+    def test_knob_that_is_worth_it_is_turned(self):
+        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4)]
+        self.assertTrue(all(one["ao_rays"] == 4 for one in choose_presets.choose(rows)))
+        self.assertEqual(choose_presets.choose(rows)[0]["spp"], 1)
+
+    def test_knob_that_gains_less_than_a_tenth_stays(self):
+        rows = [*scene_rows("a", 0.4), row("a", 16, 0.1, 1.55, "ao_rays", "4", ao_rays=4)]
+        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
+
+    def test_knob_must_be_worth_it_over_all_scenes(self):
+        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4),
+                *scene_rows("b", 0.4), row("b", 16, 0.1, 9.0, "ao_rays", "4", ao_rays=4)]
+        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
+
+    def test_scene_whose_error_does_not_fall_is_refused(self):
+        rows = [row("flat", spp, 0.3, spp) for spp in (1, 4, 16)]
+        with self.assertRaisesRegex(prices.Malformed, "no number of samples leaves a median error of 20 %"):
+            choose_presets.choose(rows)
+
+
+class Curve(unittest.TestCase):
+    def setUp(self):
+        self.curve = prices.Curve(scene_rows("a", 0.4))
+
+    def test_passes_through_what_was_measured(self):
+        self.assertAlmostEqual(self.curve.at(16, "error"), 0.1)
+        self.assertAlmostEqual(self.curve.at(16, "time_s"), 1.6)
+
+    def test_is_a_power_law_between_and_beyond(self):
+        for spp in (0.5, 2, 30, 1024):
+            self.assertAlmostEqual(self.curve.at(spp, "error"), 0.4 / spp**0.5)
+
+    def test_samples_for_an_error_leave_that_error(self):
+        self.assertAlmostEqual(self.curve.samples_for(0.05), 64.0, 4)
+        self.assertIsNone(prices.Curve([row("a", 1, 0.3, 1), row("a", 4, 0.3, 4)]).samples_for(0.1))
+
+
+class Table(unittest.TestCase):
+    ABOUT = {"machine": "a machine, 2 threads", "device": "a device", "version": "1"}
+
+    def test_times_follow_from_the_curve(self):
+        text = price_list.table_text(self.ABOUT, scene_rows("a", 0.4))
+        self.assertIn("| `a` | 1000 x 500 | 1.6 s | 6.4 s | (40 s) | - | time^-0.50 |", text)
+        self.assertIn("Measured on a machine, 2 threads, a device, by voxilux 1.", text)
+
+    def test_time_far_beyond_what_was_measured_is_not_given(self):
+        self.assertIn("| (10 s) | (40 s) | - | - |", price_list.table_text(self.ABOUT, scene_rows("a", 1.0)))
+
+    def test_csv_keeps_every_row(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "prices.csv"
+            file.write_text(prices.csv_text(self.ABOUT, THREE), encoding="utf-8")
+            about, rows = prices.read_csv(file)
+        self.assertEqual(about, self.ABOUT)
+        self.assertEqual(len(rows), len(THREE))
+        for a, b in zip(rows, THREE):
+            self.assertEqual(a.keys(), b.keys())
+            self.assertAlmostEqual(a["error"], b["error"], 4)
+
+    def test_markers_stay_and_the_rest_too(self):
+        readme = f"one\n{price_list.BEGIN}\nold\n{price_list.END}\ntwo\n"
+        once = price_list.with_table(readme, "new")
+        self.assertEqual(once, f"one\n{price_list.BEGIN}\nnew\n{price_list.END}\ntwo\n")
+        self.assertEqual(price_list.with_table(once, "new"), once)
+        with self.assertRaisesRegex(prices.Malformed, "markers"):
+            price_list.with_table("one", "new")
+
+
+class Gathered(unittest.TestCase):
+    def lists(self, folder):
+        data = fake_price_list.price_list(pathlib.Path(folder))
+        return data, dict(data, scene="scenes/other.toml")
+
+    def test_price_lists_become_rows(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one, other = self.lists(folder)
+        about, rows = prices.gather([one, other])
+        self.assertEqual(len(rows), len(one["runs"]) + len(other["runs"]))
+        self.assertEqual(about["machine"], "A processor with a long name @ 2.60GHz, 2 threads")
+        self.assertEqual({row["scene"] for row in rows}, {"<made up>", "other"})
+        self.assertEqual(len(choose_presets.choose(rows)), 4)
+
+    def test_two_machines_are_not_mixed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one, other = self.lists(folder)
+        other["machine"] = dict(other["machine"], threads=64)
+        with self.assertRaisesRegex(prices.Malformed, "other.toml was measured on another machine"):
+            prices.gather([one, other])
+
+    def test_command_writes_the_header(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, out = fake_price_list.write(folder), pathlib.Path(folder) / "presets.inc"
+            self.assertEqual(choose_presets.main([str(file), "-o", str(out)]), 0)
+            self.assertIn('{.name = "draft",', out.read_text(encoding="utf-8"))
+
+    def test_file_that_is_no_price_list_is_one_clear_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "a.json"
+            file.write_text(json.dumps({"runs": []}), encoding="utf-8")
+            done = subprocess.run([sys.executable, str(TOOLS / "choose_presets.py"), str(file)], capture_output=True,
+                                  text=True, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("not the output of voxilux tradeoff", done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+
+
+class Committed(unittest.TestCase):
+    """README, presets and picture are what the scripts make of prices.csv."""
+
+    def test_readme_and_presets_follow_the_prices(self):
+        self.assertEqual(price_list.main(["--check"]), 0)
+
+    def test_table_that_was_edited_is_found(self):
+        with tempfile.TemporaryDirectory() as folder:
+            readme = pathlib.Path(folder) / "README.md"
+            text = (TOP / "README.md").read_text(encoding="utf-8")
+            readme.write_text(text.replace("| `draft` |", "| `draft` | 1", 1), encoding="utf-8")
+            self.assertEqual(price_list.main(["--check", "--readme", str(readme)]), 5)
+
+    def test_scenes_are_there(self):
+        _, rows = prices.read_csv(price_list.PRICES)
+        for scene in (*price_list.SCENES, *prices.scenes_of(rows)):
+            self.assertTrue((TOP / "scenes" / f"{scene}.toml").exists(), scene)
+
+    def test_picture_is_there_and_small(self):
+        picture = (TOP / "docs" / "price_list.png").read_bytes()
+        self.assertTrue(picture.startswith(b"\x89PNG"))
+        self.assertLessEqual(len(picture), LARGEST_PICTURE)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
