@@ -16,11 +16,12 @@ using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
-// White noise, whose error falls with the root of the samples: of other sequences it falls faster.
-Words small_list(const fs::path& folder, const std::string& time = "6s") {
+// The time limit is far more than the small job takes, so that a busy machine leaves nothing out. White
+// noise: its error falls with the root of the samples; that of other sequences falls faster.
+Words small_list(const fs::path& folder, const std::string& samples = "16") {
     return {
-        "tradeoff", scene_file("night"), "--size", "64x64",     "--spp", "16", "--sequence", "white", "-o",
-        folder,     "--time-limit",      time,     "--no-page", "-q"};
+        "tradeoff", scene_file("night"), "--size", "64x64",     "--spp", samples, "--sequence", "white", "-o",
+        folder,     "--time-limit",      "60s",    "--no-page", "-q"};
 }
 
 Json json_of(const fs::path& file) {
@@ -41,8 +42,8 @@ struct Made {
     Ending ending;
     Json list;
 
-    explicit Made(const std::string& time = "6s")
-        : ending(run(small_list(folder / "list", time), surroundings())) {
+    explicit Made(const std::string& samples = "16")
+        : ending(run(small_list(folder / "list", samples), surroundings())) {
         if (ending.code == 0) list = json_of(folder / "list" / "tradeoff.json");
     }
     [[nodiscard]] Surroundings surroundings() const {
@@ -137,7 +138,7 @@ void expect_a_better_reference(const Made& made) {
     EXPECT_FALSE(reference["cached"]);
     EXPECT_GT(reference["noise"], 0.0);
     for (const Json& run : made.list["runs"])
-        if (!run["error"]["is_limited"]) EXPECT_LT(reference["noise"], run["error"]["total"]) << run["id"];
+        EXPECT_TRUE(run["error"]["is_limited"] || reference["noise"] < run["error"]["total"]) << run["id"];
 }
 
 void expect_a_front(const Made& made) {
@@ -172,18 +173,18 @@ TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
 }
 
 TEST(TradeoffReference, is_cached_and_rebuilt_when_the_file_is_damaged) {
-    const Made first("2s");
+    const Made first("2");
     ASSERT_EQ(first.ending.code, 0);
     const fs::path references = first.folder / "cache" / "voxilux" / "references";
     const std::vector<std::string> files = names_in(references);
     ASSERT_EQ(files.size(), 1u);
     const fs::path file = references / files.front();
     const Surroundings surroundings = first.surroundings();
-    const Ending again = run(small_list(first.folder / "again", "2s"), surroundings);
+    const Ending again = run(small_list(first.folder / "again", "2"), surroundings);
     ASSERT_EQ(again.code, 0) << again.err;
     EXPECT_TRUE(json_of(first.folder / "again" / "tradeoff.json")["reference"]["cached"]);
     fs::resize_file(file, fs::file_size(file) / 2);
-    const Ending rebuilt = run(small_list(first.folder / "rebuilt", "2s"), surroundings);
+    const Ending rebuilt = run(small_list(first.folder / "rebuilt", "2"), surroundings);
     ASSERT_EQ(rebuilt.code, 0) << rebuilt.err;
     EXPECT_FALSE(json_of(first.folder / "rebuilt" / "tradeoff.json")["reference"]["cached"]);
     EXPECT_EQ(names_in(references), files);
@@ -223,11 +224,11 @@ INSTANTIATE_TEST_SUITE_P(
             "frames", {"tradeoff", scene_file("turntable"), "-o", "out", "--frames", "1-2"}, 2, "--frames"},
         Refused{"absent_scene", {"tradeoff", "absent.toml", "-o", "out"}, 3, "absent.toml"},
         Refused{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
-    [](const testing::TestParamInfo<Refused>& info) { return info.param.name; });
+    [](const testing::TestParamInfo<Refused>& one) { return one.param.name; });
 
 TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;
-    Words words = small_list(folder / "list", "1s");
+    Words words = small_list(folder / "list", "2");
     std::erase(words, "--no-page");
     const Ending ending = run(words, {.environment = {{"PYTHONHOME", "/nonexistent"}}});
     EXPECT_EQ(ending.code, 73);
