@@ -11,7 +11,8 @@ import base64
 import pathlib
 import sys
 
-from page_data import Malformed, bias_words, default_of, esc, load, percent, seconds, slope_words, spread
+from page_data import (Malformed, bias_words, default_of, esc, load, percent, same_pixels, scene_words, seconds,
+                       slope_words, spread)
 from page_plots import DARK, LIGHT, Plots, plot_all, plot_effects, plot_knob, plot_parts
 
 USAGE, REFUSED, MISSING, UNWRITABLE = 2, 3, 69, 73
@@ -29,7 +30,7 @@ h3 { margin: 0 0 .3rem; font-size: 1.02rem } p { max-width: 52rem; margin: .5rem
 .tiles, .knobs, .row { display: grid; gap: 1rem; margin: 1.2rem 0 }
 .tiles { grid-template-columns: repeat(auto-fit, minmax(13rem, 1fr)) }
 .knobs { grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)) }
-.row { grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)) }
+.row { grid-template-columns: repeat(auto-fill, minmax(13rem, 1fr)) }
 .tile, .knobs figure { background: var(--card); border-radius: 8px; padding: .9rem 1rem }
 .tile b { display: block; font-size: 1.55rem; line-height: 1.25 }
 figure { margin: 0; break-inside: avoid } figcaption { font-size: .9rem; line-height: 1.4 }
@@ -99,7 +100,7 @@ def headline(data):
              f"{machine['cpu']}, {machine['threads']} threads, {machine['memory_gib']:.3g} GiB",
              f"voxilux {data['version']}, seed {data['seed']}, {len(data['runs'])} settings, {data['repeats']} times each, "
              f"{seconds(data['wall_s'])} in all"]
-    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(data['scene'])}</h1>",
+    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(scene_words(data['scene']))}</h1>",
                       *(f'<p class="facts">{esc(fact)}</p>' for fact in facts),
                       f'<div class="tiles">{"".join(tiles)}</div></header>'])
 
@@ -147,7 +148,7 @@ def knobs(plots, data):
         if knob["slope"]:
             words.append(f"Fitted: {slope_words(knob['slope'])}.")
         words += [f"Left out: {one['setting']}, {one['why']}." for one in knob.get("left_out") or []]
-        same = [data["by_id"][i]["setting"] for i in knob["runs"] if data["by_id"][i].get("differing_pixels") == 0]
+        same = same_pixels(data, knob)
         if same:
             words.append(f"Every pixel is the same as with the default settings: {', '.join(same)}.")
         figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}"
@@ -262,7 +263,7 @@ def page(plots, data, folder):
             effects(plots, data), method(data), all_runs(data)]
     return "\n".join(["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8">',
                       '<meta name="viewport" content="width=device-width, initial-scale=1">',
-                      f"<title>Price list of {esc(data['scene'])}</title><style>{style}</style></head><body>",
+                      f"<title>Price list of {esc(scene_words(data['scene']))}</title><style>{style}</style></head><body>",
                       *body, "</body></html>", ""])
 
 

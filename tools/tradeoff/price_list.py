@@ -23,7 +23,7 @@ TOP = HERE.parent.parent
 PRICES, PRESETS = HERE / "prices.csv", HERE.parent / "quality_presets.inc"
 BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
 SCENES = ("first_light", "overcast", "slit", "spheres", "mixed", "emitters", "glass_block", "cornell", "mirror", "random")
-MEASURED_SIZE, MEASURED_S = "256x192", 180  # of each scene: pixels, and seconds for all of its runs
+MEASURED = ("--size", "256x192", "--spp", "256", "--time-limit", "90s")  # of each scene; the limit is that of all its runs
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
 MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given
 COLOURS = ("#0072b2", "#c25400", "#00805e", "#b3508a", "#8a6100", "#2a8fd0", "#6a4fb3", "#5c5c5c")
@@ -123,7 +123,7 @@ def measure(options, folder):
     for scene in options.scenes.split(","):
         target = pathlib.Path(folder) / scene
         words = [options.voxilux, "tradeoff", str(TOP / "scenes" / f"{scene}.toml"), "-o", str(target), "--quiet",
-                 "--size", MEASURED_SIZE, "--time-limit", f"{MEASURED_S}s", "--no-page"]
+                 "--no-page", *MEASURED]
         print(f"price_list.py: {' '.join(words[1:])}", file=sys.stderr, flush=True)
         done = subprocess.run(words, check=False, stdout=subprocess.DEVNULL)
         if done.returncode != 0:
