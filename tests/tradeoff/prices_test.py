@@ -51,19 +51,31 @@ class Presets(unittest.TestCase):
     def test_what_is_not_measured_is_told(self):
         self.assertEqual([one["is_measured"] for one in choose_presets.choose(THREE)], [True, True, False, False])
 
-    def test_knob_that_is_worth_it_is_turned(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4)]
-        self.assertTrue(all(one["ao_rays"] == 4 for one in choose_presets.choose(rows)))
-        self.assertEqual(choose_presets.choose(rows)[0]["spp"], 1)
+    def rays(self, name, error, time):
+        """A scene whose error and time change by these factors with 4 rays."""
+        default = [dict(one, knob="ao_rays", setting="1", is_default=1) for one in scene_rows(name, 0.4)]
+        other = [dict(one, setting="4", is_default=0, ao_rays=4, error=error * one["error"], time_s=time * one["time_s"])
+                 for one in default]
+        return [*scene_rows(name, 0.4), *default, *other]
 
-    def test_knob_that_gains_less_than_a_tenth_stays(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.1, 1.55, "ao_rays", "4", ao_rays=4)]
+    def test_rays_that_are_worth_it_are_taken_with_their_own_price(self):
+        found = choose_presets.choose(self.rays("a", 0.5, 1.25))
+        self.assertTrue(all(one["ao_rays"] == 4 for one in found))
+        self.assertEqual(found[0]["spp"], 1)
+        self.assertAlmostEqual(found[0]["error"], 0.2)
+        self.assertAlmostEqual(found[0]["seconds_per_megapixel"], 1.25 * 0.1 / 0.5)
+
+    def test_rays_that_gain_less_than_a_tenth_are_not(self):
+        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(self.rays("a", 1.0, 0.95))))
+
+    def test_rays_must_be_worth_it_over_all_scenes(self):
+        rows = self.rays("a", 0.5, 1.25) + self.rays("b", 1.0, 9.0)
         self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
 
-    def test_knob_must_be_worth_it_over_all_scenes(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4),
-                *scene_rows("b", 0.4), row("b", 16, 0.1, 9.0, "ao_rays", "4", ao_rays=4)]
-        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
+    def test_scene_without_occlusion_keeps_its_own_curve(self):
+        rows = self.rays("a", 0.5, 1.25) + scene_rows("b", 0.4) + scene_rows("c", 0.4)
+        found = choose_presets.choose(rows)
+        self.assertEqual((found[0]["ao_rays"], found[0]["spp"]), (4, 4))
 
     def test_scene_whose_error_does_not_fall_is_refused(self):
         rows = [row("flat", spp, 0.3, spp) for spp in (1, 4, 16)]
@@ -128,7 +140,8 @@ class Gathered(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             one, other = self.lists(folder)
         about, rows = prices.gather([one, other])
-        self.assertEqual(len(rows), len(one["runs"]) + len(other["runs"]))
+        kept = [run for run in one["runs"] if run["knob"] in prices.KEPT_KNOBS]
+        self.assertEqual(len(rows), 2 * sum(len(run.get("curve") or [run]) for run in kept))
         self.assertEqual(about["machine"], "A processor with a long name @ 2.60GHz, 2 threads")
         self.assertEqual({row["scene"] for row in rows}, {"<made up>", "other"})
         self.assertEqual(len(choose_presets.choose(rows)), 4)
