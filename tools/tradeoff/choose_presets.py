@@ -6,8 +6,8 @@
 The rule. Occlusion rays stay at their default, unless another number reaches an error in at least a tenth less time:
 an error e in time t is worth e^2 t, since noise falls with the root of time, and the geometric mean over the scenes
 decides, each at the most samples that were measured of both. Photons follow the size of the picture. Then each preset
-takes the least power of two of samples per pixel at which the median error over the scenes is at most its target. Its
-price is the median error and the median time there.
+takes the least power of two of samples per pixel at which the median error over the scenes is at most its target,
+apart for scenes with photons and without. Its price is the median error and the median time there.
 """
 
 import argparse
@@ -23,7 +23,6 @@ TARGETS = (("draft", 0.20), ("normal", 0.07), ("fine", 0.03), ("reference", 0.01
 WORTHWHILE = 0.9  # of the time for an error, below which another value than the default is taken
 MOST_SAMPLES_LOG2 = 20  # film sums are exact up to there
 KNOB, DEFAULT_RAYS = "ao_rays", 1
-PHOTONS = 0  # as many as the picture has pixels
 
 
 def worth(rows):
@@ -49,36 +48,59 @@ def choose_rays(scenes):
     return best if best is not None and means[best] < WORTHWHILE else None
 
 
+class Kind:
+    """Scenes of one kind with the chosen rays."""
+
+    def __init__(self, scenes, rays):
+        self.curves = [Curve(own, KNOB, rays) if rays else Curve(own) for own in scenes]
+        self.megapixels = [own[0]["width"] * own[0]["height"] / 1e6 for own in scenes]
+
+    def price(self, name, target):
+        """Samples, median error and time of a preset."""
+        for i in range(MOST_SAMPLES_LOG2 + 1):
+            error = statistics.median(curve.at(1 << i, "error") for curve in self.curves)
+            if error <= target:
+                return {"samples": 1 << i, "error": error,
+                        "is_measured": 2 * sum(curve.is_measured(1 << i) for curve in self.curves) > len(self.curves),
+                        "seconds_per_megapixel": statistics.median(
+                            curve.at(1 << i, "time_s") / size for curve, size in zip(self.curves, self.megapixels))}
+        raise Malformed(f"no number of samples leaves a median error of {100 * target:g} % for '{name}'")
+
+
+def kinds_of(rows):
+    """The scenes without photons and those with them."""
+    scenes = scenes_of(rows)
+    kinds = {"sky": [own for own in scenes.values() if not own[0]["photons"]],
+             "lamps": [own for own in scenes.values() if own[0]["photons"]]}
+    missing = [kind for kind, found in kinds.items() if not found]
+    if missing:
+        raise Malformed(f"no scene of the kind '{missing[0]}' was measured: presets need both, with photons and without")
+    return kinds
+
+
 def choose(rows):
     """The presets as dictionaries, in the order of TARGETS."""
-    scenes = scenes_of(rows)
-    rays = choose_rays(scenes)
-    curves = [Curve(own, KNOB, rays) if rays else Curve(own) for own in scenes.values()]
-    megapixels = [own[0]["width"] * own[0]["height"] / 1e6 for own in scenes.values()]
-    settings = {"ao_rays": int(rays or DEFAULT_RAYS), "photons": PHOTONS}
-    presets = []
-    for name, target in TARGETS:
-        medians = ((1 << i, statistics.median(curve.at(1 << i, "error") for curve in curves))
-                   for i in range(MOST_SAMPLES_LOG2 + 1))
-        spp, error = next(((spp, error) for spp, error in medians if error <= target), (None, None))
-        if spp is None:
-            raise Malformed(f"no number of samples leaves a median error of {100 * target:g} % for '{name}'")
-        presets.append({"name": name, "spp": spp, **settings, "error": error, "is_measured":
-                        2 * sum(curve.is_measured(spp) for curve in curves) > len(curves),
-                        "seconds_per_megapixel": statistics.median(
-                            curve.at(spp, "time_s") / size for curve, size in zip(curves, megapixels))})
-    return presets
+    rays = choose_rays(scenes_of(rows))
+    kinds = {name: Kind(scenes, rays) for name, scenes in kinds_of(rows).items()}
+    return [{"name": name, "ao_rays": int(rays or DEFAULT_RAYS)}
+            | {kind: scenes.price(name, target) for kind, scenes in kinds.items()} for name, target in TARGETS]
+
+
+def two_digits(value):
+    return f"{float(f'{value:.2g}'):g}"
 
 
 def header_text(about, rows, presets):
+    kinds = kinds_of(rows)
     lines = ["// Written by tools/tradeoff/choose_presets.py, which has the rule, from tools/tradeoff/prices.csv.",
              f"constexpr std::array<QualityPreset, {len(presets)}> kPresets{{{{"]
     for preset in presets:
-        lines += [f"    {{.name = \"{preset['name']}\",", f"     .spp = {preset['spp']},",
-                  f"     .ao_rays = {preset['ao_rays']},", f"     .photons = {preset['photons']},",
-                  f"     .error = {preset['error']:.2g},",
-                  f"     .seconds_per_megapixel = {float(format(preset['seconds_per_megapixel'], '.2g')):g}}},"]
-    lines += ["}};", f"constexpr int kPricedScenes = {len(scenes_of(rows))};",
+        lines += [f"    {{.name = \"{preset['name']}\",", f"     .ao_rays = {preset['ao_rays']},"]
+        lines += [f"     .{kind} = {{.samples = {preset[kind]['samples']}, .error = {two_digits(preset[kind]['error'])}, "
+                  f".seconds_per_megapixel = {two_digits(preset[kind]['seconds_per_megapixel'])}}}"
+                  f"{',' if kind == 'sky' else '},'}" for kind in kinds]
+    lines += ["}};", f"constexpr int kSkyScenes = {len(kinds['sky'])};",
+              f"constexpr int kLampScenes = {len(kinds['lamps'])};",
               f"constexpr std::string_view kPricedOn = \"{about['machine']}\";", ""]
     return "\n".join(lines)
 

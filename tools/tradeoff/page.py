@@ -95,7 +95,7 @@ def headline(data):
     slope = next((k["slope"] for k in data["knobs"] if k["name"] == "samples" and k["slope"]), None)
     if slope and slope["value"] < 0:
         tiles.append(tile("half the error by samples", f"{2 ** (-1 / slope['value']):.1f} times the time",
-                          f"{slope_words(slope)}; -0.5 is pure noise"))
+                          f"{slope_words(slope)}; -0.5 is that of random samples"))
     facts = [f"{size[0]} x {size[1]} pixels on {device['name']} ({device['driver']})",
              f"{machine['cpu']}, {machine['threads']} threads, {machine['memory_gib']:.3g} GiB",
              f"voxilux {data['version']}, seed {data['seed']}, {len(data['runs'])} settings, {data['repeats']} times each, "
@@ -119,7 +119,7 @@ def overview(plots, data):
         "One mark for each setting, at the median of its times; its bar reaches from the fastest to the slowest repeat. "
         "Thin lines follow a setting to fewer and more samples. "
         "Both axes are logarithmic, so a power law is a straight line: dotted lines are fits, their slopes stand in the legend "
-        "with 95 % intervals. Pure noise has slope -0.5: four times the time for half the error. The staircase is the Pareto "
+        "with 95 % intervals. Random samples have slope -0.5: four times the time for half the error. The staircase is the Pareto "
         "front, the least error that any setting reached in that time."), "</figcaption></figure>")
 
 
@@ -134,8 +134,8 @@ def front_table(data):
         rows.append([str(number), esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(time),
                      percent(error["total"]), percent(error["noise"]), esc(bias_words(error)), step])
         before = run
-    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise", "bias",
-             "step from the line above"]
+    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise",
+             "bias (\u2264: none found)", "step from the line above"]
     return section("The Pareto front, setting by setting", paragraph(
         "Settings for which no other one was both faster and better, fastest first. All others cost more than they give."),
         table(heads, rows, "Pareto front"))
@@ -250,8 +250,8 @@ def all_runs(data):
         rows.append([esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(run["time_s"]),
                      seconds(run["load_s"]), f"{run['memory_bytes'] / 2**20:.1f} MiB", percent(error["total"]),
                      percent(error["noise"]), esc(bias_words(error)), said])
-    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise", "bias",
-             "#error that the render claims"]
+    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise",
+             "bias (\u2264: none found)", "#error that the render claims"]
     return section("All runs", table(heads, rows, "All runs"))
 
 

@@ -142,10 +142,11 @@ def name_of(data, run):
 
 
 def bias_words(error):
+    """The bias with its interval; only the end of the interval where none was found."""
     if error["bias"] is None:
         return "unknown"
     if not error["bias_low"]:
-        return f"none found, at most {percent(error['bias_high'])}"
+        return f"\u2264\u00a0{percent(error['bias_high'])}"
     return f"{percent(error['bias'])} ({percent(error['bias_low'])} to {percent(error['bias_high'])})"
 
 
