@@ -44,22 +44,23 @@ ALL = THREE + LAMP
 
 class Presets(unittest.TestCase):
     def test_least_samples_whose_median_error_is_within_the_target(self):
-        """0.4 / sqrt(spp): 4 samples for 20 %, 32.7 for 7 %, 178 for 3 %, 1600 for 1 %; 4 times as many for 0.8."""
+        """0.4 / sqrt(spp): 64 samples for 5 %, 178 for 3 %, 1600 for 1 %, 17778 for 0.3 %. 0.8 / sqrt(spp): 16 for 20 %,
+        131 for 7 %, 711 for 3 %, 6400 for 1 %."""
         found = choose_presets.choose(ALL)
-        self.assertEqual([one["name"] for one in found], [name for name, _ in choose_presets.TARGETS])
-        self.assertEqual([one["sky"]["samples"] for one in found], [4, 64, 256, 2048])
+        self.assertEqual([one["name"] for one in found], list(choose_presets.TARGETS))
+        self.assertEqual([one["sky"]["samples"] for one in found], [64, 256, 2048, 32768])
         self.assertEqual([one["lamps"]["samples"] for one in found], [16, 256, 1024, 8192])
-        self.assertAlmostEqual(found[0]["sky"]["error"], 0.2)
-        self.assertAlmostEqual(found[3]["sky"]["error"], 0.4 / 2048**0.5)
+        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
+        self.assertAlmostEqual(found[3]["sky"]["error"], 0.4 / 32768**0.5)
 
     def test_price_is_the_median_time_of_a_megapixel(self):
         found = choose_presets.choose(ALL)[0]
-        self.assertAlmostEqual(found["sky"]["seconds_per_megapixel"], 0.1 * 4 / 0.5)
+        self.assertAlmostEqual(found["sky"]["seconds_per_megapixel"], 0.1 * 64 / 0.5)
         self.assertAlmostEqual(found["lamps"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
 
     def test_what_is_not_measured_is_told(self):
         found = choose_presets.choose(ALL)
-        self.assertEqual([one["sky"]["is_measured"] for one in found], [True, True, False, False])
+        self.assertEqual([one["sky"]["is_measured"] for one in found], [True, False, False, False])
         self.assertEqual([one["lamps"]["is_measured"] for one in found], [True, False, False, False])
 
     def rays(self, name, error, time):
@@ -72,9 +73,9 @@ class Presets(unittest.TestCase):
     def test_rays_that_are_worth_it_are_taken_with_their_own_price(self):
         found = choose_presets.choose(self.rays("a", 0.5, 1.25) + LAMP)
         self.assertTrue(all(one["ao_rays"] == 4 for one in found))
-        self.assertEqual(found[0]["sky"]["samples"], 1)
-        self.assertAlmostEqual(found[0]["sky"]["error"], 0.2)
-        self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 / 0.5)
+        self.assertEqual(found[0]["sky"]["samples"], 16)
+        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
+        self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
         self.assertEqual(found[0]["lamps"], choose_presets.choose(ALL)[0]["lamps"])
 
     def test_rays_that_gain_less_than_a_tenth_are_not(self):
@@ -87,7 +88,11 @@ class Presets(unittest.TestCase):
     def test_scene_without_occlusion_keeps_its_own_curve(self):
         rows = self.rays("a", 0.5, 1.25) + scene_rows("b", 0.4) + scene_rows("c", 0.4) + LAMP
         found = choose_presets.choose(rows)
-        self.assertEqual((found[0]["ao_rays"], found[0]["sky"]["samples"]), (4, 4))
+        self.assertEqual((found[0]["ao_rays"], found[0]["sky"]["samples"]), (4, 64))
+
+    def test_one_sample_is_too_few_to_know_its_error(self):
+        rows = scene_rows("a", 0.01) + LAMP
+        self.assertEqual(choose_presets.choose(rows)[0]["sky"]["samples"], 2)
 
     def test_both_kinds_of_scenes_are_needed(self):
         for rows, kind in ((THREE, "lamps"), (LAMP, "sky")):
@@ -96,7 +101,7 @@ class Presets(unittest.TestCase):
 
     def test_scene_whose_error_does_not_fall_is_refused(self):
         rows = [row("flat", spp, 0.3, spp) for spp in (1, 4, 16)] + LAMP
-        with self.assertRaisesRegex(prices.Malformed, "no number of samples leaves a median error of 20 %"):
+        with self.assertRaisesRegex(prices.Malformed, "no number of samples leaves a median error of 5 %"):
             choose_presets.choose(rows)
 
 

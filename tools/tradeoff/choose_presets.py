@@ -6,8 +6,9 @@
 The rule. Occlusion rays stay at their default, unless another number reaches an error in at least a tenth less time:
 an error e in time t is worth e^2 t, since noise falls with the root of time, and the geometric mean over the scenes
 decides, each at the most samples that were measured of both. Photons follow the size of the picture. Then each preset
-takes the least power of two of samples per pixel at which the median error over the scenes is at most its target,
-apart for scenes with photons and without. Its price is the median error and the median time there.
+takes the least power of two of samples per pixel, two or more, at which the median error over the scenes is at most its
+target, apart for scenes with lamps, which need photons, and without. The targets of the former are larger: the same
+error would take them hundreds of times as long. The price is the median error and the median time there.
 """
 
 import argparse
@@ -19,9 +20,10 @@ import sys
 from prices import Curve, Malformed, read_prices, scenes_of
 
 REFUSED = 3
-TARGETS = (("draft", 0.20), ("normal", 0.07), ("fine", 0.03), ("reference", 0.01))
+TARGETS = {"draft": {"sky": 0.05, "lamps": 0.20}, "normal": {"sky": 0.03, "lamps": 0.07},
+           "fine": {"sky": 0.01, "lamps": 0.03}, "reference": {"sky": 0.003, "lamps": 0.01}}
 WORTHWHILE = 0.9  # of the time for an error, below which another value than the default is taken
-MOST_SAMPLES_LOG2 = 20  # film sums are exact up to there
+FEWEST_LOG2, MOST_LOG2 = 1, 20  # of samples: one has no estimate of its error; film sums are exact up to the most
 KNOB, DEFAULT_RAYS = "ao_rays", 1
 
 
@@ -57,7 +59,7 @@ class Kind:
 
     def price(self, name, target):
         """Samples, median error and time of a preset."""
-        for i in range(MOST_SAMPLES_LOG2 + 1):
+        for i in range(FEWEST_LOG2, MOST_LOG2 + 1):
             error = statistics.median(curve.at(1 << i, "error") for curve in self.curves)
             if error <= target:
                 return {"samples": 1 << i, "error": error,
@@ -83,7 +85,8 @@ def choose(rows):
     rays = choose_rays(scenes_of(rows))
     kinds = {name: Kind(scenes, rays) for name, scenes in kinds_of(rows).items()}
     return [{"name": name, "ao_rays": int(rays or DEFAULT_RAYS)}
-            | {kind: scenes.price(name, target) for kind, scenes in kinds.items()} for name, target in TARGETS]
+            | {kind: scenes.price(name, targets[kind]) for kind, scenes in kinds.items()}
+            for name, targets in TARGETS.items()]
 
 
 def two_digits(value):

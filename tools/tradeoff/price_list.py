@@ -162,6 +162,7 @@ def update_prices(options):
     else:
         with tempfile.TemporaryDirectory() as folder:
             about, rows = read_prices(measure(options, folder))
+    choose_presets.choose(rows)  # refuses what the presets cannot be chosen from, before anything is written
     options.prices.write_text(csv_text(about, rows), encoding="utf-8")
 
 
