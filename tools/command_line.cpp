@@ -128,7 +128,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
     RenderCommand render;
-    RenderCommand plan;
+    PlanCommand plan;
     InfoOptions info;
     DevicesCommand devices;
     CompareOptions compare;

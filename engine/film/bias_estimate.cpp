@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "film/error_estimate.h"
 #include "film/metrics.h"
 
 namespace voxilux {
@@ -22,6 +21,10 @@ double square_of_pixel(const HalfMeans& beauty, const HalfMeans& bias) {
 }
 
 }  // namespace
+
+double BiasEstimate::most_squared() const {
+    return std::max(squared + kOneSided95 * deviation, 0.0);
+}
 
 BiasEstimate estimate_bias(int width, int height, const FilmHalf& beauty_a, const FilmHalf& beauty_b,
                            std::span<const std::int64_t> bias_a, std::span<const std::int64_t> bias_b) {
@@ -52,13 +55,13 @@ BiasEstimate estimate_bias(int width, int height, const FilmHalf& beauty_a, cons
 ErrorEstimate with_bias(ErrorEstimate noise, const BiasEstimate& bias) {
     ErrorEstimate total = noise;
     const double likely = std::max(bias.squared, 0.0);
-    const double most = std::max(bias.squared + kOneSided95 * bias.deviation, 0.0);
     const double least = std::max(bias.squared - kOneSided95 * bias.deviation, 0.0);
     total.noise = noise.estimate;
     total.bias = std::sqrt(likely);
     total.estimate = std::sqrt(noise.estimate * noise.estimate + likely);
     total.low = std::sqrt(noise.low * noise.low + least);
-    total.high = std::sqrt(noise.high * noise.high + most);
+    total.high = std::sqrt(noise.high * noise.high + bias.most_squared());
+    total.bias_squared = bias;
     return total;
 }
 

@@ -3,16 +3,10 @@
 #include <cstdint>
 #include <span>
 
+#include "film/error_estimate.h"
 #include "film/film.h"
 
 namespace voxilux {
-
-// Systematic part of the error, in the units of sqrt(relMSE) squared: mean over pixels and channels of bias^2
-// / (radiance^2 + 0.01), with the standard error of that mean.
-struct BiasEstimate {
-    double squared = 0.0;  // may be below 0 by noise
-    double deviation = 0.0;
-};
 
 // From the biases that the samples of two independent halves tell, [height][width][3] sums like those of the
 // beauty and of the same samples. The product of two independent estimates is an unbiased one of the square;
@@ -22,7 +16,6 @@ struct BiasEstimate {
                                          std::span<const std::int64_t> bias_b);
 
 // A larger interval around a larger estimate: what noise and bias add up to.
-struct ErrorEstimate;
 [[nodiscard]] ErrorEstimate with_bias(ErrorEstimate noise, const BiasEstimate& bias);
 
 }  // namespace voxilux

@@ -10,6 +10,16 @@ namespace voxilux {
 
 inline constexpr double kErrorConfidence = 0.95;
 
+// Systematic part of the error, in the units of sqrt(relMSE) squared: mean over pixels and channels of bias^2
+// / (radiance^2 + 0.01), with the standard error of that mean.
+struct BiasEstimate {
+    double squared = 0.0;  // may be below 0 by noise
+    double deviation = 0.0;
+
+    // The upper end of the interval of squared, 0 or above.
+    [[nodiscard]] double most_squared() const;
+};
+
 // How far the beauty is from the converged one, without knowing that: estimate of sqrt(relMSE), a relative
 // error (0.01 is 1 %), and an interval that holds the true value with the given confidence.
 struct ErrorEstimate {
@@ -22,6 +32,7 @@ struct ErrorEstimate {
     // squares it is.
     std::optional<double> noise;
     std::optional<double> bias;
+    std::optional<BiasEstimate> bias_squared;  // what `bias` is the root of, as measured
 
     [[nodiscard]] bool is_known() const { return !std::isnan(estimate); }
 };

@@ -10,6 +10,18 @@ namespace voxilux {
 // samples each row has received.
 [[nodiscard]] FilmSums read_film(const RenderPlan& plan, Executor& executor);
 
+// Rows of the picture that lie in one film band.
+struct RowRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+// At most `count` rows about the middle of the picture.
+[[nodiscard]] RowRange middle_rows(const RenderPlan& plan, std::uint32_t count);
+
+// As read_film, but only these rows: a film of that height.
+[[nodiscard]] FilmSums read_film_rows(const RenderPlan& plan, RowRange rows, Executor& executor);
+
 // As read_film, but only the planes that the error is estimated from.
 [[nodiscard]] FilmSums read_error_film(const RenderPlan& plan, Executor& executor);
 

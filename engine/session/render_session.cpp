@@ -2,12 +2,15 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
+#include "session/error_pilot.h"
 #include "session/frame_run.h"
+#include "session/noise_shares.h"
 #include "session/radius_pilot.h"
 #include "world/world_view.h"
 
@@ -35,6 +38,11 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
     if (gpu::cell_state(gpu::find_cell(march_world, cell, march_world.chunks_size).cell) == gpu::kCellSolid)
         warnings.push_back("the camera is inside a solid voxel: the picture shows its inside, which is dark");
 }
+
+// Share of a time limit that a pilot may take: its samples are not in the picture.
+constexpr double kPilotTimeShare = 0.1;
+// What finding out whose noise it is may take, or kPilotShare of the render, if that is more.
+constexpr double kShareBudget_s = 1.0;
 
 RenderOptions with_error_wish(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
@@ -101,6 +109,55 @@ void RenderSession::choose_radius(const Recording& upload) {
     prepared_->plan.photons.radius = *first_radius_;
 }
 
+std::optional<ErrorPilot> RenderSession::run_pilot(Recording& upload, const std::function<bool()>& stops) {
+    if (!options_.error_target || prepared_->plan.has_ao_cells() || prepared_->plan.has_own_radii())
+        return {};
+    (void)executor_->run(std::exchange(upload, Recording{}));
+    const bool is_cpu = device_.limits().is_cpu;
+    ErrorPilot pilot = run_error_pilot({.prepared = *prepared_,
+                                        .scene = *scene_,
+                                        .error = *options_.error_target,
+                                        .is_cpu = is_cpu,
+                                        .stops = stops},
+                                       *executor_);
+    const std::optional<Forecast> rough = make_forecast(pilot, *options_.error_target, {});
+    if (!rough || !pilot.is_complete) return pilot;
+    shares_ = share_noise({.prepared = *prepared_,
+                           .scene = *scene_,
+                           .is_cpu = is_cpu,
+                           .sample_s = rough->expected_s / rough->samples,
+                           .budget_s = std::max(kShareBudget_s, kPilotShare * rough->expected_s),
+                           .stops = stops},
+                          *executor_);
+    return pilot;
+}
+
+std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
+    scene_ = &player_.show(frame);
+    Recording upload = prepare(*scene_);
+    return run_pilot(upload, {});
+}
+
+// The first frame has a pilot; each later one is expected to need what the one before did.
+ErrorGuess RenderSession::guess_error(Recording& upload, const RenderOptions& options,
+                                      std::uint32_t samples_done, Clock::time_point start) {
+    if (!options.error_target) return {};
+    if (state_.frames_done > 0) return {.points = last_points_, .from = DecidedBy::frame_before};
+    const auto stops = [&] {
+        if (options.interrupted != nullptr && options.interrupted->load()) return true;
+        return options.time_limit_s && seconds_since(start) > kPilotTimeShare * *options.time_limit_s;
+    };
+    const std::optional<ErrorPilot> pilot = run_pilot(upload, stops);
+    if (!pilot) return {};
+    forecast_ = make_forecast(*pilot, *options.error_target,
+                              {.most_samples = prepared_->plan.samples(),
+                               .samples_done = samples_done,
+                               .pilot_s = seconds_since(start),
+                               .film_values = film_values(prepared_->plan),
+                               .time_limit_s = options.time_limit_s});
+    return {.points = pilot->points, .from = DecidedBy::pilot};
+}
+
 RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> time_limit_s,
                                     const std::function<void(const Progress&)>& on_progress) {
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
@@ -115,15 +172,22 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                              .film = film,
                              .params = frame_params(prepared_->plan, *scene_, prepared_->march_world),
                              .is_cpu = device_.limits().is_cpu,
-                             .start = start};
+                             .start = start,
+                             .guess = guess_error(upload, options, film.samples, start),
+                             .shares = shares_};
     FrameRun run(inputs, std::move(upload), *executor_, state_);
-    run.run(on_progress, [&] {
-        RenderOutcome so_far = run.outcome();
-        complete(so_far, load_s, start);
-        options_.on_checkpoint(*scene_, std::move(so_far));
-    });
+    FrameCalls calls{.on_progress = on_progress, .save = [&] {
+                         RenderOutcome so_far = run.outcome();
+                         complete(so_far, load_s, start);
+                         options_.on_checkpoint(*scene_, std::move(so_far));
+                     }};
+    if (options_.rehearse_end)
+        calls.rehearse = [&](RenderOutcome strip) { options_.rehearse_end(*scene_, std::move(strip)); };
+    run.run(calls);
     RenderOutcome outcome = run.outcome();
+    if (state_.frames_done == 0) outcome.statistics.forecast = forecast_;
     ++state_.frames_done;
+    last_points_ = run.own_points();
     complete(outcome, load_s, start);
     outcome.statistics.validation = new_messages();
     return outcome;

@@ -15,6 +15,9 @@
 #include "plan/render_plan.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
+#include "session/error_rounds.h"
+#include "session/forecast.h"
+#include "session/next_minute.h"
 #include "session/prepared_scene.h"
 #include "vk/device.h"
 #include "vk/executor.h"
@@ -43,6 +46,9 @@ struct RenderOptions {
     std::function<FilmStart(const Scene&, const RenderPlan&)> resume;
     // Gets what is rendered so far, as if the render ended now.
     std::function<void(const Scene&, RenderOutcome)> on_checkpoint;
+    // With a time limit: gets a strip of the picture and does to it what will be done to the picture at the
+    // end, without leaving anything behind. How long that takes is what the limit has to leave room for.
+    std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
     bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
@@ -54,9 +60,11 @@ struct Progress {
     double done = 0.0;  // [0,1], by whatever is expected to end the render first
     double elapsed_s = 0.0;
     double remaining_s = 0.0;  // at the pace so far
+    double remaining_low_s = 0.0, remaining_high_s = 0.0;
     std::uint32_t sample = 0;
-    std::optional<double> error;  // last estimate
-    std::uint32_t frame = 0;      // which of `frames`, from 1; 0 when there is but one picture
+    std::optional<double> error;         // what the picture would claim now: the upper end of its interval
+    std::optional<double> error_at_end;  // expected
+    std::uint32_t frame = 0;             // which of `frames`, from 1; 0 when there is but one picture
     std::uint32_t frames = 0;
 };
 
@@ -80,6 +88,10 @@ struct RenderStatistics {
     std::uint32_t samples = 0;     // whole ones, of the shard
     std::uint64_t live_cells = 0;  // of occlusion, at the end
     ErrorEstimate error;
+    std::uint32_t rounds = 0;  // after which the error was compared with its target; 0: there is none
+    DecidedBy decided_by = DecidedBy::request;
+    std::optional<Forecast> forecast;       // made by a pilot
+    std::optional<NextMinute> next_minute;  // nothing where the error is unknown
     StopReason stop = StopReason::finished;
     std::vector<std::string> warnings;
     std::vector<std::string> validation;  // messages of the layers
@@ -110,6 +122,13 @@ class RenderSession {
     [[nodiscard]] RenderOutcome render(std::int64_t frame, std::optional<double> time_limit_s,
                                        const std::function<void(const Progress&)>& on_progress = {});
 
+    // Only the pilot of `frame`, for the error target of the options. Nothing where none can be: shared
+    // occlusion, or radii that depend on samples before.
+    [[nodiscard]] std::optional<ErrorPilot> pilot(std::int64_t frame);
+
+    // The plan of the frame last worked on.
+    [[nodiscard]] const RenderPlan& plan() const { return prepared_->plan; }
+
     // The frames from now on have these settings and this plan, as in a session of their own; device,
     // pipelines and voxels are kept. So the structure of the world stays, whichever `request` names.
     void change(const RenderSettings& settings, const PlanRequest& request);
@@ -125,6 +144,10 @@ class RenderSession {
     [[nodiscard]] Recording prepare(const Scene& scene);
     void replan(const Scene& scene, Recording& upload);
     void choose_radius(const Recording& upload);
+    [[nodiscard]] std::optional<ErrorPilot> run_pilot(Recording& upload, const std::function<bool()>& stops);
+    [[nodiscard]] ErrorGuess guess_error(Recording& upload, const RenderOptions& options,
+                                         std::uint32_t samples_done,
+                                         std::chrono::steady_clock::time_point start);
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();
 
@@ -135,6 +158,9 @@ class RenderSession {
     std::optional<PreparedScene> prepared_;  // of the world on the device
     FrameState state_;
     const Scene* scene_ = nullptr;
+    std::vector<ErrorPoint> last_points_;  // of the frame before, with an error target
+    std::optional<Forecast> forecast_;     // of the first frame
+    std::vector<NoiseShare> shares_;
     std::optional<double> first_radius_;  // of photons, once a pilot has found it
     std::size_t messages_told_ = 0;
     bool has_started_ = false;

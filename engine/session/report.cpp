@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/scene_hash.h"
+#include "session/forecast_report.h"
 #include "session/occlusion_report.h"
 #include "session/photon_report.h"
 
@@ -124,6 +125,10 @@ void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
     total.samples = std::min(total.samples, frame.samples);
     total.live_cells = frame.live_cells;
     if (!(frame.error.high <= total.error.high)) total.error = frame.error;
+    total.rounds = std::max(total.rounds, frame.rounds);
+    total.decided_by = std::max(total.decided_by, frame.decided_by);
+    total.forecast.reset();  // of the first frame alone
+    total.next_minute.reset();
     total.stop = std::max(total.stop, frame.stop);  // the reasons are in order of their weight
     for (const std::string& warning : frame.warnings) {
         if (std::ranges::find(total.warnings, warning) == total.warnings.end())
@@ -183,7 +188,10 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
         json["memory"].push_back({{"buffer", row.buffer}, {"bytes", row.bytes}});
     json["effects"] = effects_json(outcome.plan, &statistics);
     json["error"] = error_json(statistics.error);
-    json["forecast"] = {{"low_s", nullptr}, {"high_s", nullptr}};  // unknown: there is no pilot
+    json["error"]["rounds"] = statistics.rounds;
+    json["error"]["decided_by"] = name_of(statistics.decided_by);
+    json["forecast"] = judged_forecast_json(statistics);
+    json["next_minute"] = next_minute_json(statistics.next_minute);
     json["faults"] = statistics.faults;
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
@@ -244,7 +252,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["passes"] = planned_passes_json(plan);
     json["memory"] = planned_memory_json(plan);
     json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
-    json["forecast"] = {{"low_s", nullptr}, {"high_s", nullptr}};  // unknown: there is no pilot
+    json["forecast"] = forecast_json(std::nullopt);  // without an error there is no pilot
     json["notes"] = plan.notes;
     return json;
 }
@@ -271,6 +279,9 @@ std::string describe(const RenderOutcome& outcome) {
     } else {
         text += "error     unknown: pixels share occlusion samples\n";
     }
+    text += judged_forecast_text(s);
+    if (const std::string minute = next_minute_text(s.next_minute); !minute.empty())
+        text += fmt::format("next      {}\n", minute);
     for (const auto& [name, count] : s.faults) {
         if (count != 0) text += fmt::format("fault     {} {}\n", name, count);
     }

@@ -37,6 +37,7 @@ Pipe make_pipe() {
     ::dup2(err, STDERR_FILENO);
     if (!surroundings.folder.empty() && ::chdir(surroundings.folder.c_str()) != 0) ::_exit(126);
     ::setenv("XDG_CACHE_HOME", VX_TEST_CACHE, 1);
+    ::setenv("XDG_STATE_HOME", VX_TEST_CACHE "/state", 1);
     ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // drivers leak, and are gone when leaks are traced
     for (const auto& [name, value] : surroundings.environment)
         ::setenv(name.c_str(), value.c_str(), 1);

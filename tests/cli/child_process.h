@@ -25,7 +25,7 @@ struct Ending {
     std::string err;
 };
 
-// A running voxilux. Its environment has a cache folder of the tests' own.
+// A running voxilux. Its environment has folders of the tests' own for caches and for what it remembers.
 class ChildProcess {
   public:
     explicit ChildProcess(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});

@@ -140,30 +140,51 @@ TEST(ParseEffectSwitch, name_and_state_are_both_needed) {
 }
 
 TEST(ProgressText, numbers_read_as_people_write_them) {
+    EXPECT_EQ(progress_text({.done = 0.42,
+                             .elapsed_s = 12.3,
+                             .remaining_low_s = 15.1,
+                             .remaining_high_s = 19.4,
+                             .sample = 7,
+                             .error = 0.021,
+                             .error_at_end = 0.01}),
+              " 42.0 %  sample 7  12 s, 15 to 19 s left  error 2.1 %, 1 % at the end");
+    EXPECT_EQ(progress_text({.done = 0.001,
+                             .elapsed_s = 100.0,
+                             .remaining_low_s = 80000.0,
+                             .remaining_high_s = 99900.0,
+                             .sample = 1}),
+              "  0.1 %  sample 1  1 min 40 s, 22 to 28 h left");
     EXPECT_EQ(
-        progress_text({.done = 0.42, .elapsed_s = 12.3, .remaining_s = 17.0, .sample = 7, .error = 0.021}),
-        " 42.0 %  sample 7  12 s, about 17 s left  error 2.1 %");
-    EXPECT_EQ(progress_text({.done = 0.001, .elapsed_s = 100.0, .remaining_s = 99900.0, .sample = 1}),
-              "  0.1 %  sample 1  1 min 40 s, about 27 h 45 min left");
-    EXPECT_EQ(
-        progress_text({.done = 0.0, .remaining_s = std::numeric_limits<double>::infinity(), .sample = 1}),
-        "  0.0 %  sample 1  0 s, about ? left");
+        progress_text({.done = 0.0, .remaining_high_s = std::numeric_limits<double>::infinity(), .sample = 1}),
+        "  0.0 %  sample 1  0 s, ? left");
 }
 
 TEST(ProgressText, frame_range_counts_frames) {
-    EXPECT_EQ(
-        progress_text(
-            {.done = 0.42, .elapsed_s = 12.3, .remaining_s = 17.0, .sample = 7, .frame = 3, .frames = 12}),
-        "frame 3 of 12 42.0 %  sample 7  12 s, about 17 s left");
+    EXPECT_EQ(progress_text({.done = 0.42,
+                             .elapsed_s = 12.3,
+                             .remaining_low_s = 17.0,
+                             .remaining_high_s = 17.0,
+                             .sample = 7,
+                             .frame = 3,
+                             .frames = 12}),
+              "frame 3 of 12 42.0 %  sample 7  12 s, 17 s left");
     EXPECT_EQ(progress_json({.done = 0.5, .sample = 2, .frame = 3, .frames = 12}),
-              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"frame":3,"frames":12})");
+              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"remaining_low_s":0.0,)"
+              R"("remaining_high_s":0.0,"frame":3,"frames":12})");
 }
 
 TEST(ProgressText, json_is_one_line_with_its_keys) {
-    EXPECT_EQ(progress_json({.done = 0.5, .elapsed_s = 1.5, .remaining_s = 1.5, .sample = 2}),
-              R"({"done":0.5,"sample":2,"elapsed_s":1.5,"remaining_s":1.5})");
-    EXPECT_EQ(progress_json({.done = 0.5, .sample = 2, .error = 0.25}),
-              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"error":0.25})");
+    EXPECT_EQ(progress_json({.done = 0.5,
+                             .elapsed_s = 1.5,
+                             .remaining_s = 1.5,
+                             .remaining_low_s = 1.25,
+                             .remaining_high_s = 2.0,
+                             .sample = 2}),
+              R"({"done":0.5,"sample":2,"elapsed_s":1.5,"remaining_s":1.5,"remaining_low_s":1.25,)"
+              R"("remaining_high_s":2.0})");
+    EXPECT_EQ(progress_json({.done = 0.5, .sample = 2, .error = 0.25, .error_at_end = 0.125}),
+              R"({"done":0.5,"sample":2,"elapsed_s":0.0,"remaining_s":0.0,"remaining_low_s":0.0,)"
+              R"("remaining_high_s":0.0,"error":0.25,"error_at_end":0.125})");
 }
 
 }  // namespace

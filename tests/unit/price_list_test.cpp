@@ -160,7 +160,7 @@ TEST(SamplePlan, halves_what_was_asked_until_it_fits) {
     const SamplePlan rich = plan_samples(ways, 64, 3, 1e6);
     EXPECT_EQ(rich.top, 64u);
     EXPECT_EQ(rich.of_way[1], (std::vector<std::uint32_t>{4, 16, 64}));
-    EXPECT_EQ(rich.of_way[0], (std::vector<std::uint32_t>{1, 2, 4, 8, 16, 32, 64, 128}));
+    EXPECT_EQ(rich.of_way[0], (std::vector<std::uint32_t>{1, 2, 4, 8, 16, 32, 64}));
     const SamplePlan poor = plan_samples(ways, 64, 3, 20.0);
     EXPECT_LT(poor.top, 64u);
     EXPECT_LE(poor.cost_s, 20.0);

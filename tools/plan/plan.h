@@ -4,9 +4,16 @@
 
 namespace voxilux {
 
-CLI::App* add_plan(CLI::App& app, RenderCommand& command);
+// The flags of render and those of plan alone.
+struct PlanCommand {
+    RenderCommand render;
+    bool history = false;
+};
 
-// Prints what render would do with the same flags, and what not and why. Needs no device.
-[[nodiscard]] int run_plan(const RenderCommand& command);
+CLI::App* add_plan(CLI::App& app, PlanCommand& command);
+
+// Prints what render would do with the same flags, and what not and why. Needs a device for --error alone,
+// whose time, memory and samples a pilot tells.
+[[nodiscard]] int run_plan(const PlanCommand& command);
 
 }  // namespace voxilux

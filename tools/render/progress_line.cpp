@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "session/forecast_report.h"
 
 namespace voxilux {
 namespace {
@@ -35,9 +36,11 @@ std::string duration_text(double seconds) {
 std::string progress_text(const Progress& progress) {
     std::string text =
         progress.frames == 0 ? "" : fmt::format("frame {} of {}", progress.frame, progress.frames);
-    text += fmt::format("{:5.1f} %  sample {}  {}, about {} left", 100.0 * progress.done, progress.sample,
-                        duration_text(progress.elapsed_s), duration_text(progress.remaining_s));
+    text += fmt::format("{:5.1f} %  sample {}  {}, {} left", 100.0 * progress.done, progress.sample,
+                        duration_text(progress.elapsed_s),
+                        time_range_text(progress.remaining_low_s, progress.remaining_high_s));
     if (progress.error) text += fmt::format("  error {:.2g} %", 100.0 * *progress.error);
+    if (progress.error_at_end) text += fmt::format(", {:.2g} % at the end", 100.0 * *progress.error_at_end);
     return text;
 }
 
@@ -45,12 +48,15 @@ std::string progress_json(const Progress& progress) {
     nlohmann::ordered_json json = {{"done", progress.done},
                                    {"sample", progress.sample},
                                    {"elapsed_s", progress.elapsed_s},
-                                   {"remaining_s", progress.remaining_s}};
+                                   {"remaining_s", progress.remaining_s},
+                                   {"remaining_low_s", progress.remaining_low_s},
+                                   {"remaining_high_s", progress.remaining_high_s}};
     if (progress.frames != 0) {
         json["frame"] = progress.frame;
         json["frames"] = progress.frames;
     }
     if (progress.error) json["error"] = *progress.error;
+    if (progress.error_at_end) json["error_at_end"] = *progress.error_at_end;
     return json.dump();
 }
 

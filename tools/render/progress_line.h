@@ -32,12 +32,13 @@ class ProgressLine {
     double last_s_ = -1.0;
 };
 
-// The line for people, without control characters: "frame 3 of 12 42.0 %  sample 7  12 s, about 17 s left
-// error 2.1 %".
+// The line for people, without control characters: "frame 3 of 12 42.0 %  sample 7  12 s, 15 to 19 s left
+// error 2.1 %, 1 % at the end".
 [[nodiscard]] std::string progress_text(const Progress& progress);
 
-// The object for programs, on one line: done, sample, elapsed_s, remaining_s, of a frame range
-// which frame of how many frames, and error once it is known.
+// The object for programs, on one line: done, sample, elapsed_s, remaining_s, remaining_low_s,
+// remaining_high_s, of a frame range which frame of how many frames, and error and error_at_end once they
+// are known.
 [[nodiscard]] std::string progress_json(const Progress& progress);
 
 }  // namespace voxilux

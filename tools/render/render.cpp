@@ -13,6 +13,7 @@
 #include "render/render_output.h"
 #include "render/render_part.h"
 #include "scene/scene_hash.h"
+#include "session/memory_forecast.h"
 #include "session/report.h"
 
 namespace voxilux {
@@ -46,6 +47,38 @@ void check_outputs(const RenderCommand& command, const std::vector<std::string>&
     check_writable(command.json);
 }
 
+int render_picture(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
+    RenderOutcome outcome =
+        session.render(job.frames.first, job.options.time_limit_s, job.progress.callback());
+    job.progress.finish();
+    if (outcome.statistics.stop == StopReason::interrupted && outcome.statistics.first_pixel_s == 0.0)
+        throw Error(ExitCode::interrupted, "interrupted before the first pixels; nothing was written");
+    leave_checkpoint(command, job.outputs, session.scene(), outcome);
+    write_pictures(command, job.outputs, session.scene(), outcome);
+    remove_checkpoint(command, job.outputs, outcome);
+    outcome.statistics.peak_rss_mib = static_cast<double>(resident_bytes().peak) / 0x1p20;
+    for (const std::string& message : session.end())
+        outcome.statistics.validation.push_back(message);
+    print_validation(outcome);
+    print_faults(outcome);
+    std::set<std::string> said;
+    print_warnings(command, outcome, said);
+    print_missed_error(command, outcome);
+    print_outcome(command, job.outputs, outcome);
+    const nlohmann::ordered_json report = report_json(session.scene(), outcome);
+    write_json(command.json, report);
+    remember_forecast(command, report);
+    return static_cast<int>(exit_code(command, outcome));
+}
+
+}  // namespace
+
+CLI::App* add_render(CLI::App& app, RenderCommand& command) {
+    CLI::App* render = app.add_subcommand("render", "render a scene to EXR and PNG");
+    add_render_flags(*render, command);
+    return render;
+}
+
 RenderOptions render_options(const RenderCommand& command, const std::vector<std::string>& outputs) {
     RenderOptions options;
     options.plan = request_of(command, outputs);
@@ -57,36 +90,11 @@ RenderOptions render_options(const RenderCommand& command, const std::vector<std
     if (command.error) options.error_target = parse_error_target(*command.error);
     options.interrupted = &interrupted;
     set_part_options(command, outputs, options);
+    options.rehearse_end = [&](const Scene& scene, RenderOutcome strip) {
+        strip.statistics.stop = StopReason::time_limit;
+        rehearse_output(command, outputs, scene, std::move(strip));
+    };
     return options;
-}
-
-int render_picture(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
-    RenderOutcome outcome =
-        session.render(job.frames.first, job.options.time_limit_s, job.progress.callback());
-    job.progress.finish();
-    if (outcome.statistics.stop == StopReason::interrupted && outcome.statistics.first_pixel_s == 0.0)
-        throw Error(ExitCode::interrupted, "interrupted before the first pixels; nothing was written");
-    leave_checkpoint(command, job.outputs, session.scene(), outcome);
-    write_pictures(command, job.outputs, session.scene(), outcome);
-    remove_checkpoint(command, job.outputs, outcome);
-    for (const std::string& message : session.end())
-        outcome.statistics.validation.push_back(message);
-    print_validation(outcome);
-    print_faults(outcome);
-    std::set<std::string> said;
-    print_warnings(command, outcome, said);
-    print_missed_error(command, outcome);
-    print_outcome(command, job.outputs, outcome);
-    write_json(command.json, report_json(session.scene(), outcome));
-    return static_cast<int>(exit_code(command, outcome));
-}
-
-}  // namespace
-
-CLI::App* add_render(CLI::App& app, RenderCommand& command) {
-    CLI::App* render = app.add_subcommand("render", "render a scene to EXR and PNG");
-    add_render_flags(*render, command);
-    return render;
 }
 
 int run_render(const RenderCommand& command) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene_options.h"
+#include "session/render_session.h"
 
 namespace voxilux {
 
@@ -43,6 +44,10 @@ CLI::App* add_render(CLI::App& app, RenderCommand& command);
 
 // The request that a render makes of the plan.
 [[nodiscard]] PlanRequest request_of(const RenderCommand& command, const std::vector<std::string>& outputs);
+
+// What the flags ask of a session, the options of parts included. `command` and `outputs` outlive them.
+[[nodiscard]] RenderOptions render_options(const RenderCommand& command,
+                                           const std::vector<std::string>& outputs);
 
 // Renders and writes the pictures. Returns done, time_limit (before the error target) or interrupted.
 [[nodiscard]] int run_render(const RenderCommand& command);

@@ -11,6 +11,10 @@
 namespace voxilux {
 namespace {
 
+// Of a frame to come, over the mean of those so far.
+constexpr double kLeastPace = 0.8;
+constexpr double kMostPace = 1.25;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -29,9 +33,14 @@ std::function<void(const Progress&)> progress_of_range(const RenderJob& job, std
     return [=, started = job.options.started](Progress progress) {
         progress.frame = static_cast<std::uint32_t>(index + 1);
         progress.frames = static_cast<std::uint32_t>(count);
-        progress.done = (static_cast<double>(index) + progress.done) / count;
+        const double done = progress.done;
+        progress.done = (static_cast<double>(index) + done) / count;
         progress.elapsed_s = seconds_since(started);
-        progress.remaining_s = progress.elapsed_s * (1.0 - progress.done) / progress.done;
+        const double frames_left = count - static_cast<double>(index + 1);
+        const double frame_s = progress.elapsed_s / (static_cast<double>(index) + done);
+        progress.remaining_s += frames_left * frame_s;
+        progress.remaining_low_s += frames_left * frame_s * kLeastPace;
+        progress.remaining_high_s += frames_left * frame_s * kMostPace;
         show(progress);
     };
 }

@@ -1,6 +1,7 @@
 #include "render/render_output.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "base/error.h"
@@ -8,6 +9,7 @@
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/render_part.h"
+#include "session/forecast_history.h"
 #include "session/report.h"
 
 namespace voxilux {
@@ -85,6 +87,37 @@ void write_pictures(const RenderCommand& command, const std::vector<std::string>
             write_png(file, display.image);
         }
     }
+}
+
+void rehearse_output(const RenderCommand& command, const std::vector<std::string>& outputs,
+                     const Scene& scene, RenderOutcome strip) try {
+    std::string folder = (fs::temp_directory_path() / "voxilux-XXXXXX").string();
+    if (::mkdtemp(folder.data()) == nullptr) return;
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        files.push_back(
+            (fs::path(folder) / fmt::format("{}{}", i, fs::path(outputs[i]).extension().string())));
+    try {
+        leave_checkpoint(command, files, scene, strip);
+        write_pictures(command, files, scene, strip);
+    } catch (const Error&) {
+    }
+    fs::remove_all(folder);
+} catch (const fs::filesystem_error&) {
+}
+
+fs::path history_file() {
+    if (const char* named = std::getenv("XDG_STATE_HOME"); named != nullptr && *named != '\0')
+        return fs::path(named) / "voxilux" / "forecasts.jsonl";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return fs::path(home) / ".local" / "state" / "voxilux" / "forecasts.jsonl";
+    return {};
+}
+
+void remember_forecast(const RenderCommand& command, const nlohmann::ordered_json& report) {
+    if (report.at("forecast").at("low_s").is_null()) return;
+    const std::string name = fs::path(command.scene.input).filename().string();
+    (void)append_history(history_file(), history_entry(report, name));
 }
 
 bool missed_error(const RenderCommand& command, const RenderOutcome& outcome) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -25,6 +26,17 @@ namespace voxilux {
 // the still one that was rendered.
 void write_pictures(const RenderCommand& command, const std::vector<std::string>& files, const Scene& scene,
                     RenderOutcome& outcome);
+
+// Does to a strip of a picture what render does to the picture and its checkpoint, in the system's folder for
+// temporary files, and leaves nothing: how long that takes is what is asked. What goes wrong is nothing here.
+void rehearse_output(const RenderCommand& command, const std::vector<std::string>& files, const Scene& scene,
+                     RenderOutcome strip);
+
+// Where the forecasts of all renders are kept; empty where there is no home.
+[[nodiscard]] std::filesystem::path history_file();
+
+// Remembers the forecast that the report of a render has, if it has one.
+void remember_forecast(const RenderCommand& command, const nlohmann::ordered_json& report);
 
 // Whether --error was given and not reached.
 [[nodiscard]] bool missed_error(const RenderCommand& command, const RenderOutcome& outcome);

@@ -45,8 +45,7 @@ double seconds_per_sample(const MeasuredWay& way) {
     return middle_of(way.levels.back().times_s) / way.levels.back().samples;
 }
 
-EqualPicture of_level(const MeasuredWay& way, const Level& level) {
-    (void)way;
+EqualPicture of_level(const Level& level) {
     return {.samples = level.samples,
             .time_s = middle_of(level.times_s),
             .error = level.error.total,
@@ -85,8 +84,9 @@ EqualRow equal_time_row(const Workshop& workshop, const KnobDesign& design,
                         const std::vector<MeasuredWay>& ways, std::uint32_t samples) {
     const Level& base = level_of(ways.front(), samples);
     EqualRow row{.target = middle_of(base.times_s)};
-    row.pictures.push_back(of_level(ways.front(), base));
+    row.pictures.push_back(of_level(base));
     for (const auto& [knob, setting] : chosen(design, ways)) {
+        if (workshop.left_s() <= 0.0) break;
         const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
         EqualPicture picture = render(workshop, way, row.target / seconds_per_sample(way));
         picture.knob = knob;
@@ -101,8 +101,9 @@ EqualRow equal_error_row(const Workshop& workshop, const KnobDesign& design,
                          const std::vector<MeasuredWay>& ways, std::uint32_t samples, double most_s) {
     const Level& base = level_of(ways.front(), samples);
     EqualRow row{.target = base.error.total};
-    row.pictures.push_back(of_level(ways.front(), base));
+    row.pictures.push_back(of_level(base));
     for (const auto& [knob, setting] : chosen(design, ways)) {
+        if (workshop.left_s() <= 0.0) break;
         const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
         const double most = most_s / seconds_per_sample(way);
         EqualPicture picture =

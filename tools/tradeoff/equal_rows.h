@@ -26,7 +26,8 @@ struct EqualRow {
 };
 
 // The time of way 0 at `samples` samples, and a picture of every chosen way with so many samples as take that
-// time. Of each knob the first and the last setting are chosen, beside way 0 itself.
+// time. Of each knob the first and the last setting are chosen, beside way 0 itself, as far as
+// Workshop::left_s allows.
 [[nodiscard]] EqualRow equal_time_row(const Workshop& workshop, const KnobDesign& design,
                                       const std::vector<MeasuredWay>& ways, std::uint32_t samples);
 

@@ -44,8 +44,9 @@ void warm_up(const Workshop& workshop, MeasuredWay& way) {
     const RenderOutcome first = measure_once(*way.session, job).outcome;
     way.load_s = first.statistics.load_s;
     const Measured second = measure_once(*way.session, job);
+    const Measured third = measure_once(*way.session, job);
     way.plan = second.outcome.plan;
-    way.per_sample_s = std::max(second.time_s, 1e-6);
+    way.per_sample_s = std::max(std::min(second.time_s, third.time_s), 1e-6);
 }
 
 void open_way(const Workshop& workshop, RenderSession& session, MeasuredWay& way) {
@@ -76,8 +77,8 @@ std::vector<std::uint32_t> three_levels(std::uint32_t top) {
 }
 
 std::vector<std::uint32_t> all_levels(std::uint32_t top) {
-    std::set<std::uint32_t> levels{top, 2 * top};
-    for (std::uint32_t power = 1; power <= 2 * top; power *= 2)
+    std::set<std::uint32_t> levels{top};
+    for (std::uint32_t power = 1; power < top; power *= 2)
         levels.insert(power);
     for (const std::uint32_t level : three_levels(top))
         levels.insert(level);
@@ -132,6 +133,27 @@ void finish_round(const Workshop& workshop, std::vector<Round>& rounds, std::uin
         if (&round != &rounds.front() && !round.way->levels.empty()) round.way->levels.back().picture = {};
         round.way->levels.push_back(std::move(round.level));
     }
+}
+
+void measure_level(const Workshop& workshop, const std::vector<MeasuredWay*>& ways, std::uint32_t samples) {
+    std::vector<Round> rounds;
+    for (MeasuredWay* const way : ways)
+        rounds.push_back({.way = way});
+    measure_round(workshop, rounds, samples);
+    finish_round(workshop, rounds, samples);
+}
+
+// The ways that have taken as many samples as most, and how long one sample of all of them takes.
+std::vector<MeasuredWay*> leading_ways(std::vector<MeasuredWay>& ways, std::uint32_t samples,
+                                       double& per_sample_s) {
+    std::vector<MeasuredWay*> leading;
+    per_sample_s = 0.0;
+    for (MeasuredWay& way : ways) {
+        if (way.levels.empty() || way.levels.back().samples != samples) continue;
+        leading.push_back(&way);
+        per_sample_s += middle_of(way.levels.back().times_s) / samples;
+    }
+    return leading;
 }
 
 }  // namespace
@@ -192,8 +214,7 @@ std::vector<MeasuredWay> open_ways(const Workshop& workshop, const KnobDesign& d
         else
             open_way(workshop, session, way);
         if (way.own) loaded_s = std::max(loaded_s, way.load_s);
-        if (workshop.on_progress)
-            workshop.on_progress(static_cast<double>(i + 1) / static_cast<double>(design.ways.size()), 1);
+        workshop.on_progress(static_cast<double>(i + 1) / static_cast<double>(design.ways.size()), 1);
     }
     return ways;
 }
@@ -224,28 +245,36 @@ SamplePlan plan_samples(const std::vector<MeasuredWay>& ways, std::uint32_t aske
     return plan;
 }
 
-std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan, std::vector<MeasuredWay>& ways,
-                             const std::function<bool()>& is_late) {
+std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan, std::uint32_t asked,
+                             std::vector<MeasuredWay>& ways) {
     std::set<std::uint32_t> counts;
     for (const std::vector<std::uint32_t>& levels : plan.of_way)
         counts.insert(levels.begin(), levels.end());
+    const std::vector<std::uint32_t> usual = three_levels(plan.top);
     std::uint32_t reached = 0;
-    double done_s = 0.0;
     for (const std::uint32_t samples : counts) {
-        if (reached != 0 && is_late()) break;
-        std::vector<Round> rounds;
+        if (reached != 0 && workshop.left_s() <= 0.0) return reached;
+        std::vector<MeasuredWay*> taking;
         for (std::size_t i = 0; i < ways.size(); ++i) {
-            const bool has_level = std::ranges::find(plan.of_way[i], samples) != plan.of_way[i].end();
-            if (!has_level) continue;
-            rounds.push_back({.way = &ways[i]});
-            done_s += static_cast<double>(workshop.repeats) * samples * ways[i].per_sample_s;
+            const std::vector<std::uint32_t>& levels = plan.of_way[i];
+            if (std::ranges::find(levels, samples) != levels.end()) taking.push_back(&ways[i]);
         }
-        measure_round(workshop, rounds, samples);
-        finish_round(workshop, rounds, samples);
-        const std::vector<std::uint32_t> usual = three_levels(plan.top);
+        measure_level(workshop, taking, samples);
         if (std::ranges::find(usual, samples) != usual.end()) reached = samples;
-        if (workshop.on_progress) workshop.on_progress(std::min(done_s / plan.cost_s, 1.0), samples);
+        workshop.on_progress(0.8 * samples / plan.top, samples);
     }
+    const auto times = static_cast<double>(workshop.repeats);
+    double per_sample_s = 0.0;
+    while (reached < asked) {
+        const std::uint32_t next = std::min(2 * reached, asked);
+        const std::vector<MeasuredWay*> leading = leading_ways(ways, reached, per_sample_s);
+        if (times * next * per_sample_s > workshop.left_s()) break;
+        measure_level(workshop, leading, next);
+        reached = next;
+        workshop.on_progress(0.9, reached);
+    }
+    const double base_s = middle_of(ways.front().levels.back().times_s);
+    if (2.0 * times * base_s < workshop.left_s()) measure_level(workshop, {&ways.front()}, 2 * reached);
     return reached;
 }
 

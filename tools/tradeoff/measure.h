@@ -70,6 +70,7 @@ struct Workshop {
     const Image* reference = nullptr;
     ReferenceNoise noise;
     std::function<void(double share, std::uint32_t samples)> on_progress;  // of the stage
+    std::function<double()> left_s;                                        // of the time for the stage
 };
 
 // The ways of a design, each rendered once to compile its shaders and once to time a sample. Way 0 and all
@@ -87,18 +88,18 @@ struct SamplePlan {
 };
 
 // `asked` samples, or so many halves of it that all ways together take at most `budget_s`: a sixteenth, a
-// quarter and all of them, and of way 0 every power of two up to twice as many. Ways that are too slow for
+// quarter and all of them, and of way 0 every power of two. Ways that are too slow for
 // their share take fewer.
 [[nodiscard]] SamplePlan plan_samples(const std::vector<MeasuredWay>& ways, std::uint32_t asked,
                                       std::size_t repeats, double budget_s);
 
-// Measures the ways in turns, few samples first. Stops between two numbers of samples when `is_late` says so
-// and every way has a level; returns the number that most ways have reached.
+// Measures the ways in turns, few samples first, then twice as many again and again up to `asked` while
+// Workshop::left_s allows, and way 0 alone once more. Returns the number of samples that most ways have
+// reached.
 [[nodiscard]] std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan,
-                                           std::vector<MeasuredWay>& ways,
-                                           const std::function<bool()>& is_late);
+                                           std::uint32_t asked, std::vector<MeasuredWay>& ways);
 
-// Median of some values.
+// The median.
 [[nodiscard]] double middle_of(std::vector<double> values);
 
 }  // namespace voxilux

@@ -19,7 +19,7 @@ constexpr std::array<std::uint32_t, 2> kSeeds = {0x52456641, 0x52456642};
 // The radius of photons against that of the scene: their bias falls with its square. As many more photons
 // keep the noise.
 constexpr double kRadiusShare = 0.5;
-constexpr double kPhotonFactor = 4.0;
+constexpr std::uint32_t kPhotonFactor = 4;
 
 // That tell how long one takes.
 constexpr std::uint32_t kTimedSamples = 4;
@@ -87,6 +87,21 @@ std::string key_of(const RenderSession& session, const RenderPlan& plan) {
     return cache_key(fmt::format("{} {:016x} {}", VX_VERSION, sample_hash(session.scene()), describe(plan)));
 }
 
+// kPhotonFactor times the photons of the scene, or as many as fit the device.
+std::uint32_t most_photons(RenderSession& session, const ReferenceJob& job, Way way, std::uint32_t planned) {
+    for (std::uint32_t factor = kPhotonFactor; factor > 1; factor /= 2) {
+        if (planned > PhotonSettings::kMostCount / factor) continue;
+        way.settings.photons.count = factor * planned;
+        try {
+            (void)measure_once(session, {.way = way, .frame = job.frame, .seed = kSeeds[0]});
+            return way.settings.photons.count;
+        } catch (const Error& error) {
+            if (error.code() != ExitCode::input_refused && error.code() != ExitCode::out_of_memory) throw;
+        }
+    }
+    return planned;
+}
+
 }  // namespace
 
 ReferenceNoise Reference::noise() const {
@@ -116,16 +131,13 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
         measure_once(session, {.way = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
     const bool has_photons = first.outcome.plan.has_photons();
     Way way{.settings = reference_settings(job.base, has_photons), .request = request};
-    if (has_photons) {
-        const double count = kPhotonFactor * first.outcome.plan.photons.count();
-        way.settings.photons.count =
-            static_cast<std::uint32_t>(std::min(count, static_cast<double>(PhotonSettings::kMostCount)));
-    }
+    if (has_photons)
+        way.settings.photons.count = most_photons(session, job, way, first.outcome.plan.photons.count());
     const auto half = [&](std::size_t which, std::uint32_t samples) {
         return measure_once(session,
                             {.way = way, .frame = job.frame, .seed = kSeeds[which], .samples = samples});
     };
-    first = half(0, 1);  // compiles the shaders
+    first = half(0, 1);
     const double per_sample_s = std::max(half(0, kTimedSamples).time_s / kTimedSamples, 1e-9);
     const double wanted = std::min<double>(job.most_samples, job.budget_s / per_sample_s);
     const auto samples = static_cast<std::uint32_t>(std::max(wanted / 2.0, 1.0));

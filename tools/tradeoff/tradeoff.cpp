@@ -30,14 +30,17 @@ constexpr const char* kPrice = "Price list";
 constexpr int kMostRepeats = 100;
 
 // How the time is shared. The rest is for compiling, reading back, comparing and writing.
-constexpr double kReferenceShare = 0.35;
+constexpr double kReferenceShare = 0.30;
 constexpr double kEffectShare = 0.08;
-constexpr double kRunShare = 0.30;
-constexpr double kRowShare = 0.10;
-constexpr double kLoadShare = 0.04;  // most that a world of its own may take
+constexpr double kRunShare = 0.30;  // of the runs that are planned; more are made until kRunsEnd
+constexpr double kRunsEnd = 0.80;   // since the start
+constexpr double kRowsEnd = 0.95;
+constexpr double kMostRowShare = 0.02;  // of one picture of equal error
+constexpr double kLoadShare = 0.04;     // most that a world of its own may take
 // A reference is of use up to so many times the samples of the longest run: its noise is then an eighth.
 constexpr double kReferenceSamples = 64.0;
-constexpr std::uint32_t kMostEffectSamples = 16;
+constexpr double kMostEffectSamples = 16.0;
+constexpr double kEffectTrials = 5.0;  // times of short pictures scatter
 
 // Time since the start, and what of it is left.
 struct Budget {
@@ -47,7 +50,7 @@ struct Budget {
     [[nodiscard]] double elapsed_s() const {
         return std::chrono::duration<double>(Clock::now() - start).count();
     }
-    [[nodiscard]] bool is_past(double share) const { return elapsed_s() > share * limit_s; }
+    [[nodiscard]] double left_s(double share) const { return share * limit_s - elapsed_s(); }
 };
 
 // Progress of the whole command: stages one after the other, each with its share.
@@ -79,8 +82,6 @@ class Stages {
 };
 
 void prepare_folder(const TradeoffCommand& command) {
-    if (command.output.empty())
-        throw Error(ExitCode::usage, "tradeoff: -o DIR is missing: where the price list goes");
     const fs::path pictures = fs::path(command.output) / "pictures";
     std::error_code failure;
     fs::create_directories(pictures, failure);
@@ -101,30 +102,58 @@ RenderOptions render_options(const TradeoffCommand& command) {
     return options;
 }
 
-double cost_of_way(const MeasuredWay& way) {
-    return way.session == nullptr ? 0.0 : way.per_sample_s;
-}
-
 std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& workshop, const Way& base,
                                    double per_sample_s, double budget_s) {
-    const double pictures = static_cast<double>(kEffectCount * kFewestTrials);
-    const double samples = budget_s / (pictures * per_sample_s);
-    return price_effects(
-        session, {.frame = workshop.frame,
-                  .settings = base.settings,
-                  .request = base.request,
-                  .samples = static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostEffectSamples})),
-                  .trials = std::max(workshop.repeats, kFewestTrials)});
+    const double rounds =
+        budget_s / (static_cast<double>(kEffectCount) * per_sample_s);  // of one sample each
+    const double trials = std::clamp(rounds, double{kFewestTrials}, kEffectTrials);
+    const double samples = std::clamp(rounds / trials, 1.0, kMostEffectSamples);
+    return price_effects(session, {.frame = workshop.frame,
+                                   .settings = base.settings,
+                                   .request = base.request,
+                                   .samples = static_cast<std::uint32_t>(samples),
+                                   .trials = std::max(workshop.repeats, static_cast<std::size_t>(trials))});
 }
 
-// The base of all ways: a first picture finds the radius of photons.
-Way base_way(RenderSession& session, const Scene& scene, const Workshop& workshop, RenderPlan& plan) {
+// One sample, which finds the radius of photons.
+Measured first_picture(RenderSession& session, const Scene& scene, const Workshop& workshop) {
+    const Way way{.settings = scene.settings, .request = workshop.options.plan};
+    return measure_once(session, {.way = way, .frame = workshop.frame, .seed = workshop.seed});
+}
+
+// All ways have the radius of photons that the first picture found, so that they differ in one thing.
+Way base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& plan) {
     Way base{.settings = scene.settings, .request = workshop.options.plan};
-    const Measured first =
-        measure_once(session, {.way = base, .frame = workshop.frame, .seed = workshop.seed});
-    plan = first.outcome.plan;
     if (plan.has_photons()) base.settings.photons.radius = plan.photons.radius;
     return base;
+}
+
+fs::path reference_folder(const TradeoffCommand& command) {
+    const fs::path folder = command.no_cache ? fs::path() : cache_folder();
+    return folder.empty() ? folder : folder / "references";
+}
+
+ReferenceJob reference_job(const TradeoffCommand& command, const Way& base, std::int64_t frame,
+                           double limit_s) {
+    const double most = kReferenceSamples * 2.0 * base.settings.spp;
+    return {.frame = frame,
+            .base = base,
+            .cache = reference_folder(command),
+            .most_samples = static_cast<std::uint32_t>(std::min(most, 1e9)),
+            .budget_s = kReferenceShare * limit_s};
+}
+
+// Ways, reference and effects are there: the runs and the rows of pictures.
+void measure_runs(Workshop& workshop, const SamplePlan& samples, const Budget& budget, Stages& stages,
+                  PriceList& list) {
+    stages.begin(0.5, 0.85);
+    workshop.left_s = [&] { return budget.left_s(kRunsEnd); };
+    list.top = measure_levels(workshop, samples, list.asked, list.ways);
+    stages.begin(0.85, 0.99);
+    workshop.left_s = [&] { return budget.left_s(kRowsEnd); };
+    list.equal_time = equal_time_row(workshop, list.design, list.ways, list.top);
+    list.equal_error =
+        equal_error_row(workshop, list.design, list.ways, list.top, kMostRowShare * budget.limit_s);
 }
 
 PriceList measure_all(const TradeoffCommand& command, const Scene& scene, std::int64_t frame,
@@ -137,38 +166,27 @@ PriceList measure_all(const TradeoffCommand& command, const Scene& scene, std::i
     workshop.on_progress = [&](double share, std::uint32_t samples) { stages.show(share, samples); };
     workshop.options.started = budget.start;
     RenderSession session(scene, workshop.options);
-    RenderPlan plan;
-    const Way base = base_way(session, scene, workshop, plan);
+    const Measured first = first_picture(session, scene, workshop);
+    const Way base = base_way(scene, workshop, first.outcome.plan);
     PriceList list{.scene = command.scene.input,
                    .scene_hash = scene_hash(scene),
                    .seed = scene.settings.seed,
+                   .device = first.outcome.statistics.device,
                    .repeats = workshop.repeats,
-                   .design = design_knobs(plan, base),
+                   .design = design_knobs(first.outcome.plan, base),
                    .asked = scene.settings.spp};
-    const double limit = budget.limit_s;
+    const double limit_s = budget.limit_s;
     stages.begin(0.0, 0.1);
-    list.ways =
-        open_ways(workshop, list.design, session, [&](double load_s) { return load_s < kLoadShare * limit; });
-    const SamplePlan samples = plan_samples(list.ways, list.asked, workshop.repeats, kRunShare * limit);
+    list.ways = open_ways(workshop, list.design, session,
+                          [&](double load_s) { return load_s < kLoadShare * limit_s; });
+    const SamplePlan samples = plan_samples(list.ways, list.asked, workshop.repeats, kRunShare * limit_s);
     stages.begin(0.1, 0.4);
-    const double most = kReferenceSamples * 2.0 * samples.top;
-    list.reference =
-        make_reference(session, {.frame = frame,
-                                 .base = base,
-                                 .cache = command.no_cache ? fs::path() : cache_folder() / "references",
-                                 .most_samples = static_cast<std::uint32_t>(std::min(most, 1e9)),
-                                 .budget_s = kReferenceShare * limit});
+    list.reference = make_reference(session, reference_job(command, base, frame, limit_s));
     workshop.reference = &list.reference.image;
     workshop.noise = list.reference.noise();
     stages.begin(0.4, 0.5);
-    list.effects = price_all(session, workshop, base, cost_of_way(list.ways.front()), kEffectShare * limit);
-    stages.begin(0.5, 0.85);
-    list.top = measure_levels(workshop, samples, list.ways, [&] { return budget.is_past(1.0 - kRowShare); });
-    stages.begin(0.85, 0.99);
-    list.equal_time = equal_time_row(workshop, list.design, list.ways, list.top);
-    list.equal_error = equal_error_row(workshop, list.design, list.ways, list.top, 0.25 * kRowShare * limit);
-    const RenderOutcome last = measure_once(session, {.way = base, .frame = frame}).outcome;
-    list.device = last.statistics.device;
+    list.effects = price_all(session, workshop, base, list.ways.front().per_sample_s, kEffectShare * limit_s);
+    measure_runs(workshop, samples, budget, stages, list);
     list.wall_s = budget.elapsed_s();
     return list;
 }
@@ -186,26 +204,47 @@ void warn(const PriceList& list) {
     }
 }
 
+void add_output_flags(CLI::App& tradeoff, TradeoffCommand& command) {
+    tradeoff.add_option("-o,--output", command.output, "folder for tradeoff.json, .csv, .html and pictures")
+        ->type_name("DIR")
+        ->group(kOutput);
+    tradeoff.add_flag("--no-page", command.no_page, "no tradeoff.html, which needs Python and matplotlib")
+        ->group(kOutput);
+    tradeoff.add_option("--json", command.json, "write tradeoff.json there, too; - is standard output")
+        ->type_name("FILE")
+        ->group(kOutput);
+    tradeoff
+        .add_option("--progress", command.progress,
+                    "progress on standard error: auto (if a terminal), never or json")
+        ->type_name("HOW")
+        ->group(kOutput);
+    tradeoff.add_flag("-q,--quiet", command.quiet, "print errors only")->group(kOutput);
+}
+
+void add_device_flags(CLI::App& tradeoff, TradeoffCommand& command) {
+    tradeoff.add_option("--device", command.device, "index or part of the name, see voxilux devices")
+        ->type_name("NAME")
+        ->group(kDevice);
+    tradeoff
+        .add_option("--memory-budget", command.scene.memory_budget_mib,
+                    "most memory on the device, in MiB; 0 is no limit (default 0)")
+        ->type_name("N")
+        ->group(kDevice);
+    tradeoff
+        .add_flag("--no-cache", command.no_cache, "neither read nor write caches of pipelines and references")
+        ->group(kDevice);
+    tradeoff.add_flag("--validation", command.validation, "run under the Vulkan validation layers")
+        ->group(kDevice);
+    tradeoff.add_flag("--no-validation", command.no_validation, "run without them")->group(kDevice);
+}
+
 }  // namespace
 
 CLI::App* add_tradeoff(CLI::App& app, TradeoffCommand& command) {
     CLI::App* tradeoff = app.add_subcommand(
         "tradeoff", "the price list: error against time for each setting that approximates");
     add_scene_flags(*tradeoff, command.scene);
-    tradeoff->add_option("-o,--output", command.output, "folder for tradeoff.json, .csv, .html and pictures")
-        ->type_name("DIR")
-        ->group(kOutput);
-    tradeoff->add_flag("--no-page", command.no_page, "no tradeoff.html, which needs Python and matplotlib")
-        ->group(kOutput);
-    tradeoff->add_option("--json", command.json, "write tradeoff.json there, too; - is standard output")
-        ->type_name("FILE")
-        ->group(kOutput);
-    tradeoff
-        ->add_option("--progress", command.progress,
-                     "progress on standard error: auto (if a terminal), never or json")
-        ->type_name("HOW")
-        ->group(kOutput);
-    tradeoff->add_flag("-q,--quiet", command.quiet, "print errors only")->group(kOutput);
+    add_output_flags(*tradeoff, command);
     tradeoff
         ->add_option("--time-limit", command.time_limit,
                      "time for the whole: more of it, more samples and a better reference (default 120s)")
@@ -216,21 +255,7 @@ CLI::App* add_tradeoff(CLI::App& app, TradeoffCommand& command) {
                      "pictures of each run, with random numbers of their own; at least 3 (default 3)")
         ->type_name("N")
         ->group(kPrice);
-    tradeoff->add_option("--device", command.device, "index or part of the name, see voxilux devices")
-        ->type_name("NAME")
-        ->group(kDevice);
-    tradeoff
-        ->add_option("--memory-budget", command.scene.memory_budget_mib,
-                     "most memory on the device, in MiB; 0 is no limit (default 0)")
-        ->type_name("N")
-        ->group(kDevice);
-    tradeoff
-        ->add_flag("--no-cache", command.no_cache,
-                   "neither read nor write caches of pipelines and references")
-        ->group(kDevice);
-    tradeoff->add_flag("--validation", command.validation, "run under the Vulkan validation layers")
-        ->group(kDevice);
-    tradeoff->add_flag("--no-validation", command.no_validation, "run without them")->group(kDevice);
+    add_device_flags(*tradeoff, command);
     return tradeoff;
 }
 
@@ -240,6 +265,8 @@ int run_tradeoff(const TradeoffCommand& command) {
                                                  kFewestTrials, kMostRepeats));
     if (command.scene.frames)
         throw Error(ExitCode::usage, "tradeoff: --frames: a price list is of one picture; --frame names it");
+    if (command.output.empty())
+        throw Error(ExitCode::usage, "tradeoff: -o DIR is missing: where the price list goes");
     ProgressLine line(command.progress, command.quiet);
     const Budget budget{.limit_s = parse_duration(command.time_limit)};
     Scene scene = load_scene_with(command.scene);

@@ -1,0 +1,88 @@
+#include "plan/plan_forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "output_files.h"
+#include "session/forecast_report.h"
+#include "session/frame_run.h"
+#include "session/memory_forecast.h"
+#include "session/report.h"
+
+namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Errors beside the one asked for, over it: what a finer and a coarser picture would take.
+constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
+
+PictureUse use_of(const RenderCommand& command, const std::vector<std::string>& outputs,
+                  const RenderOptions& options, double high_s) {
+    const auto writes = [&](const char* ending) {
+        return std::ranges::any_of(outputs,
+                                   [&](const std::string& file) { return has_ending(file, ending); });
+    };
+    return {.writes_exr = writes(".exr"),
+            .writes_png = writes(".png"),
+            .keeps_film = options.keeps_film,
+            .writes_checkpoint =
+                !command.scene.frames && options.checkpoint_s > 0.0 && high_s > options.checkpoint_s};
+}
+
+std::string forecast_line(const Forecast& forecast) {
+    const std::string error = percent_text(forecast.error);
+    if (!forecast.is_reachable)
+        return fmt::format("forecast  {:<8} out of reach: {}; {} of up to {} after {} samples, {}\n", error,
+                           forecast.reason, "an error", percent_text(forecast.claimed), forecast.samples,
+                           time_range_text(forecast.low_s, forecast.high_s));
+    const std::string samples = forecast.samples == forecast.samples_high
+                                    ? fmt::format("{}", forecast.samples)
+                                    : fmt::format("{} to {}", forecast.samples, forecast.samples_high);
+    return fmt::format("forecast  {:<8} {} samples, {}\n", error, samples,
+                       time_range_text(forecast.low_s, forecast.high_s));
+}
+
+std::string mib_text(std::uint64_t bytes) {
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 0x1p20);
+}
+
+}  // namespace
+
+PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_t frame,
+                       const RenderOptions& options) {
+    const std::vector<std::string> outputs = output_files(command);
+    RenderSession session(std::move(animated), options);
+    const std::optional<ErrorPilot> pilot = session.pilot(frame);
+    PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
+    if (!pilot) {
+        result.text =
+            "forecast  unknown: samples depend on those before, so that their error cannot be told\n";
+        return result;
+    }
+    const double error = *options.error_target;
+    ForecastNeeds needs{.most_samples = result.plan.samples(),
+                        .pilot_s = seconds_since(options.started),
+                        .film_values = film_values(result.plan),
+                        .time_limit_s = options.time_limit_s};
+    const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);
+    result.json["forecast"] = forecast_json(asked);
+    result.text =
+        asked ? forecast_line(*asked) : "forecast  unknown: the picture has no noise yet to tell from\n";
+    result.json["forecasts"] = Json::array({forecast_json(asked)});
+    for (const double factor : kOtherErrors) {
+        const std::optional<Forecast> other = make_forecast(*pilot, factor * error, needs);
+        result.json["forecasts"].push_back(forecast_json(other));
+        if (other) result.text += forecast_line(*other);
+    }
+    const MemoryForecast memory =
+        forecast_memory(result.plan, use_of(command, outputs, options, asked ? asked->high_s : 0.0));
+    result.json["memory_total"] = {{"device_bytes", memory.device_bytes},
+                                   {"peak_rss_mib", static_cast<double>(memory.peak_rss_bytes) / 0x1p20}};
+    result.text += fmt::format("memory    {} on the device, {} of the process at most\n",
+                               mib_text(memory.device_bytes), mib_text(memory.peak_rss_bytes));
+    return result;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "render/render.h"
+#include "session/render_session.h"
+
+namespace voxilux {
+
+// A plan with what a pilot on the device tells of it.
+struct PilotedPlan {
+    RenderPlan plan;
+    nlohmann::ordered_json json;  // plan_json() with `forecast`, `forecasts` and `memory_total`
+    std::string text;             // lines for people, to follow the plan
+};
+
+// Runs the pilot of a frame for --error, as render would.
+[[nodiscard]] PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_t frame,
+                                     const RenderOptions& options);
+
+}  // namespace voxilux
