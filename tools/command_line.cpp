@@ -12,6 +12,7 @@
 #include "plan/plan.h"
 #include "render/render.h"
 #include "scene/nearest_name.h"
+#include "tradeoff/tradeoff.h"
 #include "voxelize/voxelize.h"
 
 namespace voxilux {
@@ -134,8 +135,10 @@ int run_command_line(int argc, const char* const* argv) {
     MergeCommand merge;
     BenchCommand bench;
     VoxelizeCommand voxelize;
+    TradeoffCommand tradeoff;
     const CLI::App* const render_app = add_render(app, render);
     const CLI::App* const plan_app = add_plan(app, plan);
+    const CLI::App* const tradeoff_app = add_tradeoff(app, tradeoff);
     const CLI::App* const info_app = add_info(app, info);
     const CLI::App* const devices_app = add_devices(app, devices);
     const CLI::App* const compare_app = add_compare(app, compare);
@@ -152,6 +155,7 @@ int run_command_line(int argc, const char* const* argv) {
     }
     if (render_app->parsed()) return run_render(render);
     if (plan_app->parsed()) return run_plan(plan);
+    if (tradeoff_app->parsed()) return run_tradeoff(tradeoff);
     if (info_app->parsed()) return run_info(info);
     if (devices_app->parsed()) return run_devices(devices);
     if (merge_app->parsed()) return run_merge(merge);

@@ -3,29 +3,51 @@
     coverage_test.py COVERAGE SCENES VOXILUX
 """
 
+import contextlib
+import io
 import json
 import pathlib
-import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
 COVERAGE, SCENES, VOXILUX = map(pathlib.Path, sys.argv[1:4])
-FAKE = pathlib.Path(__file__).with_name("fake_renderer.py")
+sys.path.insert(0, str(COVERAGE.resolve().parent))
+
+import coverage  # noqa: E402
+import fake_renderer  # noqa: E402
 
 
 class Measured:
-    """What coverage.py says about views, which are lines of its list."""
+    """What coverage.py says about views, which are lines of its list. Without `voxilux` a stand-in renders."""
 
-    def __init__(self, lines, *words, fake=FAKE):
+    def __init__(self, lines, *words, voxilux=None):
+        self.renders = []
+        real = coverage.run
+        if voxilux is None:
+            coverage.run = self.stand_in
+        try:
+            self.measure(lines, ["--voxilux", str(voxilux or "voxilux"), "--quiet", *words])
+        finally:
+            coverage.run = real
+
+    def stand_in(self, words):
+        if words[1] == "render":
+            self.renders.append(" ".join(words[1:]))
+        try:
+            return fake_renderer.COMMANDS[words[1]](words[1:])
+        except fake_renderer.Refusal as refusal:
+            raise coverage.Failure(f"voxilux {words[1]}: {refusal}") from refusal
+
+    def measure(self, lines, words):
+        out, err = io.StringIO(), io.StringIO()
         with tempfile.TemporaryDirectory() as folder:
             views, result = pathlib.Path(folder) / "views.txt", pathlib.Path(folder) / "result.json"
             views.write_text("\n".join(lines) + "\n", encoding="utf-8")
-            done = subprocess.run([sys.executable, str(COVERAGE), "--voxilux", str(fake), "--list", str(views), "--quiet",
-                                   "--json", str(result), *words], capture_output=True, text=True, check=False)
-            self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
+            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+                self.code = coverage.main(["--list", str(views), "--json", str(result), *words])
             self.result = json.loads(result.read_text(encoding="utf-8")) if result.exists() else None
+        self.out, self.err = out.getvalue(), err.getvalue()
 
 
 def honest(count):
@@ -100,22 +122,21 @@ class Figures(unittest.TestCase):
 class References(unittest.TestCase):
     def test_are_kept_and_have_a_smaller_radius(self):
         with tempfile.TemporaryDirectory() as folder:
-            fake = pathlib.Path(folder) / "voxilux"
-            shutil.copy(FAKE, fake)
-            log = pathlib.Path(folder) / "log"
-            log.write_text("", encoding="utf-8")
             words = ["--seeds", "1", "--references", str(pathlib.Path(folder) / "kept")]
-            first = Measured(["noisy 5% - noisy.toml --size 8x8"], *words, fake=fake)
-            renders = log.read_text(encoding="utf-8").splitlines()
-            self.assertEqual(len(renders), 3)
-            self.assertTrue(all("--size 8x8" in line for line in renders))
-            self.assertTrue(all("--radius 1 " in line + " " for line in renders[1:]))
-            self.assertNotIn("--radius", renders[0])
-            again = Measured(["noisy 5% - noisy.toml --size 8x8"], *words, fake=fake)
-            self.assertEqual(len(log.read_text(encoding="utf-8").splitlines()), 4)
+            first = Measured(["noisy 5% - noisy.toml --size 8x8"], *words)
+            self.assertEqual(len(first.renders), 3)
+            self.assertTrue(all("--size 8x8" in line for line in first.renders))
+            self.assertTrue(all("--radius 1 " in line for line in first.renders[1:]))
+            self.assertNotIn("--radius", first.renders[0])
+            again = Measured(["noisy 5% - noisy.toml --size 8x8"], *words)
+            self.assertEqual(len(again.renders), 1)
             self.assertEqual(first.result["runs"], again.result["runs"])
-            Measured(["noisy 5% - noisy.toml --size 9x8"], *words, fake=fake)
-            self.assertEqual(len(log.read_text(encoding="utf-8").splitlines()), 7)
+            self.assertEqual(len(Measured(["noisy 5% - noisy.toml --size 9x8"], *words).renders), 3)
+
+    def test_take_the_default_sequence(self):
+        renders = Measured(["a 5% - honest.toml --sequence halton --size 8x8"], "--seeds", "1").renders
+        self.assertIn("--sequence halton --size 8x8", renders[0])
+        self.assertEqual([("halton" in line, "--size 8x8" in line) for line in renders[1:]], [(False, True)] * 2)
 
 
 class Refusal(unittest.TestCase):
@@ -126,11 +147,16 @@ class Refusal(unittest.TestCase):
         self.assertEqual(measured.err.count("\n"), 1)
 
     def test_what_voxilux_says_is_passed_on(self):
-        self.expect("voxilux: broken.toml: no such file", ["a 5% - broken.toml"])
+        self.expect("broken.toml: no such file", ["a 5% - broken.toml"])
 
     def test_line_that_is_no_view(self):
         self.expect("views.txt:2: not 'NAME 2% 0.5%|- SCENE FLAGS...'", ["# a comment", "a 5 - honest.toml"])
         self.expect("views.txt:1", ["a 5%"])
+
+    def test_program_that_is_not_there(self):
+        measured = Measured(honest(1), voxilux="no/such/program")
+        self.assertEqual(measured.code, 3)
+        self.assertIn("no/such/program", measured.err)
 
     def test_view_that_is_not_in_the_list(self):
         self.expect("no view is called ghost", honest(1), "--views", "ghost,honest0")
@@ -148,7 +174,8 @@ class List(unittest.TestCase):
 
     def test_real_program_is_understood(self):
         """One small view with the real program: its report has every key that is read."""
-        measured = Measured(["slit 20% - slit.toml --size 48x32"], "--seeds", "1", "--scenes", str(SCENES), fake=VOXILUX)
+        measured = Measured(["slit 20% - slit.toml --size 48x32"], "--seeds", "1", "--scenes", str(SCENES),
+                            voxilux=VOXILUX)
         self.assertIn(measured.code, (0, 5), measured.err)
         self.assertEqual(measured.result["claims"]["count"], 1)
 

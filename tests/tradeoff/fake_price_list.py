@@ -56,6 +56,16 @@ def run(knob, setting, time_s, noise, bias, spp, is_default=False):
             "difference": None}
 
 
+def curve(one):
+    """The same setting with a quarter of the samples, as many, and four times as many."""
+    levels = []
+    for factor in (0.25, 1.0, 4.0):
+        other = run("", "", factor * one["time_s"]["median"], one["error"]["noise"] / math.sqrt(factor),
+                    one["error"]["bias"], 0)
+        levels.append({"samples": int(16 * factor), "time_s": other["time_s"], "error": other["error"]})
+    return levels
+
+
 def runs():
     """Samples fall as the root of time; shared occlusion is fast and biased; the rest is about the default."""
     found = [run("samples", str(n), 0.05 * n, 0.24 / math.sqrt(n), 0.0, n, n == 16) for n in (1, 4, 16, 64, 256)]
@@ -63,20 +73,28 @@ def runs():
     found += [run("ao_rays", str(n), 0.5 + 0.3 * n, 0.06 / n**0.3, 0.0, 16) for n in (2, 4, 8)]
     found += [run("sequence", name, 0.81, noise, 0.0, 16) for name, noise in (("halton", 0.061), ("white", 0.083))]
     found += [run("traversal", name, time, 0.06, 0.0, 16) for name, time in (("dda", 3.1), ("brick8", 1.4), ("naadf", 0.95))]
+    for one in found:
+        if one["knob"] == "traversal":
+            one["differing_pixels"] = 0
+            one["error"] = dict(found[2]["error"])  # that of the default
+        if one["knob"] != "samples":
+            one["curve"], one["slope"] = curve(one), {"value": -0.49, "low": -0.55, "high": -0.43}
+    found[4]["error"]["is_limited"] = True
     return found
 
 
 def knob(name, label, axis, why, found, slope):
     return {"name": name, "label": label, "axis": axis, "why": why, "slope": slope,
-            "runs": [one["id"] for one in found if one["knob"] == name]}
+            "runs": [one["id"] for one in found if one["knob"] == name],
+            "left_out": [{"setting": "deep", "why": "needs more memory"}] if name == "traversal" else []}
 
 
 def knobs(found):
     slope = {"value": -0.5, "low": -0.52, "high": -0.48, "of": "error against time"}
-    return [knob("samples", "samples per pixel", "samples per pixel", "Light is a mean over random rays.", found, slope),
+    return [knob("samples", "samples per pixel", "samples per pixel", "Light is a mean over random rays.", found,
+                 slope),
             knob("ao_cell", "occlusion cell", "width of a cell (pixels)", "Pixels of a cell share their occlusion.", found, None),
-            knob("ao_rays", "occlusion rays", "rays per sample", "More rays per hit, the rest as before.", found,
-                 dict(slope, value=-0.21, low=-0.3, high=-0.12)),
+            knob("ao_rays", "occlusion rays", "rays per sample", "More rays per hit, the rest as before.", found, None),
             knob("sequence", "sequence", "name", "How evenly samples spread.", found, None),
             knob("traversal", "traversal", "name", "The same picture through other structures.", found, None)]
 
@@ -124,6 +142,9 @@ def price_list(folder):
                       "cached": True, "noise": 0.0037, "bias": None,
                       "error": {"estimate": 0.0037, "low": 0.0035, "high": 0.0039, "confidence": 0.95}},
         "runs": found, "knobs": knobs(found), "front": front(found), "effects": effects(),
+        "difference_scale": "relative difference of a pixel",
+        "difference_colours": [{"value": 0.001, "colour": "#000004"}, {"value": 0.03, "colour": "#b73779"},
+                               {"value": 1.0, "colour": "#fcfdbf"}],
         "equal_time": {"time_s": 0.8, "runs": group(folder, found, ("samples-16", "ao_cell-10 px", "sequence-white"))},
         "equal_error": {"error": 0.03, "runs": group(folder, found, ("samples-64", "ao_cell-5 px"))},
     }

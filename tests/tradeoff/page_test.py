@@ -1,6 +1,8 @@
 """The page of a price list, from a made-up one.
 
-    page_test.py FOLDER_OF_PAGE     exit code 77 where matplotlib is missing
+    page_test.py FOLDER_OF_PAGE JOINED     exit code 77 where matplotlib is missing
+
+The folder has page.py and its parts; JOINED is the script that the build makes of them.
 """
 
 import contextlib
@@ -10,12 +12,14 @@ import io
 import json
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
 
 import fake_price_list
 
+JOINED = pathlib.Path(sys.argv[2]).resolve()
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(FOLDER))
 SKIPPED = 77
@@ -141,9 +145,17 @@ class Page(unittest.TestCase):
         self.assertIn("samples per pixel: slope -0.50 (-0.52 to -0.48)", self.page.text)
         self.assertIn("4.0 times the time", self.page.text)
 
+    def test_settings_stand_with_the_slopes_of_their_own_samples(self):
+        self.assertIn("white: slope -0.49 (-0.55 to -0.43)", self.page.text)
+
+    def test_settings_that_change_nothing_or_were_left_out_are_told(self):
+        self.assertIn("Every pixel is the same as with the default settings: dda, brick8, naadf.", self.page.text)
+        self.assertIn("Left out: deep, needs more memory.", self.page.text)
+
     def test_bias_stands_apart_from_noise(self):
         self.assertIn("4.0 % (3.2 % to 4.9 %)", self.page.text)
-        self.assertIn("none found, at most 0.10 %", self.page.text)
+        self.assertIn("\u2264 0.10 %", self.page.text)
+        self.assertIn("bias (\u2264: none found)", self.page.text)
 
     def test_forced_effect_says_whether_it_matters(self):
         self.assertIn("caustics (forced on)", self.page.text)
@@ -157,6 +169,10 @@ class Page(unittest.TestCase):
         groups = self.data["equal_time"]["runs"] + self.data["equal_error"]["runs"]
         self.assertEqual(self.source.count("data:image/png;base64,iVBOR"), 2 * len(groups) + 2)
 
+    def test_difference_maps_have_a_scale(self):
+        self.assertIn("Scale: relative difference of a pixel.", self.page.text)
+        self.assertIn("0.10 % 3.0 % 100 %", self.page.text)
+
     def test_colours_follow_light_and_dark(self):
         self.assertIn("prefers-color-scheme: dark", self.source)
         self.assertEqual(re.findall(r"#0[1-4]0[0-9a-f]0[1-4]\b", self.source), [])
@@ -167,6 +183,20 @@ class Page(unittest.TestCase):
     def test_page_that_is_broken_is_found(self):
         self.assertNotEqual(read(self.source.replace("</table>", "", 1)).faults, [])
         self.assertNotEqual(read(self.source.replace("</svg>", "</figure>", 1)).faults, [])
+
+
+class Joined(unittest.TestCase):
+    def test_joined_source_runs_from_standard_input(self):
+        """As voxilux runs it, which carries the source inside."""
+        with tempfile.TemporaryDirectory() as folder:
+            source = fake_price_list.write(folder)
+            done = make(source, folder=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            target = pathlib.Path(folder) / "joined.html"
+            done = subprocess.run([sys.executable, "-", str(source), str(target)], input=JOINED.read_text(encoding="utf-8"),
+                                  capture_output=True, text=True, check=False, cwd=folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue(target.read_bytes() == (pathlib.Path(folder) / "page.html").read_bytes())
 
 
 class Changed(unittest.TestCase):
@@ -215,7 +245,7 @@ class Changed(unittest.TestCase):
         def change(data, _):
             for index in range(12):
                 data["knobs"].append(dict(data["knobs"][0], name=f"k{index}", label=f"knob {index}"))
-        self.assertIn("knob 11: slope", self.made(change))
+        self.assertIn("knob 11 ", self.made(change))
 
 
 class Refusal(unittest.TestCase):
@@ -256,6 +286,10 @@ class Refusal(unittest.TestCase):
         self.expect(3, "time is not above 0",
                     self.changed(lambda data: data["runs"][0]["time_s"].update(median=0)))
         self.expect(3, "front names the run 'ghost'", self.changed(lambda data: data["front"].append("ghost")))
+
+    def test_colour_that_is_none(self):
+        self.expect(3, "difference_colours: 'red;' is not '#rrggbb'",
+                    self.changed(lambda data: data["difference_colours"][0].update(colour="red;")))
 
     def test_files_that_are_not_there(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,11 +1,11 @@
 #include "render/render.h"
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
 #include "base/error.h"
+#include "cache_folder.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
@@ -45,14 +45,6 @@ void check_outputs(const RenderCommand& command, const std::vector<std::string>&
         }
     }
     check_writable(command.json);
-}
-
-fs::path cache_folder() {
-    if (const char* named = std::getenv("XDG_CACHE_HOME"); named != nullptr && *named != '\0')
-        return fs::path(named) / "voxilux";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".cache" / "voxilux";
-    return {};
 }
 
 int render_picture(const RenderCommand& command, RenderSession& session, const RenderJob& job) {

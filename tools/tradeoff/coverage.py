@@ -75,6 +75,14 @@ def read_views(file):
     return views
 
 
+def without_sequence(flags):
+    """The flags of a view for its references, which take the default sequence: the light is the same."""
+    if "--sequence" not in flags:
+        return flags
+    place = flags.index("--sequence")
+    return flags[:place] + flags[place + 2:]
+
+
 class Renderer:
     """Renders views; keeps references from run to run."""
 
@@ -104,12 +112,13 @@ class Renderer:
         if radius:
             words += ["--radius", f"{RADIUS_SHARE * radius:.4g}"]
         asked = json.dumps([report["version"], report["scene_hash"], view["flags"], words])
+        same = dict(view, flags=without_sequence(view["flags"]))
         key = hashlib.sha256(asked.encode()).hexdigest()[:16]
         files = [self.kept / f"{view['name']}-{key}-{seed}.exr" for seed in REFERENCE_SEEDS]
         for file, seed in zip(files, REFERENCE_SEEDS):
             if not file.exists():
                 part = self.folder / "reference.exr"
-                self.render(view, [*words, "--seed", str(seed)], part)
+                self.render(same, [*words, "--seed", str(seed)], part)
                 shutil.move(part, file)
         return files, self.relmse(*files)
 

@@ -11,7 +11,8 @@ import base64
 import pathlib
 import sys
 
-from page_data import Malformed, bias_words, default_of, esc, load, percent, seconds, slope_words, spread
+from page_data import (Malformed, bias_words, default_of, esc, load, percent, same_pixels, scene_words, seconds,
+                       slope_words, spread)
 from page_plots import DARK, LIGHT, Plots, plot_all, plot_effects, plot_knob, plot_parts
 
 USAGE, REFUSED, MISSING, UNWRITABLE = 2, 3, 69, 73
@@ -29,12 +30,14 @@ h3 { margin: 0 0 .3rem; font-size: 1.02rem } p { max-width: 52rem; margin: .5rem
 .tiles, .knobs, .row { display: grid; gap: 1rem; margin: 1.2rem 0 }
 .tiles { grid-template-columns: repeat(auto-fit, minmax(13rem, 1fr)) }
 .knobs { grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)) }
-.row { grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)) }
+.row { grid-template-columns: repeat(auto-fill, minmax(13rem, 1fr)) }
 .tile, .knobs figure { background: var(--card); border-radius: 8px; padding: .9rem 1rem }
 .tile b { display: block; font-size: 1.55rem; line-height: 1.25 }
 figure { margin: 0; break-inside: avoid } figcaption { font-size: .9rem; line-height: 1.4 }
 svg { width: 100%; height: auto; display: block } svg text { font-family: inherit }
 img { width: 100%; display: block; background: var(--grid); image-rendering: auto; margin-bottom: .3rem }
+.scale { max-width: 30rem; font-size: .85rem } .scale i { display: block; height: .9rem; print-color-adjust: exact }
+.scale div { display: flex; justify-content: space-between }
 .wide { overflow-x: auto } table { border-collapse: collapse; width: 100%; font-size: .92rem }
 th, td { text-align: left; padding: .3rem .7rem .3rem 0; border-bottom: 1px solid var(--grid); vertical-align: top }
 td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums }
@@ -92,12 +95,12 @@ def headline(data):
     slope = next((k["slope"] for k in data["knobs"] if k["name"] == "samples" and k["slope"]), None)
     if slope and slope["value"] < 0:
         tiles.append(tile("half the error by samples", f"{2 ** (-1 / slope['value']):.1f} times the time",
-                          f"{slope_words(slope)}; -0.5 is pure noise"))
+                          f"{slope_words(slope)}; -0.5 is that of random samples"))
     facts = [f"{size[0]} x {size[1]} pixels on {device['name']} ({device['driver']})",
              f"{machine['cpu']}, {machine['threads']} threads, {machine['memory_gib']:.3g} GiB",
              f"voxilux {data['version']}, seed {data['seed']}, {len(data['runs'])} settings, {data['repeats']} times each, "
              f"{seconds(data['wall_s'])} in all"]
-    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(data['scene'])}</h1>",
+    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(scene_words(data['scene']))}</h1>",
                       *(f'<p class="facts">{esc(fact)}</p>' for fact in facts),
                       f'<div class="tiles">{"".join(tiles)}</div></header>'])
 
@@ -113,9 +116,10 @@ def how_to_read(data):
 
 def overview(plots, data):
     return section("Error against time", f"<figure>{plot_all(plots, data)}<figcaption>", paragraph(
-        "One mark for each setting, at the median of its times; its line reaches from the fastest to the slowest repeat. "
+        "One mark for each setting, at the median of its times; its bar reaches from the fastest to the slowest repeat. "
+        "Thin lines follow a setting to fewer and more samples. "
         "Both axes are logarithmic, so a power law is a straight line: dotted lines are fits, their slopes stand in the legend "
-        "with 95 % intervals. Pure noise has slope -0.5: four times the time for half the error. The staircase is the Pareto "
+        "with 95 % intervals. Random samples have slope -0.5: four times the time for half the error. The staircase is the Pareto "
         "front, the least error that any setting reached in that time."), "</figcaption></figure>")
 
 
@@ -130,8 +134,8 @@ def front_table(data):
         rows.append([str(number), esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(time),
                      percent(error["total"]), percent(error["noise"]), esc(bias_words(error)), step])
         before = run
-    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise", "bias",
-             "step from the line above"]
+    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise",
+             "bias (\u2264: none found)", "step from the line above"]
     return section("The Pareto front, setting by setting", paragraph(
         "Settings for which no other one was both faster and better, fastest first. All others cost more than they give."),
         table(heads, rows, "Pareto front"))
@@ -140,10 +144,18 @@ def front_table(data):
 def knobs(plots, data):
     figures = []
     for index, knob in enumerate(data["knobs"]):
-        figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}<figcaption>"
-                       f"{esc(knob['why'])} Changed: {esc(knob['axis'])}; {esc(slope_words(knob['slope']))}.</figcaption></figure>")
+        words = [knob["why"], f"Changed: {knob['axis']}."]
+        if knob["slope"]:
+            words.append(f"Fitted: {slope_words(knob['slope'])}.")
+        words += [f"Left out: {one['setting']}, {one['why']}." for one in knob.get("left_out") or []]
+        same = same_pixels(data, knob)
+        if same:
+            words.append(f"Every pixel is the same as with the default settings: {', '.join(same)}.")
+        figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}"
+                       f"<figcaption>{esc(' '.join(words))}</figcaption></figure>")
     return section("One knob at a time", paragraph(
-        "Coloured: the values of this knob. Grey: all other runs. A ring marks the default settings."),
+        "Coloured: the values of this knob; a line follows a value to fewer and more samples. Grey: all other runs. A ring "
+        "marks the default settings, a hollow mark an error so small that the reference's own noise blurs it."),
         f'<div class="knobs">{"".join(figures)}</div>')
 
 
@@ -153,6 +165,16 @@ def parts(plots, data):
         "reference has no noise in its mean. Error squared is noise squared plus bias squared. A bar that reaches the left "
         "edge means that no bias was found, and that it is at most as large as the bar's right end."),
         f"<figure>{plot_parts(plots, data)}</figure>")
+
+
+def scale_bar(data):
+    """The colours of difference maps, evenly spaced, with their values below."""
+    stops = data.get("difference_colours") or []
+    if len(stops) < 2:
+        return ""
+    ticks = "".join(f"<span>{percent(stop['value'])}</span>" for stop in stops)
+    return (f'<div class="scale" role="img" aria-label="Colours of differences"><i style="background:linear-gradient(to right,'
+            f'{",".join(stop["colour"] for stop in stops)})"></i><div>{ticks}</div></div>')
 
 
 def picture_row(data, folder, key):
@@ -166,12 +188,13 @@ def picture_row(data, folder, key):
         words = f"{seconds(run['time_s'])}, error {percent(run['error'])}"
         cards.append(f"<figure>{image(folder, run['picture'], 'Picture: ' + run['label'] + ', ' + words)}"
                      f"{image(folder, run['difference'], 'Difference from the reference: ' + run['label'])}"
-                     f"<figcaption><b>{esc(run['label'])}</b><br>{esc(words)}</figcaption></figure>")
+                     f"<figcaption><b>{esc(run['label'])}</b><br>{esc(words)}"
+                     f"{'' if run.get('is_reached', True) else '; did not get there'}</figcaption></figure>")
     title = (f"Pictures at equal time: about {seconds(group['time_s'])}" if key == "equal_time"
              else f"Pictures at equal error: about {percent(group['error'])}")
     scale = data.get("difference_scale") or "black where a pixel is right, brighter the further it is from the reference"
     return section(title, paragraph(f"Above the picture, below it its difference from the reference. Scale: {esc(scale)}."),
-                   f'<div class="row">{"".join(cards)}</div>')
+                   scale_bar(data), f'<div class="row">{"".join(cards)}</div>')
 
 
 def effects(plots, data):
@@ -227,8 +250,8 @@ def all_runs(data):
         rows.append([esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(run["time_s"]),
                      seconds(run["load_s"]), f"{run['memory_bytes'] / 2**20:.1f} MiB", percent(error["total"]),
                      percent(error["noise"]), esc(bias_words(error)), said])
-    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise", "bias",
-             "#error that the render claims"]
+    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise",
+             "bias (\u2264: none found)", "#error that the render claims"]
     return section("All runs", table(heads, rows, "All runs"))
 
 
@@ -240,7 +263,7 @@ def page(plots, data, folder):
             effects(plots, data), method(data), all_runs(data)]
     return "\n".join(["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8">',
                       '<meta name="viewport" content="width=device-width, initial-scale=1">',
-                      f"<title>Price list of {esc(data['scene'])}</title><style>{style}</style></head><body>",
+                      f"<title>Price list of {esc(scene_words(data['scene']))}</title><style>{style}</style></head><body>",
                       *body, "</body></html>", ""])
 
 

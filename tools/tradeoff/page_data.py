@@ -6,6 +6,7 @@ All errors are roots of relMSE, where 0.01 is called 1 %.
 import html
 import json
 import math
+import re
 
 
 class Malformed(Exception):
@@ -23,8 +24,16 @@ class Maybe:
 
 
 SPREAD = {"median": NUMBER, "low": NUMBER, "high": NUMBER}
-PICTURED = [{"id": TEXT, "label": TEXT, "time_s": NUMBER, "error": NUMBER, "picture": Maybe(TEXT),
-             "difference": Maybe(TEXT)}]
+SLOPE = Maybe({"value": NUMBER, "low": NUMBER, "high": NUMBER})
+ERROR = {"total": NUMBER, "noise": NUMBER, "bias": Maybe(NUMBER), "bias_low": Maybe(NUMBER), "bias_high": Maybe(NUMBER),
+         "is_limited": Maybe(FLAG)}
+CLAIM = Maybe({"estimate": Maybe(NUMBER), "low": Maybe(NUMBER), "high": Maybe(NUMBER)})
+PICTURED = Maybe([{"id": TEXT, "label": TEXT, "time_s": NUMBER, "error": NUMBER, "picture": Maybe(TEXT),
+                   "difference": Maybe(TEXT), "is_reached": Maybe(FLAG)}])
+RUN = {"id": TEXT, "knob": TEXT, "setting": TEXT, "is_default": FLAG, "settings": {}, "time_s": SPREAD,
+       "load_s": NUMBER, "memory_bytes": NUMBER, "error": ERROR, "claimed": CLAIM, "picture": Maybe(TEXT),
+       "difference": Maybe(TEXT), "slope": SLOPE, "differing_pixels": Maybe(NUMBER),
+       "curve": Maybe([{"samples": NUMBER, "time_s": SPREAD, "error": ERROR}])}
 SHAPE = {
     "version": TEXT, "scene": TEXT, "scene_hash": TEXT, "seed": NUMBER, "size": [NUMBER], "repeats": NUMBER,
     "wall_s": NUMBER,
@@ -32,14 +41,9 @@ SHAPE = {
     "device": {"name": TEXT, "driver": TEXT, "type": TEXT},
     "reference": {"picture": Maybe(TEXT), "samples": NUMBER, "time_s": NUMBER, "cached": FLAG, "noise": NUMBER,
                   "bias": Maybe(NUMBER)},
-    "runs": [{"id": TEXT, "knob": TEXT, "setting": TEXT, "is_default": FLAG, "settings": {}, "time_s": SPREAD,
-              "load_s": NUMBER, "memory_bytes": NUMBER,
-              "error": {"total": NUMBER, "noise": NUMBER, "bias": Maybe(NUMBER), "bias_low": Maybe(NUMBER),
-                        "bias_high": Maybe(NUMBER)},
-              "claimed": Maybe({"estimate": Maybe(NUMBER), "low": Maybe(NUMBER), "high": Maybe(NUMBER)}),
-              "picture": Maybe(TEXT), "difference": Maybe(TEXT)}],
-    "knobs": [{"name": TEXT, "label": TEXT, "axis": TEXT, "why": TEXT, "runs": [TEXT],
-               "slope": Maybe({"value": NUMBER, "low": NUMBER, "high": NUMBER})}],
+    "runs": [RUN],
+    "knobs": [{"name": TEXT, "label": TEXT, "axis": TEXT, "why": TEXT, "runs": [TEXT], "slope": SLOPE,
+               "left_out": Maybe([{"setting": TEXT, "why": TEXT}])}],
     "front": [TEXT],
     "effects": [{"name": TEXT, "on": FLAG, "reason": TEXT, "forced": FLAG, "ms_per_sample": Maybe(NUMBER),
                  "ms_low": Maybe(NUMBER), "ms_high": Maybe(NUMBER), "error": Maybe(NUMBER),
@@ -47,7 +51,7 @@ SHAPE = {
     "equal_time": Maybe({"time_s": NUMBER, "runs": PICTURED}),
     "equal_error": Maybe({"error": NUMBER, "runs": PICTURED}),
     "fixed": Maybe([{"name": TEXT, "value": TEXT, "why": TEXT}]),
-    "difference_scale": Maybe(TEXT),
+    "difference_scale": Maybe(TEXT), "difference_colours": Maybe([{"value": NUMBER, "colour": TEXT}]),
 }
 
 
@@ -91,14 +95,17 @@ def load(path):
     data["by_id"] = {run["id"]: run for run in data["runs"]}
     named = [(i, "front") for i in data["front"]] + [(i, k["name"]) for k in data["knobs"] for i in k["runs"]]
     for name in ("equal_time", "equal_error"):
-        named += [(one["id"], name) for one in (data.get(name) or {"runs": []})["runs"]]
+        named += [(one["id"], name) for one in (data.get(name) or {}).get("runs") or []]
     for run_id, where in named:
         if run_id not in data["by_id"]:
             raise Malformed(f"{where} names the run '{run_id}', which is not among tradeoff.runs")
     for run in data["runs"]:
-        if not run["time_s"]["median"] > 0:
+        if not all(one["time_s"]["median"] > 0 for one in [run, *(run.get("curve") or [])]):
             raise Malformed(f"run '{run['id']}': its time is not above 0")
         run["words"] = name_of(data, run)
+    for stop in data.get("difference_colours") or []:
+        if not re.fullmatch("#[0-9a-f]{6}", stop["colour"]):
+            raise Malformed(f"difference_colours: '{stop['colour']}' is not '#rrggbb'")
     if not data["front"]:
         raise Malformed("tradeoff.front is empty")
     return data
@@ -135,15 +142,35 @@ def name_of(data, run):
 
 
 def bias_words(error):
+    """The bias with its interval; only the end of the interval where none was found."""
     if error["bias"] is None:
         return "unknown"
     if not error["bias_low"]:
-        return f"none found, at most {percent(error['bias_high'])}"
+        return f"\u2264\u00a0{percent(error['bias_high'])}"
     return f"{percent(error['bias'])} ({percent(error['bias_low'])} to {percent(error['bias_high'])})"
 
 
 def slope_words(slope):
     return f"slope {slope['value']:.2f} ({slope['low']:.2f} to {slope['high']:.2f})" if slope else "no slope fitted"
+
+
+def scene_words(path):
+    """The scene without the folders above its own."""
+    return "/".join(path.replace("\\", "/").split("/")[-2:])
+
+
+def same_pixels(data, knob):
+    """Settings of a knob, other than the default, that change no pixel: neither one that was compared, nor the error."""
+    runs = [data["by_id"][i] for i in knob["runs"]]
+    default = next((run for run in runs if run["is_default"]), default_of(data))
+    return [run["setting"] for run in runs if not run["is_default"] and run.get("differing_pixels") == 0
+            and default and run["error"]["total"] == default["error"]["total"] and knob["name"] != "samples"]
+
+
+def distinct_runs(data):
+    """The runs without the default settings of other knobs than the first, which are one and the same."""
+    first = default_of(data)
+    return [run for run in data["runs"] if run is first or not run["is_default"]]
 
 
 def default_of(data):

@@ -4,11 +4,12 @@ import io
 import math
 import re
 
-from page_data import default_of, esc, percent, seconds, slope_words
+from page_data import default_of, distinct_runs, esc, percent, seconds, slope_words
 
 LEAST_ERROR = 1e-5  # relative; what a logarithmic axis shows of an error that is 0 or below
 LABEL_GAP = 12.5  # points between the middles of two labels
 LEAST_SPAN = 8.0  # ratio of the ends of a small plot's axes: less would make a small difference look large
+NEAR = 6.0  # of times: how far a small plot follows a setting to other numbers of samples
 MARKS = "osD^vP*Xdh<>"
 
 # Okabe and Ito's colours that differ for every eye (Color Universal Design, 2008), darker on white, lighter on black.
@@ -91,16 +92,24 @@ def shown(error):
 
 
 def draw_run(axes, run, colour, mark, label=None):
+    """A mark with the range of its times; a hollow one where the reference's own noise limits the error."""
     time = run["time_s"]
     bars = [[max(0.0, time["median"] - time["low"])], [max(0.0, time["high"] - time["median"])]]
-    axes.errorbar(time["median"], shown(run["error"]["total"]), xerr=bars, fmt=mark, color=colour, ms=6.5,
+    fill = "none" if run["error"].get("is_limited") else colour
+    axes.errorbar(time["median"], shown(run["error"]["total"]), xerr=bars, fmt=mark, color=colour, mfc=fill, ms=6.5,
                   elinewidth=1.2, capsize=2.5, label=label, zorder=4)
 
 
-def draw_default(axes, plots, run):
+def draw_curve(axes, levels, colour, **look):
+    """A line through the prices of one setting at several numbers of samples."""
+    axes.plot([one["time_s"]["median"] for one in levels], [shown(one["error"]["total"]) for one in levels], color=colour,
+              **{"lw": 1.2, "zorder": 3, **look})
+
+
+def draw_default(axes, plots, run, label="default settings"):
     if run:
         axes.plot(run["time_s"]["median"], shown(run["error"]["total"]), "o", ms=14, mfc="none", mec=plots.INK,
-                  mew=1.2, label="default settings", zorder=5, ls="none")
+                  mew=1.2, label=label, zorder=5, ls="none")
 
 
 def draw_slope(axes, slope, runs, colour):
@@ -161,20 +170,22 @@ def ranges(runs):
 
 
 def plot_all(plots, data):
-    """Every run, the front, the fitted slopes."""
+    """Every run, the front, the fitted slopes; thin lines follow a setting to other numbers of samples."""
     figure, (axes,) = plots.start(10.5, 6.6)
-    times, errors = ranges(data["runs"])
+    runs = distinct_runs(data)
+    times, errors = ranges(runs)
     plots.log_axes(axes, times, errors)
     axes.set_xlim(min(times) / (max(times) / min(times)) ** 0.28 / 1.5)  # room for the names of the front
     axes.set_ylim(min(errors) / (max(errors) / min(errors)) ** 0.14 / 1.3)
     for index, knob in enumerate(data["knobs"]):
-        runs = [data["by_id"][i] for i in knob["runs"]]
-        colour, label = plots.series(index), f"{knob['label']}: {slope_words(knob['slope'])}"
-        for run in runs:
+        own = [run for run in runs if run["knob"] == knob["name"]]
+        colour, label = plots.series(index), knob["label"] + (f": {slope_words(knob['slope'])}" if knob["slope"] else "")
+        for run in own:
             draw_run(axes, run, colour, MARKS[index % len(MARKS)], label)
+            draw_curve(axes, run.get("curve") or [], colour, lw=0.7, alpha=0.5, zorder=2)
             label = None
-        if knob["slope"]:
-            draw_slope(axes, knob["slope"], runs, colour)
+        if knob["slope"] and own:
+            draw_slope(axes, knob["slope"], own, colour)
     front = [data["by_id"][i] for i in data["front"]]
     axes.step([run["time_s"]["median"] for run in front] + [axes.get_xlim()[1]],
               [shown(run["error"]["total"]) for run in front] + [shown(front[-1]["error"]["total"])], where="post",
@@ -193,22 +204,35 @@ def widened(values, factor):
     return [middle / half, middle * half]
 
 
+def near(run):
+    """The run and its levels within a factor of NEAR of its time, which a small plot shows."""
+    time = run["time_s"]["median"]
+    return [run] + [one for one in run.get("curve") or [] if time / NEAR <= one["time_s"]["median"] <= time * NEAR]
+
+
 def plot_knob(plots, data, index):
-    """One knob against all others in grey, near its own runs and the default."""
+    """The settings of one knob, each a line over numbers of samples where those were measured, all others in grey."""
     knob = data["knobs"][index]
-    figure, (axes,) = plots.start(5.2, 3.7)
-    near = [run for run in data["runs"] if run["id"] in knob["runs"] or run["is_default"]]
-    times, errors = ranges(near)
+    runs = [data["by_id"][i] for i in knob["runs"]]
+    curves = any(run.get("curve") for run in runs)
+    figure, (axes,) = plots.start(5.2, 3.9 + (0.2 * len(runs) if curves else 0.0))
+    first = default_of(data)
+    times, errors = ranges([one for run in runs + ([first] if first else []) for one in near(run)])
     plots.log_axes(axes, widened(times, LEAST_SPAN), widened(errors, LEAST_SPAN))
     for run in data["runs"]:
         axes.plot(run["time_s"]["median"], shown(run["error"]["total"]), "o", ms=3.5, color=plots.SOFT, alpha=0.35)
-    runs, colour = [data["by_id"][i] for i in knob["runs"]], plots.series(index)
-    axes.plot([run["time_s"]["median"] for run in runs], [shown(run["error"]["total"]) for run in runs], "-",
-              color=colour, lw=1.1, zorder=3)
-    for run in runs:
-        draw_run(axes, run, colour, MARKS[index % len(MARKS)])
-    name_runs(figure, axes, runs)
-    draw_default(axes, plots, default_of(data))
+    if not curves:
+        draw_curve(axes, runs, plots.series(index))
+    for number, run in enumerate(runs):
+        colour, mark = (plots.series(number), number) if curves else (plots.series(index), index)
+        words = f"{run['setting']}: {slope_words(run.get('slope'))}" if curves else None
+        draw_curve(axes, run.get("curve") or [], colour)
+        draw_run(axes, run, colour, MARKS[mark % len(MARKS)], words)
+    draw_default(axes, plots, first, None if curves else "default settings")
+    if curves:
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), fontsize=8.5, ncol=1)
+    else:
+        name_runs(figure, axes, runs)
     return plots.finish(figure, f"Error against time for {knob['label']}: "
                         + ", ".join(f"{run['setting']} {seconds(run['time_s']['median'])} "
                                     f"{percent(run['error']['total'])}" for run in runs))
@@ -216,7 +240,7 @@ def plot_knob(plots, data, index):
 
 def plot_parts(plots, data):
     """Noise and bias of each run, side by side on one scale."""
-    runs = data["runs"]
+    runs = distinct_runs(data)
     figure, (axes,) = plots.start(10.5, 1.3 + 0.27 * len(runs))
     values = [max(value, LEAST_ERROR) for run in runs for key in ("noise", "bias", "bias_high")
               if (value := run["error"].get(key))] or [LEAST_ERROR, 1.0]
@@ -231,8 +255,8 @@ def plot_parts(plots, data):
         if error["bias"] is None:
             continue
         low, high = max(error["bias_low"] or 0.0, left), max(error["bias_high"] or 0.0, left)
-        axes.plot([low, high], [row, row], color=plots.series(1), lw=3, solid_capstyle="butt", zorder=3,
-                  label=None if row else "range of the bias; to the left edge: none was found")
+        axes.plot([low, high], [row, row], color=plots.series(1), lw=3 if error["bias_low"] else 1.2, solid_capstyle="butt",
+                  zorder=3, label=None if row else "range of the bias; thin, to the left edge: none was found")
         if error["bias_low"]:
             axes.plot(error["bias"], row, "D", color=plots.series(1), ms=7, zorder=4)
     axes.plot([], [], "D", color=plots.series(1), ms=7, label="bias: stays however many samples are taken")
