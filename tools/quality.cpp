@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/error.h"
 
@@ -29,17 +30,21 @@ const QualityPreset& quality_named(std::string_view name) {
 }
 
 std::vector<std::string> overrides_of(const QualityPreset& preset) {
-    return {fmt::format("render.spp={}", preset.spp), fmt::format("render.ao_rays={}", preset.ao_rays),
-            fmt::format("photons.count={}", preset.photons)};
+    return {fmt::format("render.spp={}", preset.sky.samples),
+            fmt::format("render.ao_rays={}", preset.ao_rays)};
 }
 
 std::string quality_help() {
     std::string text = fmt::format(
-        "settings in one word, which other flags win over; medians of {} scenes\non {}:", kPricedScenes,
-        kPricedOn);
+        "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
+        "medians of {} scenes under the sky and {} with lamps, on\n{}:",
+        kSkyScenes, kLampScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {
-        text += fmt::format("\n{:<9} {:>5} samples, error {:>3.2g} %, {:>5g} s per megapixel", preset.name,
-                            preset.spp, 100.0 * preset.error, preset.seconds_per_megapixel);
+        text += fmt::format("\n{:<9}", preset.name);
+        const std::pair<const char*, QualityPrice> kinds[] = {{"sky", preset.sky}, {"lamps", preset.lamps}};
+        for (const auto& [kind, price] : kinds)
+            text += fmt::format("  {} {:>4} samples, {:>3.2g} %, {:>4g} s per megapixel", kind, price.samples,
+                                100.0 * price.error, price.seconds_per_megapixel);
     }
     return text;
 }

@@ -8,6 +8,7 @@
 #include "parse_values.h"
 #include "quality.h"
 #include "scene/animation.h"
+#include "scene/facts.h"
 #include "scene/scene_camera.h"
 #include "scene/scene_toml.h"
 
@@ -58,6 +59,21 @@ std::vector<std::string> overrides_with_quality(const SceneOptions& options) {
     std::vector<std::string> overrides = overrides_of(quality_named(*options.quality));
     overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
     return overrides;
+}
+
+bool has_photons(const Scene& scene, const SceneOptions& options) {
+    const EffectStates effects = decide_effects(measure_scene(scene), plan_request(options).effects);
+    return std::ranges::any_of(effects, [](const EffectState& state) {
+        return state.on && (state.effect == Effect::caustics || state.effect == Effect::indirect);
+    });
+}
+
+// Samples of the preset in a scene with photons, unless an override says how many.
+void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
+    if (!options.quality) return;
+    const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
+    if (std::ranges::none_of(options.overrides, sets_samples) && has_photons(scene, options))
+        scene.settings.spp = quality_named(*options.quality).lamps.samples;
 }
 
 }  // namespace
@@ -113,6 +129,7 @@ Scene load_scene_with(const SceneOptions& options) {
     (void)with_photons({}, options.photons);
 
     Scene scene = load_scene(options.input, {.overrides = overrides_with_quality(options)});
+    set_iterations_of_quality(options, scene);
     RenderSettings& settings = scene.settings;
     settings.size = size.value_or(settings.size);
     settings.spp = options.iterations.value_or(options.spp.value_or(settings.spp));

@@ -39,7 +39,10 @@ constexpr double kLeastScatter = 0.03;
 // variance that is the estimate's own.
 constexpr double kIntervalQuantile = 2.17;
 constexpr double kOwnVariance = 0.5;
-constexpr double kOneSided95 = 1.6448536269514722;  // of bias_high
+// Relative scatter of noise_high / noise, over the logarithm of that: pictures of few pixels, or few noisy
+// ones.
+constexpr double kSpreadScatter = 0.2;
+constexpr double kOneSided95 = 1.6448536269514722;  // of the upper end of bias
 constexpr double kExactTerms = 64.0;                // of a sum, before it becomes an integral
 
 enum class Quantity { noise, bias };
@@ -181,7 +184,7 @@ std::optional<ErrorCurve> fit_error(const ErrorLaw& law, std::span<const ErrorPo
 
 double claimed_error(const ErrorCurve& curve, double samples, double deviations) {
     const Value noise = value_at(curve.law, Quantity::noise, curve.noise, samples);
-    const double own = curve.scatter * noise.mean;
+    const double own = noise.mean * std::hypot(curve.scatter, kSpreadScatter * std::log(curve.spread));
     const double wide = std::sqrt(noise.deviation * noise.deviation + own * own);
     double square = curve.spread * std::max(noise.mean + deviations * wide, 0.0);
     if (curve.law.has_bias) {

@@ -54,7 +54,7 @@ struct ErrorCurve {
     Decline noise;
     Decline bias;          // all zero without bias
     double spread = 1.0;   // noise_high / noise
-    double scatter = 0.0;  // standard deviation of log(noise_high) from one set of random numbers to the next
+    double scatter = 0.0;  // standard deviation of log(noise) from one set of random numbers to the next
     double doubt = 0.0;    // bias_high - bias at the last point
     double last = 1.0;     // its samples
 };

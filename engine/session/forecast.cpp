@@ -123,8 +123,10 @@ std::optional<Forecast> make_forecast(const ErrorPilot& pilot, double error, con
     const double expected = seconds_to(forecast.samples), most_s = seconds_to(forecast.samples_high);
     const double end_s = pilot.film_s * (kRoundReadings + kEndReadings * needs.film_values);
     forecast.expected_s = needs.pilot_s + expected + end_s;
-    forecast.low_s = needs.pilot_s + expected / (1.0 + times.deviation) + 0.5 * end_s;
-    forecast.high_s = needs.pilot_s + most_s * (1.0 + times.deviation) + 2.0 * end_s;
+    forecast.low_s =
+        needs.pilot_s * (1.0 - needs.pilot_doubt) + expected / (1.0 + times.deviation) + 0.5 * end_s;
+    forecast.high_s =
+        needs.pilot_s * (1.0 + needs.pilot_doubt) + most_s * (1.0 + times.deviation) + 2.0 * end_s;
     if (!needs.time_limit_s) return forecast;
     for (double* seconds : {&forecast.expected_s, &forecast.low_s, &forecast.high_s})
         *seconds = std::min(*seconds, *needs.time_limit_s);

@@ -29,7 +29,8 @@ struct ForecastNeeds {
     std::uint32_t most_samples = kMostSamples;  // that the render may take
     std::uint32_t samples_done = 0;             // that a checkpoint holds
     double pilot_s = 0.0;                       // from the start to the end of the pilot
-    double film_values = 1.0;                   // sums of the whole film over those of its error
+    double pilot_doubt = 0.0;  // of pilot_s, relative, where another process will have its own
+    double film_values = 1.0;  // sums of the whole film over those of its error
     std::optional<double> time_limit_s;
 };
 

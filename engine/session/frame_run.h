@@ -6,6 +6,7 @@
 #include "film/film_sums.h"
 #include "frame/frame_state.h"
 #include "session/error_rounds.h"
+#include "session/film_readback.h"
 #include "session/next_minute.h"
 #include "session/prepared_scene.h"
 #include "session/progress_estimate.h"
@@ -60,6 +61,7 @@ class FrameRun {
     ErrorEstimate measure_error();
     void measure_for_progress(const FrameCalls& calls);
     void rehearse_end(const FrameCalls& calls);
+    [[nodiscard]] RenderOutcome strip_of(RowRange rows);
     void save_when_due(const std::function<void()>& save);
     [[nodiscard]] FilmSums with_start(FilmSums film) const;
     void add_outlook(RenderStatistics& statistics) const;

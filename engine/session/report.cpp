@@ -238,6 +238,8 @@ Json reproducible_report(const Json& report) {
     }
     for (const char* name : kUnrepeatableWork)
         json["work"].erase(name);
+    for (const char* name : {"rounds", "decided_by"})  // how the samples came about: all at once, or in parts
+        json["error"].erase(name);
     for (Json& effect : json["effects"])
         effect.erase("ms");
     return json;

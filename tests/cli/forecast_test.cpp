@@ -64,6 +64,18 @@ TEST(PlanForecast, too_few_samples_allowed_are_said) {
         << ending.out;
 }
 
+TEST(PlanForecast, effect_that_the_user_switched_off_has_its_error) {
+    const Words words = {"plan", scene_file("mixed"), "--size", "32x18", "--error", "20%"};
+    for (const Json& effect : json_of(with(words, {"--effect", "sun=off"}))["effects"]) {
+        EXPECT_EQ(effect.contains("error_without"), effect["name"] == "sun") << effect;
+        if (effect["name"] == "sun") {
+            EXPECT_GT(effect["error_without"]["low"], 0.1);
+        }
+    }
+    EXPECT_NE(run(with(words, {"--effect", "sun=off"})).out.find("without   sun "), std::string::npos);
+    EXPECT_EQ(run(words).out.find("without   "), std::string::npos);
+}
+
 TEST(PlanForecast, nothing_to_plan_is_a_usage_error) {
     const Ending ending = run({"plan"});
     EXPECT_EQ(ending.code, 2);
@@ -147,7 +159,8 @@ double limited_seconds(const std::string& limit, const Words& more) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.exr", "a.exr.part", "a.png"}));
-    for (const float samples : read_exr(scratch / "a.exr").channels.at("sampleCount.Y").pixels)
+    const Image image = read_exr(scratch / "a.exr");
+    for (const float samples : image.channels.at("sampleCount.Y").pixels)
         EXPECT_GE(samples, 1.0f);
     return seconds;
 }

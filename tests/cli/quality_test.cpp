@@ -49,12 +49,18 @@ TEST(Quality, explicit_flags_win) {
     EXPECT_EQ(samples_of({"--quality", "fine", "--iterations", "7"}), 7u);
 }
 
-TEST(Quality, photons_follow_flags_over_the_preset) {
-    const auto photons = [](const Words& more) {
-        return plan_of("cornell", more)["photons"]["per_iteration"].get<int>();
+TEST(Quality, scenes_with_lamps_have_samples_of_their_own) {
+    const auto iterations = [](const Words& more) {
+        for (const Json& pass : plan_of("cornell", more)["passes"])
+            if (pass["label"] == "shade.resolve") return pass["count"].get<std::uint64_t>();
+        return std::uint64_t{0};
     };
-    EXPECT_EQ(photons({"--quality", "draft", "--photons", "1234"}), 1234);
-    EXPECT_EQ(photons({"--quality", "draft", "-D", "photons.count=1234"}), 1234);
+    const std::uint64_t preset = iterations({"--quality", "normal"});
+    EXPECT_NE(preset, samples_of({"--quality", "normal"}));
+    EXPECT_EQ(iterations({"--quality", "normal", "--effect", "indirect=off", "--effect", "caustics=off"}),
+              samples_of({"--quality", "normal"}));
+    EXPECT_EQ(iterations({"--quality", "normal", "--iterations", "7"}), 7u);
+    EXPECT_EQ(iterations({"--quality", "normal", "-D", "render.spp=5"}), 5u);
 }
 
 TEST(Quality, unknown_name_is_refused_with_the_known_ones) {
@@ -75,7 +81,7 @@ TEST(Quality, help_names_every_price_and_the_machine) {
         for (std::string word; words >> word;)
             help += word + " ";
     }
-    const Pattern price("draft [0-9]+ samples, error [0-9.]+ %, [0-9.]+ s per megapixel");
+    const Pattern price("draft sky [0-9]+ samples, [0-9.]+ %, [0-9.]+ s per megapixel lamps [0-9]+");
     EXPECT_FALSE(price.find(help).empty()) << help;
     EXPECT_NE(help.find("medians of "), std::string::npos);
 }

@@ -1,6 +1,8 @@
 """The page of a price list, from a made-up one.
 
-    page_test.py FOLDER_OF_PAGE     exit code 77 where matplotlib is missing
+    page_test.py FOLDER_OF_PAGE JOINED     exit code 77 where matplotlib is missing
+
+The folder has page.py and its parts; JOINED is the script that the build makes of them.
 """
 
 import contextlib
@@ -10,12 +12,14 @@ import io
 import json
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
 
 import fake_price_list
 
+JOINED = pathlib.Path(sys.argv[2]).resolve()
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(FOLDER))
 SKIPPED = 77
@@ -150,7 +154,8 @@ class Page(unittest.TestCase):
 
     def test_bias_stands_apart_from_noise(self):
         self.assertIn("4.0 % (3.2 % to 4.9 %)", self.page.text)
-        self.assertIn("none found, at most 0.10 %", self.page.text)
+        self.assertIn("\u2264 0.10 %", self.page.text)
+        self.assertIn("bias (\u2264: none found)", self.page.text)
 
     def test_forced_effect_says_whether_it_matters(self):
         self.assertIn("caustics (forced on)", self.page.text)
@@ -178,6 +183,20 @@ class Page(unittest.TestCase):
     def test_page_that_is_broken_is_found(self):
         self.assertNotEqual(read(self.source.replace("</table>", "", 1)).faults, [])
         self.assertNotEqual(read(self.source.replace("</svg>", "</figure>", 1)).faults, [])
+
+
+class Joined(unittest.TestCase):
+    def test_joined_source_runs_from_standard_input(self):
+        """As voxilux runs it, which carries the source inside."""
+        with tempfile.TemporaryDirectory() as folder:
+            source = fake_price_list.write(folder)
+            done = make(source, folder=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            target = pathlib.Path(folder) / "joined.html"
+            done = subprocess.run([sys.executable, "-", str(source), str(target)], input=JOINED.read_text(encoding="utf-8"),
+                                  capture_output=True, text=True, check=False, cwd=folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue(target.read_bytes() == (pathlib.Path(folder) / "page.html").read_bytes())
 
 
 class Changed(unittest.TestCase):

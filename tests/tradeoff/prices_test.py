@@ -33,41 +33,75 @@ def scene_rows(name, at_one, second=0.1):
     return [row(name, spp, at_one / spp**0.5, second * spp, is_default=spp == 16) for spp in (1, 4, 16, 64)]
 
 
+def with_photons(rows):
+    return [dict(one, photons=5000, ao_rays=0) for one in rows]
+
+
+LAMP = with_photons(scene_rows("lamp", 0.8, second=0.5))
 THREE = [one for name, at_one in (("easy", 0.08), ("middling", 0.4), ("hard", 2.0)) for one in scene_rows(name, at_one)]
+ALL = THREE + LAMP
 
 
 class Presets(unittest.TestCase):
     def test_least_samples_whose_median_error_is_within_the_target(self):
-        """0.4 / sqrt(spp): 4 samples for 20 %, 32.7 for 7 %, 178 for 3 %, 1600 for 1 %."""
-        found = {preset["name"]: preset for preset in choose_presets.choose(THREE)}
-        self.assertEqual([found[name]["spp"] for name, _ in choose_presets.TARGETS], [4, 64, 256, 2048])
-        self.assertAlmostEqual(found["draft"]["error"], 0.2)
-        self.assertAlmostEqual(found["reference"]["error"], 0.4 / 2048**0.5)
+        """0.4 / sqrt(spp): 64 samples for 5 %, 178 for 3 %, 1600 for 1 %, 17778 for 0.3 %. 0.8 / sqrt(spp): 16 for 20 %,
+        131 for 7 %, 711 for 3 %, 6400 for 1 %."""
+        found = choose_presets.choose(ALL)
+        self.assertEqual([one["name"] for one in found], list(choose_presets.TARGETS))
+        self.assertEqual([one["sky"]["samples"] for one in found], [64, 256, 2048, 32768])
+        self.assertEqual([one["lamps"]["samples"] for one in found], [16, 256, 1024, 8192])
+        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
+        self.assertAlmostEqual(found[3]["sky"]["error"], 0.4 / 32768**0.5)
 
     def test_price_is_the_median_time_of_a_megapixel(self):
-        found = choose_presets.choose(THREE)
-        self.assertAlmostEqual(found[0]["seconds_per_megapixel"], 0.1 * 4 / 0.5)
+        found = choose_presets.choose(ALL)[0]
+        self.assertAlmostEqual(found["sky"]["seconds_per_megapixel"], 0.1 * 64 / 0.5)
+        self.assertAlmostEqual(found["lamps"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
 
     def test_what_is_not_measured_is_told(self):
-        self.assertEqual([one["is_measured"] for one in choose_presets.choose(THREE)], [True, True, False, False])
+        found = choose_presets.choose(ALL)
+        self.assertEqual([one["sky"]["is_measured"] for one in found], [True, False, False, False])
+        self.assertEqual([one["lamps"]["is_measured"] for one in found], [True, False, False, False])
 
-    def test_knob_that_is_worth_it_is_turned(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4)]
-        self.assertTrue(all(one["ao_rays"] == 4 for one in choose_presets.choose(rows)))
-        self.assertEqual(choose_presets.choose(rows)[0]["spp"], 1)
+    def rays(self, name, error, time):
+        """A scene whose error and time change by these factors with 4 rays."""
+        default = [dict(one, knob="ao_rays", setting="1", is_default=1) for one in scene_rows(name, 0.4)]
+        other = [dict(one, setting="4", is_default=0, ao_rays=4, error=error * one["error"], time_s=time * one["time_s"])
+                 for one in default]
+        return [*scene_rows(name, 0.4), *default, *other]
 
-    def test_knob_that_gains_less_than_a_tenth_stays(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.1, 1.55, "ao_rays", "4", ao_rays=4)]
+    def test_rays_that_are_worth_it_are_taken_with_their_own_price(self):
+        found = choose_presets.choose(self.rays("a", 0.5, 1.25) + LAMP)
+        self.assertTrue(all(one["ao_rays"] == 4 for one in found))
+        self.assertEqual(found[0]["sky"]["samples"], 16)
+        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
+        self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
+        self.assertEqual(found[0]["lamps"], choose_presets.choose(ALL)[0]["lamps"])
+
+    def test_rays_that_gain_less_than_a_tenth_are_not(self):
+        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(self.rays("a", 1.0, 0.95) + LAMP)))
+
+    def test_rays_must_be_worth_it_over_all_scenes(self):
+        rows = self.rays("a", 0.5, 1.25) + self.rays("b", 1.0, 9.0) + LAMP
         self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
 
-    def test_knob_must_be_worth_it_over_all_scenes(self):
-        rows = [*scene_rows("a", 0.4), row("a", 16, 0.05, 2.0, "ao_rays", "4", ao_rays=4),
-                *scene_rows("b", 0.4), row("b", 16, 0.1, 9.0, "ao_rays", "4", ao_rays=4)]
-        self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(rows)))
+    def test_scene_without_occlusion_keeps_its_own_curve(self):
+        rows = self.rays("a", 0.5, 1.25) + scene_rows("b", 0.4) + scene_rows("c", 0.4) + LAMP
+        found = choose_presets.choose(rows)
+        self.assertEqual((found[0]["ao_rays"], found[0]["sky"]["samples"]), (4, 64))
+
+    def test_one_sample_is_too_few_to_know_its_error(self):
+        rows = scene_rows("a", 0.01) + LAMP
+        self.assertEqual(choose_presets.choose(rows)[0]["sky"]["samples"], 2)
+
+    def test_both_kinds_of_scenes_are_needed(self):
+        for rows, kind in ((THREE, "lamps"), (LAMP, "sky")):
+            with self.assertRaisesRegex(prices.Malformed, f"no scene of the kind '{kind}'"):
+                choose_presets.choose(rows)
 
     def test_scene_whose_error_does_not_fall_is_refused(self):
-        rows = [row("flat", spp, 0.3, spp) for spp in (1, 4, 16)]
-        with self.assertRaisesRegex(prices.Malformed, "no number of samples leaves a median error of 20 %"):
+        rows = [row("flat", spp, 0.3, spp) for spp in (1, 4, 16)] + LAMP
+        with self.assertRaisesRegex(prices.Malformed, "no number of samples leaves a median error of 5 %"):
             choose_presets.choose(rows)
 
 
@@ -92,12 +126,12 @@ class Table(unittest.TestCase):
     ABOUT = {"machine": "a machine, 2 threads", "device": "a device", "version": "1"}
 
     def test_times_follow_from_the_curve(self):
-        text = price_list.table_text(self.ABOUT, scene_rows("a", 0.4))
+        text = price_list.table_text(self.ABOUT, scene_rows("a", 0.4) + LAMP)
         self.assertIn("| `a` | 1000 x 500 | 1.6 s | 6.4 s | (40 s) | - | time^-0.50 |", text)
         self.assertIn("Measured on a machine, 2 threads, a device, by voxilux 1.", text)
 
     def test_time_far_beyond_what_was_measured_is_not_given(self):
-        self.assertIn("| (10 s) | (40 s) | - | - |", price_list.table_text(self.ABOUT, scene_rows("a", 1.0)))
+        self.assertIn("| (10 s) | (40 s) | - | - |", price_list.table_text(self.ABOUT, scene_rows("a", 1.0) + LAMP))
 
     def test_csv_keeps_every_row(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -122,13 +156,17 @@ class Table(unittest.TestCase):
 class Gathered(unittest.TestCase):
     def lists(self, folder):
         data = fake_price_list.price_list(pathlib.Path(folder))
-        return data, dict(data, scene="scenes/other.toml")
+        other = json.loads(json.dumps(dict(data, scene="scenes/other.toml")))
+        for run in other["runs"]:
+            run["settings"]["photons"] = 5000
+        return data, other
 
     def test_price_lists_become_rows(self):
         with tempfile.TemporaryDirectory() as folder:
             one, other = self.lists(folder)
         about, rows = prices.gather([one, other])
-        self.assertEqual(len(rows), len(one["runs"]) + len(other["runs"]))
+        kept = [run for run in one["runs"] if run["knob"] in prices.KEPT_KNOBS]
+        self.assertEqual(len(rows), 2 * sum(len(run.get("curve") or [run]) for run in kept))
         self.assertEqual(about["machine"], "A processor with a long name @ 2.60GHz, 2 threads")
         self.assertEqual({row["scene"] for row in rows}, {"<made up>", "other"})
         self.assertEqual(len(choose_presets.choose(rows)), 4)
@@ -142,8 +180,11 @@ class Gathered(unittest.TestCase):
 
     def test_command_writes_the_header(self):
         with tempfile.TemporaryDirectory() as folder:
-            file, out = fake_price_list.write(folder), pathlib.Path(folder) / "presets.inc"
-            self.assertEqual(choose_presets.main([str(file), "-o", str(out)]), 0)
+            files, out = [], pathlib.Path(folder) / "presets.inc"
+            for number, data in enumerate(self.lists(folder)):
+                files.append(pathlib.Path(folder) / f"{number}.json")
+                files[-1].write_text(json.dumps(data), encoding="utf-8")
+            self.assertEqual(choose_presets.main([*map(str, files), "-o", str(out)]), 0)
             self.assertIn('{.name = "draft",', out.read_text(encoding="utf-8"))
 
     def test_file_that_is_no_price_list_is_one_clear_line(self):

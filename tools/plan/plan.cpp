@@ -82,7 +82,7 @@ int run_plan(const PlanCommand& plan_command) {
     if (command.error) {
         RenderOptions options = render_options(command, outputs);
         options.plan = request;
-        const PilotedPlan piloted = pilot_plan(command, std::move(animated), frames.first, options);
+        const PilotedPlan piloted = pilot_plan(command, animated, frames.first, options);
         return print_plan(command, frames, piloted.plan, piloted.json, piloted.text);
     }
     FramePlayer player(std::move(animated));

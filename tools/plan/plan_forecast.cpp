@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "output_files.h"
+#include "session/effect_price.h"
 #include "session/forecast_report.h"
 #include "session/frame_run.h"
 #include "session/memory_forecast.h"
@@ -17,6 +18,8 @@ using Json = nlohmann::ordered_json;
 
 // Errors beside the one asked for, over it: what a finer and a coarser picture would take.
 constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
+// Relative: files and pipelines that are in a cache the second time, or no more.
+constexpr double kPilotDoubt = 0.4;
 
 PictureUse use_of(const RenderCommand& command, const std::vector<std::string>& outputs,
                   const RenderOptions& options, double high_s) {
@@ -48,12 +51,50 @@ std::string mib_text(std::uint64_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 0x1p20);
 }
 
+// The effects that the picture would be another one with, but for the user.
+std::vector<Effect> forced_off(const RenderPlan& plan, const PlanRequest& request) {
+    std::vector<Effect> effects;
+    for (const auto& [effect, choice] : request.effects.switches)
+        if (choice == Switch::off && plan.effects[static_cast<std::size_t>(effect)].by_choice)
+            effects.push_back(effect);
+    return effects;
+}
+
+void add_price(const EffectPrice& price, PilotedPlan& result) {
+    const std::string name(name_of(price.effect));
+    for (Json& row : result.json["effects"]) {
+        if (row["name"] != name) continue;
+        row["error_without"] = {{"estimate", price.error},
+                                {"low", price.error_low},
+                                {"high", price.error_high},
+                                {"beyond_noise", price.is_beyond_noise}};
+        row["ms_per_sample"] = price.ms_per_sample;
+    }
+    result.text += fmt::format(
+        "without   {:<10} the picture is off by {} ({} to {}); with it a sample takes {:.1f} ms more\n", name,
+        percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
+        price.ms_per_sample);
+}
+
+// What the user's choices cost in error: a session of its own, which stops at no error.
+void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOptions& options,
+                      PilotedPlan& result) {
+    const std::vector<Effect> effects = forced_off(result.plan, options.plan);
+    if (effects.empty()) return;
+    RenderOptions unlimited{.plan = options.plan, .device = options.device, .executor = options.executor};
+    RenderSession session(scene, unlimited);
+    const PriceJob job{
+        .frame = frame, .settings = scene.settings, .request = options.plan, .effects = effects};
+    for (const EffectPrice& price : price_effects(session, job))
+        add_price(price, result);
+}
+
 }  // namespace
 
-PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_t frame,
+PilotedPlan pilot_plan(const RenderCommand& command, const Scene& animated, std::int64_t frame,
                        const RenderOptions& options) {
     const std::vector<std::string> outputs = output_files(command);
-    RenderSession session(std::move(animated), options);
+    RenderSession session(animated, options);
     const std::optional<ErrorPilot> pilot = session.pilot(frame);
     PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
     if (!pilot) {
@@ -64,6 +105,7 @@ PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_
     const double error = *options.error_target;
     ForecastNeeds needs{.most_samples = result.plan.samples(),
                         .pilot_s = seconds_since(options.started),
+                        .pilot_doubt = kPilotDoubt,
                         .film_values = film_values(result.plan),
                         .time_limit_s = options.time_limit_s};
     const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);
@@ -82,6 +124,7 @@ PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_
                                    {"peak_rss_mib", static_cast<double>(memory.peak_rss_bytes) / 0x1p20}};
     result.text += fmt::format("memory    {} on the device, {} of the process at most\n",
                                mib_text(memory.device_bytes), mib_text(memory.peak_rss_bytes));
+    price_forced_off(animated, frame, options, result);
     return result;
 }
 

@@ -15,8 +15,9 @@ struct PilotedPlan {
     std::string text;             // lines for people, to follow the plan
 };
 
-// Runs the pilot of a frame for --error, as render would.
-[[nodiscard]] PilotedPlan pilot_plan(const RenderCommand& command, Scene animated, std::int64_t frame,
+// Runs the pilot of a frame for --error, as render would, and finds what the picture loses by effects that
+// the user has switched off.
+[[nodiscard]] PilotedPlan pilot_plan(const RenderCommand& command, const Scene& animated, std::int64_t frame,
                                      const RenderOptions& options);
 
 }  // namespace voxilux

@@ -11,7 +11,8 @@ import base64
 import pathlib
 import sys
 
-from page_data import Malformed, bias_words, default_of, esc, load, percent, seconds, slope_words, spread
+from page_data import (Malformed, bias_words, default_of, esc, load, percent, same_pixels, scene_words, seconds,
+                       slope_words, spread)
 from page_plots import DARK, LIGHT, Plots, plot_all, plot_effects, plot_knob, plot_parts
 
 USAGE, REFUSED, MISSING, UNWRITABLE = 2, 3, 69, 73
@@ -29,7 +30,7 @@ h3 { margin: 0 0 .3rem; font-size: 1.02rem } p { max-width: 52rem; margin: .5rem
 .tiles, .knobs, .row { display: grid; gap: 1rem; margin: 1.2rem 0 }
 .tiles { grid-template-columns: repeat(auto-fit, minmax(13rem, 1fr)) }
 .knobs { grid-template-columns: repeat(auto-fit, minmax(24rem, 1fr)) }
-.row { grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)) }
+.row { grid-template-columns: repeat(auto-fill, minmax(13rem, 1fr)) }
 .tile, .knobs figure { background: var(--card); border-radius: 8px; padding: .9rem 1rem }
 .tile b { display: block; font-size: 1.55rem; line-height: 1.25 }
 figure { margin: 0; break-inside: avoid } figcaption { font-size: .9rem; line-height: 1.4 }
@@ -94,12 +95,12 @@ def headline(data):
     slope = next((k["slope"] for k in data["knobs"] if k["name"] == "samples" and k["slope"]), None)
     if slope and slope["value"] < 0:
         tiles.append(tile("half the error by samples", f"{2 ** (-1 / slope['value']):.1f} times the time",
-                          f"{slope_words(slope)}; -0.5 is pure noise"))
+                          f"{slope_words(slope)}; -0.5 is that of random samples"))
     facts = [f"{size[0]} x {size[1]} pixels on {device['name']} ({device['driver']})",
              f"{machine['cpu']}, {machine['threads']} threads, {machine['memory_gib']:.3g} GiB",
              f"voxilux {data['version']}, seed {data['seed']}, {len(data['runs'])} settings, {data['repeats']} times each, "
              f"{seconds(data['wall_s'])} in all"]
-    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(data['scene'])}</h1>",
+    return "\n".join([f"<header><h1>What accuracy costs in time: {esc(scene_words(data['scene']))}</h1>",
                       *(f'<p class="facts">{esc(fact)}</p>' for fact in facts),
                       f'<div class="tiles">{"".join(tiles)}</div></header>'])
 
@@ -118,7 +119,7 @@ def overview(plots, data):
         "One mark for each setting, at the median of its times; its bar reaches from the fastest to the slowest repeat. "
         "Thin lines follow a setting to fewer and more samples. "
         "Both axes are logarithmic, so a power law is a straight line: dotted lines are fits, their slopes stand in the legend "
-        "with 95 % intervals. Pure noise has slope -0.5: four times the time for half the error. The staircase is the Pareto "
+        "with 95 % intervals. Random samples have slope -0.5: four times the time for half the error. The staircase is the Pareto "
         "front, the least error that any setting reached in that time."), "</figcaption></figure>")
 
 
@@ -133,8 +134,8 @@ def front_table(data):
         rows.append([str(number), esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(time),
                      percent(error["total"]), percent(error["noise"]), esc(bias_words(error)), step])
         before = run
-    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise", "bias",
-             "step from the line above"]
+    heads = ["#", "setting (all else default)", "#time: median (lowest to highest)", "#error", "#noise",
+             "bias (\u2264: none found)", "step from the line above"]
     return section("The Pareto front, setting by setting", paragraph(
         "Settings for which no other one was both faster and better, fastest first. All others cost more than they give."),
         table(heads, rows, "Pareto front"))
@@ -147,7 +148,7 @@ def knobs(plots, data):
         if knob["slope"]:
             words.append(f"Fitted: {slope_words(knob['slope'])}.")
         words += [f"Left out: {one['setting']}, {one['why']}." for one in knob.get("left_out") or []]
-        same = [data["by_id"][i]["setting"] for i in knob["runs"] if data["by_id"][i].get("differing_pixels") == 0]
+        same = same_pixels(data, knob)
         if same:
             words.append(f"Every pixel is the same as with the default settings: {', '.join(same)}.")
         figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}"
@@ -249,8 +250,8 @@ def all_runs(data):
         rows.append([esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(run["time_s"]),
                      seconds(run["load_s"]), f"{run['memory_bytes'] / 2**20:.1f} MiB", percent(error["total"]),
                      percent(error["noise"]), esc(bias_words(error)), said])
-    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise", "bias",
-             "#error that the render claims"]
+    heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise",
+             "bias (\u2264: none found)", "#error that the render claims"]
     return section("All runs", table(heads, rows, "All runs"))
 
 
@@ -262,7 +263,7 @@ def page(plots, data, folder):
             effects(plots, data), method(data), all_runs(data)]
     return "\n".join(["<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8">',
                       '<meta name="viewport" content="width=device-width, initial-scale=1">',
-                      f"<title>Price list of {esc(data['scene'])}</title><style>{style}</style></head><body>",
+                      f"<title>Price list of {esc(scene_words(data['scene']))}</title><style>{style}</style></head><body>",
                       *body, "</body></html>", ""])
 
 

@@ -142,15 +142,29 @@ def name_of(data, run):
 
 
 def bias_words(error):
+    """The bias with its interval; only the end of the interval where none was found."""
     if error["bias"] is None:
         return "unknown"
     if not error["bias_low"]:
-        return f"none found, at most {percent(error['bias_high'])}"
+        return f"\u2264\u00a0{percent(error['bias_high'])}"
     return f"{percent(error['bias'])} ({percent(error['bias_low'])} to {percent(error['bias_high'])})"
 
 
 def slope_words(slope):
     return f"slope {slope['value']:.2f} ({slope['low']:.2f} to {slope['high']:.2f})" if slope else "no slope fitted"
+
+
+def scene_words(path):
+    """The scene without the folders above its own."""
+    return "/".join(path.replace("\\", "/").split("/")[-2:])
+
+
+def same_pixels(data, knob):
+    """Settings of a knob, other than the default, that change no pixel: neither one that was compared, nor the error."""
+    runs = [data["by_id"][i] for i in knob["runs"]]
+    default = next((run for run in runs if run["is_default"]), default_of(data))
+    return [run["setting"] for run in runs if not run["is_default"] and run.get("differing_pixels") == 0
+            and default and run["error"]["total"] == default["error"]["total"] and knob["name"] != "samples"]
 
 
 def distinct_runs(data):

@@ -255,8 +255,8 @@ def plot_parts(plots, data):
         if error["bias"] is None:
             continue
         low, high = max(error["bias_low"] or 0.0, left), max(error["bias_high"] or 0.0, left)
-        axes.plot([low, high], [row, row], color=plots.series(1), lw=3, solid_capstyle="butt", zorder=3,
-                  label=None if row else "range of the bias; to the left edge: none was found")
+        axes.plot([low, high], [row, row], color=plots.series(1), lw=3 if error["bias_low"] else 1.2, solid_capstyle="butt",
+                  zorder=3, label=None if row else "range of the bias; thin, to the left edge: none was found")
         if error["bias_low"]:
             axes.plot(error["bias"], row, "D", color=plots.series(1), ms=7, zorder=4)
     axes.plot([], [], "D", color=plots.series(1), ms=7, label="bias: stays however many samples are taken")

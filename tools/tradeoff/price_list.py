@@ -22,11 +22,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 PRICES, PRESETS = HERE / "prices.csv", HERE.parent / "quality_presets.inc"
 BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
-SCENES = ("first_light", "overcast", "slit", "spheres", "mixed", "emitters", "glass_block", "cornell", "mirror", "random")
-MEASURED_SIZE, MEASURED_S = "256x192", 180  # of each scene: pixels, and seconds for all of its runs
+SKY, LAMPS = ("256x192", "90s"), ("96x72", "120s")  # size of the picture, and time for all runs of a scene
+SCENES = {"first_light": SKY, "night": SKY, "overcast": SKY, "slit": SKY, "spheres": SKY, "mixed": SKY,
+          "emitters": LAMPS, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
+MOST_SAMPLES = 256  # asked of each scene; the time decides how many are measured
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
 MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given
 COLOURS = ("#0072b2", "#c25400", "#00805e", "#b3508a", "#8a6100", "#2a8fd0", "#6a4fb3", "#5c5c5c")
+KINDS = {"sky": "black", "lamps": "#8a2b2b"}  # of scenes, and the colour of their presets
 MARKS = "osD^vP*Xdh<>"
 
 
@@ -64,12 +67,15 @@ def table_text(about, rows):
         slope = curve.slopes["error"] / curve.slopes["time_s"]
         lines.append("| " + " | ".join([f"`{scene}`", f"{own[0]['width']} x {own[0]['height']}",
                                         *(cell(curve, error) for error in ERRORS), f"time^{slope:.2f}"]) + " |")
-    lines += ["", "| `--quality` | samples | occlusion rays | median error | median seconds per megapixel |",
-              "|---|--:|--:|--:|--:|"]
+    lines += ["", "| `--quality` | occlusion rays | samples under the sky | error | s per megapixel | samples with lamps | error | "
+              "s per megapixel |", "|---|" + "--:|" * 7]
     for preset in choose_presets.choose(rows):
-        note = "" if preset["is_measured"] else " (extrapolated)"
-        lines.append(f"| `{preset['name']}` | {preset['spp']} | {preset['ao_rays']} | {100 * preset['error']:.2g} %{note} "
-                     f"| {rounded(preset['seconds_per_megapixel'])} |")
+        cells = [f"`{preset['name']}`", str(preset["ao_rays"])]
+        for kind in KINDS:
+            price = preset[kind]
+            texts = (f"{100 * price['error']:.2g} %", rounded(price["seconds_per_megapixel"]))
+            cells += [str(price["samples"]), *(text if price["is_measured"] else f"({text})" for text in texts)]
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join([*lines, "", f"Measured on {about['machine']}, {about['device']}, by voxilux {about['version']}."])
 
 
@@ -85,7 +91,7 @@ def with_table(readme, table):
 
 
 def draw(about, rows, file):
-    """Error against seconds per megapixel, a line for each scene."""
+    """Error against seconds per megapixel, a line for each scene, dashed with lamps; rings where the presets are."""
     import matplotlib
     matplotlib.use("agg")
     from matplotlib.figure import Figure
@@ -97,14 +103,17 @@ def draw(about, rows, file):
         megapixels = own[0]["width"] * own[0]["height"] / 1e6
         points = Curve(own).rows
         axes.plot([row["time_s"] / megapixels for row in points], [100 * row["error"] for row in points],
-                  MARKS[index % len(MARKS)] + "-", color=COLOURS[index % len(COLOURS)], lw=1.3, ms=6, label=scene)
-    for preset in choose_presets.choose(rows):
-        place = (preset["seconds_per_megapixel"], 100 * preset["error"])
-        axes.plot(*place, "o", ms=15, mfc="none", mec="black", mew=1.5, zorder=5)
-        axes.annotate(preset["name"], place, xytext=(10, 8), textcoords="offset points", weight="bold", zorder=6,
-                      bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1})
+                  MARKS[index % len(MARKS)] + ("--" if own[0]["photons"] else "-"), color=COLOURS[index % len(COLOURS)],
+                  lw=1.3, ms=6, label=scene)
+    for kind, edge in KINDS.items():
+        for preset in choose_presets.choose(rows):
+            place = (preset[kind]["seconds_per_megapixel"], 100 * preset[kind]["error"])
+            axes.plot(*place, "o", ms=15, mfc="none", mec=edge, mew=1.6, zorder=5)
+            axes.annotate(preset["name"], place, xytext=(10, 8), textcoords="offset points", weight="bold", color=edge,
+                          zorder=6, bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1})
     axes.set(xscale="log", yscale="log", xlabel="time to take the samples (seconds per megapixel)",
-             ylabel="error: root of relMSE (%)", title=f"What accuracy costs in time\n{about['machine']}; {about['device']}")
+             ylabel="error: root of relMSE (%)", title="Error against time: lines are scenes with default settings (dashed: with lamps), rings are the medians of the "
+             f"presets\n{about['machine']}; {about['device']}")
     axes.title.set_fontsize(9)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -122,10 +131,11 @@ def measure(options, folder):
     files = []
     for scene in options.scenes.split(","):
         target = pathlib.Path(folder) / scene
-        words = [options.voxilux, "tradeoff", str(TOP / "scenes" / f"{scene}.toml"), "-o", str(target), "--quiet",
-                 "--size", MEASURED_SIZE, "--time-limit", f"{MEASURED_S}s", "--no-page"]
+        size, limit = SCENES.get(scene, SKY)
+        words = [options.voxilux, "tradeoff", f"scenes/{scene}.toml", "-o", str(target), "--quiet",
+                 "--no-page", "--size", size, "--time-limit", limit, "--spp", str(MOST_SAMPLES)]
         print(f"price_list.py: {' '.join(words[1:])}", file=sys.stderr, flush=True)
-        done = subprocess.run(words, check=False, stdout=subprocess.DEVNULL)
+        done = subprocess.run(words, check=False, stdout=subprocess.DEVNULL, cwd=TOP)
         if done.returncode != 0:
             raise Malformed(f"voxilux tradeoff {scene} ended with code {done.returncode}")
         files.append(target / "tradeoff.json")
@@ -152,6 +162,7 @@ def update_prices(options):
     else:
         with tempfile.TemporaryDirectory() as folder:
             about, rows = read_prices(measure(options, folder))
+    choose_presets.choose(rows)  # refuses what the presets cannot be chosen from, before anything is written
     options.prices.write_text(csv_text(about, rows), encoding="utf-8")
 
 

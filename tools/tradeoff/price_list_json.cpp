@@ -168,6 +168,18 @@ Json reference_json(const Reference& reference) {
             {"error", error_json(reference.error)}};
 }
 
+// Five stops of the scale of difference maps, evenly spaced in logarithms.
+Json difference_colours_json() {
+    Json stops = Json::array();
+    for (int i = -4; i <= 0; ++i) {
+        const double value = std::pow(10.0, 0.75 * i);
+        const std::array<int, 3> rgb = difference_colour(value);
+        stops.push_back(
+            {{"value", value}, {"colour", fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2])}});
+    }
+    return stops;
+}
+
 }  // namespace
 
 Json to_json(const PriceList& list) {
@@ -203,6 +215,7 @@ Json to_json(const PriceList& list) {
     for (const FixedChoice& fixed : list.design.fixed)
         json["fixed"].push_back({{"name", fixed.name}, {"value", fixed.value}, {"why", fixed.why}});
     json["difference_scale"] = kDifferenceScale;
+    json["difference_colours"] = difference_colours_json();
     return json;
 }
 

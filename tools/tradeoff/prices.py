@@ -1,7 +1,8 @@
 """Prices of many scenes as one small table: prices.csv, made from the tradeoff.json files of `voxilux tradeoff`.
 
-A row is one run: what was set, how long the samples took, which error was left. Lines that start with '#' name what
-all rows have in common. Times are seconds, errors roots of relMSE.
+A row is a setting at a number of samples: how long the samples took, which error was left. Only the knobs of
+KEPT_KNOBS have rows. Lines that start with '#' name what all rows have in common. Times are seconds, errors roots of
+relMSE.
 """
 
 import csv
@@ -10,6 +11,7 @@ import json
 import math
 import pathlib
 
+KEPT_KNOBS = ("samples", "ao_rays")
 TEXTS = ("scene", "knob", "setting")
 COUNTS = ("width", "height", "is_default", "spp", "ao_rays", "photons")
 NUMBERS = ("time_s", "time_low_s", "time_high_s", "error", "noise", "bias")
@@ -35,13 +37,18 @@ def rows_of(price_list):
     """The rows of one tradeoff.json. A number that a run does not have is 0, an unknown bias too."""
     rows = []
     for run in price_list["runs"]:
-        time, error, settings = run["time_s"], run["error"], run["settings"]
-        rows.append({
-            "scene": scene_name(price_list["scene"]), "knob": run["knob"], "setting": run["setting"],
-            "width": price_list["size"][0], "height": price_list["size"][1], "is_default": int(run["is_default"]),
-            "spp": settings["spp"], "ao_rays": settings.get("ao_rays") or 0, "photons": settings.get("photons") or 0,
-            "time_s": time["median"], "time_low_s": time["low"], "time_high_s": time["high"],
-            "error": error["total"], "noise": error["noise"], "bias": error["bias"] or 0.0})
+        if run["knob"] not in KEPT_KNOBS:
+            continue
+        settings = run["settings"]
+        for level in run.get("curve") or [dict(run, samples=settings["spp"])]:
+            time, error = level["time_s"], level["error"]
+            rows.append({
+                "scene": scene_name(price_list["scene"]), "knob": run["knob"], "setting": run["setting"],
+                "width": price_list["size"][0], "height": price_list["size"][1], "is_default": int(run["is_default"]),
+                "spp": level["samples"], "ao_rays": settings.get("ao_rays") or 0,
+                "photons": settings.get("photons") or 0, "time_s": time["median"], "time_low_s": time["low"],
+                "time_high_s": time["high"], "error": error["total"], "noise": error["noise"],
+                "bias": error["bias"] or 0.0})
     return rows
 
 
@@ -111,11 +118,12 @@ def scenes_of(rows):
 
 
 class Curve:
-    """Error and time of a scene against samples per pixel: straight between measured points in logarithms, beyond
-    them a power law with the fitted slope."""
+    """Error and time of a setting of a scene against samples per pixel: straight between measured points in logarithms,
+    beyond them a power law with the fitted slope. Without a setting that was measured: the default."""
 
-    def __init__(self, rows):
-        points = {row["spp"]: row for row in rows if row["knob"] in ("samples", "default") and row["error"] > 0.0}
+    def __init__(self, rows, knob="samples", setting=None):
+        own = [row for row in rows if row["knob"] == knob and setting in (None, row["setting"])]
+        points = {row["spp"]: row for row in own or rows if row["error"] > 0.0 and (own or row["knob"] == "samples")}
         self.rows = [points[spp] for spp in sorted(points)]
         if len(self.rows) < 2:
             raise Malformed(f"{rows[0]['scene']}: fewer than two numbers of samples were measured")
