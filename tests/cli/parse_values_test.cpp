@@ -154,9 +154,9 @@ TEST(ProgressText, numbers_read_as_people_write_them) {
                              .remaining_high_s = 99900.0,
                              .sample = 1}),
               "  0.1 %  sample 1  1 min 40 s, 22 to 28 h left");
-    EXPECT_EQ(
-        progress_text({.done = 0.0, .remaining_high_s = std::numeric_limits<double>::infinity(), .sample = 1}),
-        "  0.0 %  sample 1  0 s, ? left");
+    EXPECT_EQ(progress_text(
+                  {.done = 0.0, .remaining_high_s = std::numeric_limits<double>::infinity(), .sample = 1}),
+              "  0.0 %  sample 1  0 s, ? left");
 }
 
 TEST(ProgressText, frame_range_counts_frames) {
