@@ -145,7 +145,7 @@ TEST(Resume, interrupted_shard_goes_on_and_merges) {
 TEST(Resume, checkpoint_of_other_settings_is_refused_and_stays) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "0.6s", "-q"}), here).code, 0);
+    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "2s", "-q"}), here).code, 0);
     const float samples = read_exr(scratch / "a.exr").channels.at("sampleCount.Y").pixels.back();
     ASSERT_GE(samples, 2.0f);
     const std::string before = bytes_of(scratch / "a.exr.part");
