@@ -11,8 +11,10 @@
 
 #include "film/difference_estimate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -59,12 +61,13 @@ struct Trials {
     [[nodiscard]] double difference(std::size_t k, std::size_t c, std::size_t pixel) const {
         return static_cast<double>(tests[k][c][pixel]) - static_cast<double>(bases[k][c][pixel]);
     }
-    [[nodiscard]] double product(const Pair& pair, std::size_t pixel) const {
+    // No component counts for more than `most`, in either direction: what has a mean of 0 keeps it.
+    [[nodiscard]] double product(const Pair& pair, std::size_t pixel, double most) const {
         double sum = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {
             const double both = difference(pair.first, c, pixel) * difference(pair.second, c, pixel);
             const double r = scale(pair, c, pixel);
-            if (both != 0.0) sum += both / (r * r + kRelMseEpsilon);
+            if (both != 0.0) sum += std::clamp(both / (r * r + kRelMseEpsilon), -most, most);
         }
         return sum / 3.0;
     }
@@ -87,7 +90,9 @@ double variance_of_block(std::span<const double> sums, std::span<const Pair> pai
 }
 
 // Sums of products, [block][pair].
-std::vector<double> block_sums(const Trials& trials, std::span<const Pair> pairs, int width, int height) {
+std::vector<double> block_sums(const Trials& trials, std::span<const Pair> pairs, glm::ivec2 size,
+                               double most) {
+    const auto [width, height] = std::pair(size.x, size.y);
     const int across = (width + kBlockEdge - 1) / kBlockEdge;
     const int down = (height + kBlockEdge - 1) / kBlockEdge;
     std::vector<double> sums(static_cast<std::size_t>(across * down) * pairs.size(), 0.0);
@@ -97,10 +102,26 @@ std::vector<double> block_sums(const Trials& trials, std::span<const Pair> pairs
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const auto block = static_cast<std::size_t>(y / kBlockEdge * across + x / kBlockEdge);
             for (std::size_t p = 0; p < pairs.size(); ++p)
-                sums[block * pairs.size() + p] += trials.product(pairs[p], pixel);
+                sums[block * pairs.size() + p] += trials.product(pairs[p], pixel, most);
         }
     }
     return sums;
+}
+
+SquareEstimate from_blocks(const std::vector<double>& sums, std::span<const Pair> pairs, std::size_t trials,
+                           double pixels) {
+    CompensatedSum total;
+    double variance = 0.0;
+    for (std::size_t i = 0; i < sums.size(); i += pairs.size()) {
+        const auto of_block = std::span(sums).subspan(i, pairs.size());
+        for (const double sum : of_block)
+            total.add(sum / static_cast<double>(pairs.size()));
+        variance += variance_of_block(of_block, pairs, trials);
+    }
+    const double degrees = static_cast<double>((trials - 1) * (sums.size() / pairs.size()));
+    const double spread = student_quantile_95(degrees) * std::sqrt(variance) / pixels;
+    const double squared = total.value() / pixels;
+    return {.squared = squared, .low = squared - spread, .high = squared + spread};
 }
 
 }  // namespace
@@ -117,20 +138,13 @@ SquareEstimate estimate_difference(std::span<const DifferenceTrial> trials, cons
     }
     if (radiance != nullptr) all.radiance = planes_of(*radiance);
     const std::vector<Pair> pairs = pairs_of(trials.size());
-    const std::vector<double> sums = block_sums(all, pairs, first.width, first.height);
-    CompensatedSum total;
-    double variance = 0.0;
-    for (std::size_t i = 0; i < sums.size(); i += pairs.size()) {
-        const auto of_block = std::span(sums).subspan(i, pairs.size());
-        for (const double sum : of_block)
-            total.add(sum / static_cast<double>(pairs.size()));
-        variance += variance_of_block(of_block, pairs, trials.size());
-    }
-    const auto pixels = static_cast<double>(pixel_count(first));
-    const double degrees = static_cast<double>((trials.size() - 1) * (sums.size() / pairs.size()));
-    const double spread = student_quantile_95(degrees) * std::sqrt(variance) / pixels;
-    const double squared = total.value() / pixels;
-    return {.squared = squared, .low = squared - spread, .high = squared + spread};
+    const auto estimate = [&](double most) {
+        return from_blocks(block_sums(all, pairs, {first.width, first.height}, most), pairs, trials.size(),
+                           static_cast<double>(pixel_count(first)));
+    };
+    SquareEstimate result = estimate(std::numeric_limits<double>::infinity());
+    result.bounded_low = estimate(1.0).low;
+    return result;
 }
 
 }  // namespace voxilux

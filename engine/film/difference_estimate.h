@@ -13,8 +13,12 @@ struct SquareEstimate {
     double low = 0.0;      // interval of 95 %
     double high = 0.0;
 
+    // Lower end of the same where no pixel counts for more than a difference of 100 %: it tells a difference
+    // from noise, which a few bright pixels otherwise make so large that nothing can be said.
+    double bounded_low = 0.0;
+
     // Noise alone would hardly give so much.
-    [[nodiscard]] bool is_beyond_noise() const { return low > 0.0; }
+    [[nodiscard]] bool is_beyond_noise() const { return low > 0.0 || bounded_low > 0.0; }
 };
 
 // One measurement of a difference: `test` - `base`. Not owned.

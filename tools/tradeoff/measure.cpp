@@ -176,7 +176,7 @@ Measured measure_once(RenderSession& session, const MeasureJob& job) {
     settings.spp = job.samples;
     settings.seed = job.seed;
     session.change(settings, job.way.request);
-    Measured measured{.outcome = session.render(job.frame, std::nullopt)};
+    Measured measured{.outcome = session.render(job.frame, job.time_limit_s)};
     for (const PassTime& pass : measured.outcome.statistics.passes)
         if (!pass.label.starts_with("world.")) measured.time_s += 1e-3 * pass.ms;
     return measured;

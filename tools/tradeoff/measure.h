@@ -20,6 +20,7 @@ struct MeasureJob {
     std::int64_t frame = 0;
     std::uint32_t seed = 0;
     std::uint32_t samples = 1;
+    std::optional<double> time_limit_s;  // of the picture
 };
 
 struct Measured {

@@ -153,10 +153,12 @@ std::string describe(const PriceList& list) {
                         list.top < list.asked ? fmt::format(", for lack of time for {}", list.asked) : "");
     for (const PricedRun& run : runs) {
         const Level& level = level_of(list, run);
-        text += fmt::format(
-            "run       {:<22} {:>9.4f} s   error {:>7.3f} %, noise {:>7.3f} %, bias {:>7.3f} %{}\n", run.id,
-            middle_of(level.times_s), 100.0 * level.error.total, 100.0 * level.error.noise,
-            100.0 * level.error.bias, run.is_default ? "  (default)" : "");
+        const std::string bias = level.error.bias_low > 0.0
+                                     ? fmt::format("bias {:.3g} %", 100.0 * level.error.bias)
+                                     : fmt::format("no bias over {:.3g} %", 100.0 * level.error.bias_high);
+        text += fmt::format("run       {:<22} {:>9.4f} s   error {:>7.3f} %, noise {:>7.3f} %, {}{}\n",
+                            run.id, middle_of(level.times_s), 100.0 * level.error.total,
+                            100.0 * level.error.noise, bias, run.is_default ? "  (default)" : "");
     }
     if (const std::optional<Slope> slope = slope_of(list.ways.front()))
         text += fmt::format("slope     {:.3f} ({:.3f} to {:.3f}) of error against time, by samples\n",

@@ -21,6 +21,8 @@ constexpr std::array<std::uint32_t, 2> kSeeds = {0x52456641, 0x52456642};
 constexpr double kRadiusShare = 0.5;
 constexpr std::uint32_t kPhotonFactor = 4;
 
+// A half ends when it has taken so many times the time that was expected: the machine has got other work.
+constexpr double kPatience = 1.3;
 // That tell how long one takes.
 constexpr std::uint32_t kTimedSamples = 4;
 
@@ -134,8 +136,11 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     if (has_photons)
         way.settings.photons.count = most_photons(session, job, way, first.outcome.plan.photons.count());
     const auto half = [&](std::size_t which, std::uint32_t samples) {
-        return measure_once(session,
-                            {.way = way, .frame = job.frame, .seed = kSeeds[which], .samples = samples});
+        return measure_once(session, {.way = way,
+                                      .frame = job.frame,
+                                      .seed = kSeeds[which],
+                                      .samples = samples,
+                                      .time_limit_s = kPatience * job.budget_s / 2.0});
     };
     first = half(0, 1);
     const double per_sample_s = std::max(half(0, kTimedSamples).time_s / kTimedSamples, 1e-9);
@@ -149,12 +154,13 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     }
     Measured a = half(0, samples), b = half(1, samples);
     const RenderPlan plan = a.outcome.plan;
+    const std::uint32_t taken = a.outcome.statistics.samples + b.outcome.statistics.samples;
     const FilmSums film = joined(std::move(*a.outcome.film), std::move(*b.outcome.film));
     Reference reference{.image = colours_of(picture_of(film)),
-                        .samples = 2 * samples,
+                        .samples = taken,
                         .time_s = a.time_s + b.time_s,
                         .error = error_of(film),
-                        .settings = settings_json(way, plan, 2 * samples)};
+                        .settings = settings_json(way, plan, taken)};
     (void)store_cached(job.cache, key, {reference.image, facts_of(reference)});
     return reference;
 }

@@ -31,7 +31,7 @@ constexpr int kMostRepeats = 100;
 
 // How the time is shared. The rest is for compiling, reading back, comparing and writing.
 constexpr double kReferenceShare = 0.30;
-constexpr double kEffectShare = 0.08;
+constexpr double kEffectShare = 0.10;
 constexpr double kRunShare = 0.30;  // of the runs that are planned; more are made until kRunsEnd
 constexpr double kRunsEnd = 0.80;   // since the start
 constexpr double kRowsEnd = 0.95;
@@ -39,7 +39,7 @@ constexpr double kMostRowShare = 0.02;  // of one picture of equal error
 constexpr double kLoadShare = 0.04;     // most that a world of its own may take
 // A reference is of use up to so many times the samples of the longest run: its noise is then an eighth.
 constexpr double kReferenceSamples = 64.0;
-constexpr double kMostEffectSamples = 16.0;
+constexpr double kMostEffectSamples = 64.0;
 constexpr double kEffectTrials = 5.0;  // times of short pictures scatter
 
 // Time since the start, and what of it is left.
