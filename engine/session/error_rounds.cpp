@@ -10,10 +10,13 @@ namespace voxilux {
 namespace {
 
 constexpr std::uint32_t kFirstRound = 8;  // samples, where nothing is known
-// A round that its own picture decides grows it by this at least, so that looks stay few; and by that at most
-// while the first claims of few samples say little.
+// A round that its own picture decides grows it by this at least, so that looks stay few; and by this at
+// most: few samples say little, and of many one bright one may have said too much.
 constexpr double kLeastGrowth = 1.05;
-constexpr double kMostGrowth = 8.0;
+constexpr double kMostGrowth = 2.0;
+constexpr double kMostEarlyGrowth = 8.0;
+constexpr std::uint32_t kEarly = 64;  // samples
+constexpr double kAim = 0.98;         // of the target, after a claim that passed it
 
 }  // namespace
 
@@ -46,10 +49,16 @@ bool ErrorRounds::reaches(std::uint32_t samples, const ErrorEstimate& claim) {
     if (const auto point = error_point(samples, claim)) points_.push_back(*point);
     decided_by_ = DecidedBy::averaged;
     ++rounds_;
+    // The curve says how the claim falls, the claim itself where it stands.
     const auto curve = fit_error(law_, points_);
-    const double wanted = curve ? planned_samples(*curve, target_).value_or(most_) : 0.0;
+    double wanted = 0.0;
+    if (curve && std::isfinite(claim.high)) {
+        const double aim = kAim * target_ * claimed_error(*curve, samples) / claim.high;
+        wanted = samples_for(*curve, aim).value_or(most_);
+    }
     const double now = samples;
-    const double next = std::clamp(wanted, std::ceil(kLeastGrowth * now) + 1.0, kMostGrowth * now);
+    const double most_growth = samples < kEarly ? kMostEarlyGrowth : kMostGrowth;
+    const double next = std::clamp(wanted, std::ceil(kLeastGrowth * now) + 1.0, most_growth * now);
     end_ = static_cast<std::uint32_t>(std::min(next, static_cast<double>(most_)));
     end_ = std::min(end_ + end_ % 2, most_);  // halves of one size
     return false;

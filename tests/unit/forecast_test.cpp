@@ -127,6 +127,14 @@ TEST(ErrorRounds, without_a_guess_its_own_samples_decide) {
     EXPECT_EQ(rounds.end(), 64u);  // eight times as many, and not what eight samples say is needed
 }
 
+TEST(ErrorRounds, claim_that_one_bright_sample_may_have_made_doubles_at_most) {
+    const ErrorPilot pilot = calm_pilot(0.02);
+    ErrorRounds rounds(pilot.law, 0.01, {.points = pilot.points}, 65536, 0);
+    const std::uint32_t first = rounds.end();
+    EXPECT_FALSE(rounds.reaches(first, claim_of(0.05)));
+    EXPECT_EQ(rounds.end(), 2 * first);
+}
+
 TEST(ErrorRounds, samples_allowed_are_the_last) {
     ErrorRounds rounds({}, 0.01, {}, 20, 0);
     EXPECT_FALSE(rounds.reaches(8, claim_of(0.1)));
