@@ -16,18 +16,6 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-gpu::uint sequence_id(Sequence sequence) {
-    switch (sequence) {
-        case Sequence::sobol:
-            return gpu::kSequenceSobol;
-        case Sequence::halton:
-            return gpu::kSequenceHalton;
-        case Sequence::white:
-            return gpu::kSequenceWhite;
-    }
-    VX_ASSERT(false);
-}
-
 void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 origin, double aspect) {
     const glm::dvec3 local = camera.position - glm::dvec3(origin);
     const glm::dvec3 cell = glm::floor(local);
@@ -49,7 +37,6 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
 }
 
 void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
-    params.glass_spheres = plan.has(Effect::specular) ? plan.glass_spheres : 0;
     params.light_count = plan.world.lights.count;
     params.light_power = static_cast<float>(plan.world.lights.power);
     params.lamp_photons = plan.photons.lamp_photons;
@@ -72,15 +59,12 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.first_column = static_cast<gpu::uint>(plan.first_pixel.x);
     params.column_count = static_cast<gpu::uint>(settings.size.x);
     params.seed = settings.seed;
-    params.sequence = sequence_id(settings.sequence);
-    params.ao_rays = settings.ao_rays;
     params.ao_radius = settings.ao_radius;
     params.sky_radiance = plan.has(Effect::sky) ? scene.sky.radiance : glm::vec3(0.0f);
     params.sun_direction = scene.sun.direction();
     params.sun_irradiance = plan.has(Effect::sun) ? scene.sun.irradiance : glm::vec3(0.0f);
     params.sun_cone_height =
         gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
-    params.sphere_count = plan.has(Effect::spheres) ? plan.sphere_count : 0;
     place_lights(params, plan);
     return params;
 }

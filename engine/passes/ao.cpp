@@ -46,6 +46,10 @@ std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, c
             {"Slots", slots}};
 }
 
+Constant rays_constant(const RenderPlan& plan) {
+    return {"ao_rays", plan.settings.ao_rays};
+}
+
 std::vector<Constant> rest_constants(const RenderPlan& plan) {
     const AoSettings& ao = plan.settings.ao;
     return {{"checkerboard", flag(ao.checkerboard)}, {"has_limit", flag(ao.sample_limit != 0)}};
@@ -123,7 +127,8 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
                                                        {"Own", use_buffer(plan, "ao.own", recording)}});
     dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.ao.reprojects)},
                                                          {"merged", flag(merged)},
-                                                         {"by_pixel", flag(plan.settings.ao.by_pixel)}});
+                                                         {"by_pixel", flag(plan.settings.ao.by_pixel)},
+                                                         rays_constant(plan)});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
@@ -149,7 +154,7 @@ Resolved record_ao_resolve(const RenderPlan& plan, const Slice& slice, const Slo
                                      {"Own", use_buffer(plan, "ao.own", recording)},
                                      {"Ao", resolved.openness},
                                      {"Variance", resolved.variance}},
-                        .constants = {{"wants_variance", flag(filters)}}});
+                        .constants = {{"wants_variance", flag(filters)}, rays_constant(plan)}});
     return resolved;
 }
 
@@ -181,7 +186,8 @@ void empty_table(const RenderPlan& plan, Recording& recording) {
 }  // namespace
 
 Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
-    return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open"}, hits, recording);
+    return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open", {rays_constant(plan)}},
+                               hits, recording);
 }
 
 std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells) {

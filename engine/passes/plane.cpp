@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "shared/gpu_types.h"
+#include "shared/sequence.h"
 
 namespace voxilux {
 
@@ -75,15 +76,31 @@ WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
             .leaves = use_or_placeholder(plan, on, "world.leaves", recording)};
 }
 
+gpu::uint sequence_id(Sequence sequence) {
+    switch (sequence) {
+        case Sequence::sobol:
+            return gpu::kSequenceSobol;
+        case Sequence::halton:
+            return gpu::kSequenceHalton;
+        case Sequence::white:
+            return gpu::kSequenceWhite;
+    }
+    VX_ASSERT(false);
+}
+
+Constant sequence_constant(const RenderPlan& plan) {
+    return {"sequence", sequence_id(plan.settings.sequence)};
+}
+
 std::vector<Constant> sphere_constants(const RenderPlan& plan) {
-    const bool on = plan.has(Effect::spheres);
-    const bool few = on && plan.sphere_count <= gpu::kFewSpheres;
-    return {{"has_spheres", on ? 1u : 0u}, {"few_spheres", few ? plan.sphere_count : 0u}};
+    return {{"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
+            {"glass_spheres", plan.has(Effect::specular) ? plan.glass_spheres : 0u}};
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
     std::vector<Constant> constants = sphere_constants(plan);
     constants.push_back({"has_voxels", plan.has(Effect::voxels) ? 1u : 0u});
+    constants.push_back(sequence_constant(plan));
     return constants;
 }
 
@@ -100,6 +117,7 @@ Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const Surf
                                    {"Hits", hits.buffer},
                                    {pass.output_block, output.buffer}},
                       .constants = surface_constants(plan)};
+    dispatch.constants.insert(dispatch.constants.end(), pass.constants.begin(), pass.constants.end());
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return output;

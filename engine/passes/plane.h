@@ -42,6 +42,11 @@ struct Slice {
 // build is left out.
 [[nodiscard]] WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording);
 
+// The kSequence* id (shared/sequence.h).
+[[nodiscard]] gpu::uint sequence_id(Sequence sequence);
+// Constant of every pass that draws from the sample sequence (shaders/lib/samples.glsl).
+[[nodiscard]] Constant sequence_constant(const RenderPlan& plan);
+
 // Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
 // Those of them that say which spheres there are.
@@ -62,6 +67,7 @@ struct SurfacePass {
     std::string shader;
     std::string output_block;
     std::string output_buffer;
+    std::vector<Constant> constants;  // beside surface_constants()
 };
 
 [[nodiscard]] Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,

@@ -25,7 +25,8 @@ Plane record_primary_march(const RenderPlan& plan, const Slice& slice, const std
                       .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
                                    {"Tally", use_buffer(plan, "tally", recording)},
                                    {"Starts", starts},
-                                   {"Hits", hits.buffer}}};
+                                   {"Hits", hits.buffer}},
+                      .constants = {sequence_constant(plan)}};
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return hits;

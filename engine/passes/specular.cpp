@@ -14,7 +14,6 @@ std::vector<Constant> path_constants(const RenderPlan& plan) {
     const bool specular = plan.has(Effect::specular);
     std::vector<Constant> constants = surface_constants(plan);
     constants.push_back({"has_glass_voxels", specular && plan.has_glass_voxels ? 1u : 0u});
-    constants.push_back({"has_glass_spheres", specular && plan.glass_spheres != 0 ? 1u : 0u});
     return constants;
 }
 

@@ -4,7 +4,6 @@
 
 #include "base/assert.h"
 #include "session/frame_run.h"
-#include "session/memory_forecast.h"
 #include "session/pilot_film.h"
 
 namespace voxilux {
@@ -14,9 +13,6 @@ constexpr std::uint32_t kFirstLook = 4;  // samples: with fewer a film hardly kn
 // Discs of photons shrink, and with them the time of a sample: this many at half and at the end of the render
 // that is expected are timed, too.
 constexpr std::uint32_t kLateSamples = 2;
-
-// Less than this is what allocators do by themselves.
-constexpr double kLeastGrowth = double{1u << 23};  // bytes
 
 double samples_needed(const ErrorPilot& pilot, double error) {
     const auto curve = fit_error(pilot.law, pilot.points);
@@ -53,7 +49,6 @@ ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor) {
     const double pixels =
         static_cast<double>(plan.settings.size.x) * static_cast<double>(plan.settings.size.y);
     std::uint32_t look = kFirstLook;
-    std::uint64_t first_bytes = 0;
     do {
         for (; pilot.samples < look; ++pilot.samples) {
             if (job.stops && job.stops()) {
@@ -66,11 +61,8 @@ ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor) {
         const auto start = std::chrono::steady_clock::now();
         if (const auto point = error_point(look, error_of(film.read()))) pilot.points.push_back(*point);
         pilot.film_s = seconds_since(start);
-        if (look == kFirstLook) first_bytes = resident_bytes().now;
         look *= 2;
     } while (doubles_pilot(pilot.samples, pixels, samples_needed(pilot, job.error)));
-    const double growth = static_cast<double>(resident_bytes().now) - static_cast<double>(first_bytes);
-    if (growth >= kLeastGrowth) pilot.growth_bytes = growth / (pilot.samples - kFirstLook);
     time_late_samples(job, film, pilot);
     return pilot;
 }

@@ -21,7 +21,6 @@ struct ErrorPilot {
     std::vector<ErrorPoint> points;
     std::vector<SampleTime> times;  // without the first sample, for which pipelines are made
     std::uint32_t samples = 0;      // in the points' film
-    double growth_bytes = 0.0;      // of the process per sample: some drivers keep a part of what they take
     double film_s = 0.0;            // to read a film and estimate its error, once
     bool is_complete = true;        // false when it was stopped: it may know nothing
 };

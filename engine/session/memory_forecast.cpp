@@ -71,9 +71,8 @@ ResidentBytes resident_bytes() {
 
 MemoryForecast forecast_memory(const RenderPlan& plan, const PictureUse& use) {
     const ResidentBytes resident = resident_bytes();
-    const std::uint64_t later = resident.now + static_cast<std::uint64_t>(use.growth_bytes);
     return {.device_bytes = plan.total_bytes(),
-            .peak_rss_bytes = std::max(resident.peak, later + end_bytes(plan, use))};
+            .peak_rss_bytes = std::max(resident.peak, resident.now + end_bytes(plan, use))};
 }
 
 }  // namespace voxilux

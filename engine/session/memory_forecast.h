@@ -12,7 +12,6 @@ struct PictureUse {
     bool writes_png = false;
     bool keeps_film = false;         // for checkpoints
     bool writes_checkpoint = false;  // it is long enough for one
-    double growth_bytes = 0.0;       // while its samples are taken
 };
 
 struct MemoryForecast {

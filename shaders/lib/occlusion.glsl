@@ -4,6 +4,8 @@
 
 #include "lib/surface.glsl"
 
+layout(constant_id = 51) const uint ao_rays = 1u;  // of a pixel and sample
+
 // Number of a ray, 64 bits, when each of `takes` samples before took `rays`.
 uvec2 first_ray(uint takes, uint rays) {
     uvec2 first;
@@ -22,13 +24,13 @@ float trace_openness(Pixel pixel, Hit hit, uvec2 first) {
     uint own = own_sphere(hit);
     uint stream = pixel.y * frame.width + pixel.x;
     uint open = 0u;
-    for (uint i = 0u; i < frame.ao_rays; ++i) {
+    for (uint i = 0u; i < ao_rays; ++i) {
         SampleKey key = sample_key(stream, ray_number(first, i), frame.seed);
-        vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
+        vec2 u = draw_2d(key, kPairOcclusion);
         vec3 direction = is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
         open += is_occluded(ray_from(hit, direction, frame.ao_radius), own) ? 0u : 1u;
     }
-    return float(open) / float(frame.ao_rays);
+    return float(open) / float(ao_rays);
 }
 
 #endif

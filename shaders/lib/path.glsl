@@ -12,7 +12,6 @@
 #include "shared/sppm.h"
 
 layout(constant_id = 40) const uint has_glass_voxels = 0u;
-layout(constant_id = 41) const uint has_glass_spheres = 0u;
 
 layout(scalar) readonly buffer Materials {
     SurfaceMaterial materials[];
@@ -165,7 +164,7 @@ PathHit next_hit(PathRay path) {
         vec3 outward = face_normal(found.hit.face);
         found.normal = found.leaves_medium ? -outward : outward;
     }
-    if (has_spheres != 0u) find_sphere(path, found);
+    if (sphere_count != 0u) find_sphere(path, found);
     return found;
 }
 
@@ -173,7 +172,7 @@ PathHit next_hit(PathRay path) {
 uint glass_around(vec3 point, uint but) {
     uint found = kNoSphere;
     float curvature = 0.0;
-    for (uint i = 0u; i < frame.glass_spheres; ++i) {
+    for (uint i = 0u; i < glass_spheres; ++i) {
         Sphere shape = spheres[i].shape;
         bool inner = i != but && shape.curvature >= curvature && is_in_sphere(shape, point);
         found = inner ? i : found;
@@ -196,7 +195,7 @@ float ior_of(uint medium) {
 Interface interface_at(PathRay path, PathHit found) {
     bool on_sphere = is_on_sphere(found.hit);
     uint around = kNoSphere;
-    if (has_glass_spheres != 0u)
+    if (glass_spheres != 0u)
         around = glass_around(local_position(found.hit.cell, found.hit.fraction), on_sphere ? found.hit.sphere : kNoSphere);
     uint sphere_medium = around == kNoSphere ? kNoMedium : spheres[around].material;
     uint outer_medium = sphere_medium != kNoMedium ? sphere_medium : path.medium;

@@ -3,19 +3,12 @@
 #ifndef VX_PHOTON_SHARE_GLSL
 #define VX_PHOTON_SHARE_GLSL
 
+#include "lib/spheres.glsl"
+
 #include "shared/sampling.h"
 #include "shared/photon_area.h"
 
-layout(constant_id = 1) const uint has_spheres = 0u;
-layout(constant_id = 12) const uint few_spheres = 0u;  // how many there are, or 0 for more than fit
 layout(constant_id = 31) const uint clips_discs = 1u;
-
-layout(scalar) readonly buffer Spheres {
-    SphereRecord spheres[];
-};
-layout(scalar) uniform SphereTable {
-    SphereRecord sphere_table[kFewSpheres];
-};
 
 vec3 disc_normal(Hit hit) {
     if (hit.face < kFaceSphere) return face_normal(hit.face);
@@ -25,22 +18,22 @@ vec3 disc_normal(Hit hit) {
 
 // Shares of the discs of a common centre and two radii that one sphere leaves. Light goes through the first spheres.
 vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 radii) {
-    if (i == own || i < frame.glass_spheres) return vec2(1.0);
+    if (i == own || i < glass_spheres) return vec2(1.0);
     return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
 }
 
 // The shares of a hit's two discs, in [kLeastShare, 1].
 vec2 disc_shares(Hit hit, vec2 radii) {
     vec2 shares = vec2(1.0);
-    if (has_spheres == 0u || clips_discs == 0u || photon_surface(hit) == kNoSurface) return shares;
+    if (sphere_count == 0u || clips_discs == 0u || photon_surface(hit) == kNoSurface) return shares;
     uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;
     vec3 normal = disc_normal(hit);
     vec3 point = photon_position(hit);
-    if (few_spheres != 0u) {
-        for (uint i = 0u; i < few_spheres; ++i)
+    if (sphere_count <= kFewSpheres) {
+        for (uint i = 0u; i < sphere_count; ++i)
             shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
     } else {
-        for (uint i = 0u; i < frame.sphere_count; ++i)
+        for (uint i = 0u; i < sphere_count; ++i)
             shares *= shares_left(spheres[i].shape, i, own, point, normal, radii);
     }
     return max(shares, vec2(kLeastShare));

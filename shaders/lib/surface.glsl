@@ -3,24 +3,13 @@
 #define VX_SURFACE_GLSL
 
 #include "lib/frame_access.glsl"
+#include "lib/samples.glsl"
+#include "lib/spheres.glsl"
 #include "lib/tally_access.glsl"
 #include "lib/world_access.glsl"
-#include "shared/camera.h"
 #include "shared/sampling.h"
 
 layout(constant_id = 0) const uint has_voxels = 1u;
-layout(constant_id = 1) const uint has_spheres = 0u;
-
-layout(scalar) readonly buffer Spheres {
-    SphereRecord spheres[];
-};
-
-// A few spheres are tested in an unrolled loop over constant places of a uniform block: on lavapipe a test of a sphere
-// that is loaded for each invocation apart takes 1.8 times as long.
-layout(constant_id = 12) const uint few_spheres = 0u;  // how many there are, or 0 for more than fit
-layout(scalar) uniform SphereTable {
-    SphereRecord sphere_table[kFewSpheres];
-};
 
 const uint kNoSphere = 0xFFFFFFFFu;
 
@@ -34,7 +23,7 @@ bool is_surface(Hit hit) {
 }
 
 bool is_on_sphere(Hit hit) {
-    return has_spheres != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
+    return sphere_count != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
 }
 
 // The sphere that a ray off a hit starts on.
@@ -63,14 +52,14 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     NearestSphere nearest;
     nearest.i = kNoSphere;
     nearest.t = t_max;
-    if (few_spheres != 0u) {
-        for (uint i = 0u; i < few_spheres; ++i) {
+    if (sphere_count <= kFewSpheres) {
+        for (uint i = 0u; i < sphere_count; ++i) {
             float t = sphere_time(sphere_table[i].shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
         }
     } else {
-        for (uint i = 0u; i < frame.sphere_count; ++i) {
+        for (uint i = 0u; i < sphere_count; ++i) {
             float t = sphere_time(spheres[i].shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
@@ -108,7 +97,7 @@ Ray ray_from(Hit hit, vec3 direction, float t_max) {
 
 bool hits_voxels(Ray ray) {
     if (has_voxels == 0u) return false;
-    if (has_spheres != 0u) {  // only rays off a sphere can start outside the world
+    if (sphere_count != 0u) {  // only rays off a sphere can start outside the world
         WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
         if (!entry.enters) return false;
         ray = entry.ray;
@@ -121,7 +110,7 @@ bool hits_voxels(Ray ray) {
 
 // `own` is the sphere that the ray starts on.
 bool hits_spheres(Ray ray, uint own) {
-    if (has_spheres == 0u) return false;
+    if (sphere_count == 0u) return false;
     vec3 origin = local_position(ray.cell, ray.fraction);
     return nearest_sphere(origin, ray.direction, ray.t_max, own).i != kNoSphere;
 }

@@ -15,6 +15,7 @@
 #include "shared/cell_age.h"
 
 layout(constant_id = 25) const uint wants_variance = 0u;
+layout(constant_id = 51) const uint ao_rays = 1u;  // of a pixel and sample
 
 layout(scalar) readonly buffer Slots {
     uint slots[];
@@ -40,7 +41,7 @@ void main() {
     if (!pixel.inside) return;
     uint slot = slots[pixel.index];
     float openness = own_openness[pixel.index];
-    float taken = float(frame.ao_rays);
+    float taken = float(ao_rays);
     if (slot != kNoSlot) {
         slot &= ~kSlotRests;
         taken = float(samples[slot]);

@@ -53,8 +53,8 @@ Stream stream_of(Pixel pixel, AoCell cell, uint slot, bool takes) {
     Stream from;
     from.of_cell = by_pixel == 0u && slot != kNoSlot;
     uvec2 taken = uvec2(0u);
-    if (takes && slot != kNoSlot) taken = unpack32(atomicAdd(samples[slot], uint64_t(frame.ao_rays)));
-    from.first = from.of_cell ? taken : first_ray(ao_frame.pass_number, frame.ao_rays);
+    if (takes && slot != kNoSlot) taken = unpack32(atomicAdd(samples[slot], uint64_t(ao_rays)));
+    from.first = from.of_cell ? taken : first_ray(ao_frame.pass_number, ao_rays);
     from.stream = from.of_cell ? ao_cell_stream(ao_cell_key(cell)) : pixel.y * frame.width + pixel.x;
     return from;
 }
@@ -66,10 +66,10 @@ uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
     uint open = 0u;
     for (uint i = 0u; i < rays; ++i) {
         SampleKey key = sample_key(from.stream, ray_number(from.first, i), frame.seed);
-        vec2 u = sample_2d(frame.sequence, key, kPairOcclusion);
+        vec2 u = draw_2d(key, kPairOcclusion);
         Hit start = hit;
         if (by_pixel == 0u) {
-            vec3 point = ao_cell_point(cell, sample_2d(frame.sequence, key, kPairPixel));
+            vec3 point = ao_cell_point(cell, draw_2d(key, kPairPixel));
             start.fraction = from.of_cell ? point : hit.fraction;
         }
         vec3 direction = is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
@@ -90,9 +90,9 @@ void main() {
     bool takes = is_lit && (slot == kNoSlot || (slot & kSlotRests) == 0u);
     AoCell cell = cell_of(hit);
     Stream from = stream_of(pixel, cell, slot, takes);
-    uint open = count_open(hit, cell, from, takes ? frame.ao_rays : 0u);
+    uint open = count_open(hit, cell, from, takes ? ao_rays : 0u);
     if (takes && slot != kNoSlot) atomicAdd(opens[slot], uint64_t(open));
-    count(kWorkAoRays, takes ? frame.ao_rays : 0u);
-    count(kWorkAoOwnRays, takes && slot == kNoSlot ? frame.ao_rays : 0u);
-    own_openness[pixel.index] = is_lit ? float(open) / float(frame.ao_rays) : (hit.face == kFaceInside ? 0.0 : 1.0);
+    count(kWorkAoRays, takes ? ao_rays : 0u);
+    count(kWorkAoOwnRays, takes && slot == kNoSlot ? ao_rays : 0u);
+    own_openness[pixel.index] = is_lit ? float(open) / float(ao_rays) : (hit.face == kFaceInside ? 0.0 : 1.0);
 }

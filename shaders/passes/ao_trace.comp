@@ -26,7 +26,7 @@ void main() {
     float openness = 1.0;
     if (hit.face == kFaceInside) openness = 0.0;
     bool traced = is_surface(hit) && hit.face != kFaceInside;
-    if (traced) openness = trace_openness(pixel, hit, first_ray(frame.sample_index, frame.ao_rays));
-    count(kWorkAoRays, traced ? frame.ao_rays : 0u);
+    if (traced) openness = trace_openness(pixel, hit, first_ray(frame.sample_index, ao_rays));
+    count(kWorkAoRays, traced ? ao_rays : 0u);
     ao[pixel.index] = openness;
 }

@@ -73,9 +73,9 @@ void main() {
         key.seed = frame.seed;
         vec3 normal = surface_normal(hit);
         vec3 origin = local_position(hit.cell, hit.fraction);
-        vec2 u_lamp = sample_2d(frame.sequence, key, kPairLampPoint);
-        vec2 u_surface = sample_2d(frame.sequence, key, kPairSurface);
-        float u_choice = sample_1d(frame.sequence, key, 2u * kPairLamp);
+        vec2 u_lamp = draw_2d(key, kPairLampPoint);
+        vec2 u_surface = draw_2d(key, kPairSurface);
+        float u_choice = draw_1d(key, 2u * kPairLamp);
         uint bits = uint(u_choice * 16777216.0) << 8u;
         Aim aim = aim_at_lamp(origin, bits, rng_float(key.seed, key.stream, key.index, 2u * kPairLamp + 1u), u_lamp);
         for (uint i = 0u; i < 2u; ++i) {

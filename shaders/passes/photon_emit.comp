@@ -66,9 +66,9 @@ void main() {
     key.stream = frame.sample_index;
     key.index = id;
     key.seed = frame.seed;
-    vec2 u_choice = sample_2d(frame.sequence, key, kPairPhoton);
-    vec2 u_point = sample_2d(frame.sequence, key, kPairPhoton + 1u);
-    vec2 u_direction = sample_2d(frame.sequence, key, kPairPhoton + 2u);
+    vec2 u_choice = draw_2d(key, kPairPhoton);
+    vec2 u_point = draw_2d(key, kPairPhoton + 1u);
+    vec2 u_direction = draw_2d(key, kPairPhoton + 2u);
     if (id >= frame.lamp_photons) {
         PhotonStart start = leave_sun(u_point, u_direction);
         start.power /= float(frame.sun_photons);

@@ -10,10 +10,10 @@
 #include "lib/invocation.glsl"
 
 #include "lib/frame_access.glsl"
+#include "lib/samples.glsl"
 #include "lib/tally_access.glsl"
 #include "lib/world_access.glsl"
 #include "shared/beam.h"
-#include "shared/camera.h"
 
 layout(scalar) readonly buffer Starts {
     float starts[];
@@ -45,7 +45,7 @@ void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = no_hit();
-    WorldEntry entry = enter_world(camera_ray(frame, pixel.x, pixel.y), frame.chunks << kChunkLog2);
+    WorldEntry entry = enter_world(camera_ray_of(pixel), frame.chunks << kChunkLog2);
     if (entry.enters) {
         MarchHit found = march_from(entry.ray, frame.chunks, start_of(pixel) - entry.t);
         count(kFaultRayUnsound, found.fault == kMarchUnsound ? 1u : 0u);

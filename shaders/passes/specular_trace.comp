@@ -34,7 +34,7 @@ PathHit first_hit(Pixel pixel) {
 }
 
 PathRay first_ray(Pixel pixel) {
-    Ray ray = camera_ray(frame, pixel.x, pixel.y);
+    Ray ray = camera_ray_of(pixel);
     PathRay path;
     path.cell = ray.cell;
     path.fraction = ray.fraction;
@@ -62,7 +62,7 @@ void main() {
     for (; bounce < kMostBounces; ++bounce) {
         if (!is_surface(found.hit)) break;
         uint pair = kPairBounce + kPairsOfBounce * bounce;
-        vec2 u = bounce < kSureBounces ? sample_2d(frame.sequence, key, pair)
+        vec2 u = bounce < kSureBounces ? draw_2d(key, pair)
                                        : vec2(rng_float(key.seed, key.stream, key.index, 2u * pair),
                                               rng_float(key.seed, key.stream, key.index, 2u * pair + 1u));
         PathEvent event = path_event(path, found, u);

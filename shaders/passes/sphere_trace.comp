@@ -25,7 +25,7 @@ void main() {
     if (!pixel.inside) return;
     Hit hit = voxel_hits[pixel.index * hits_stride];
     if (!is_surface(hit)) hit.t = kUnbounded;
-    Ray ray = camera_ray(frame, pixel.x, pixel.y);
+    Ray ray = camera_ray_of(pixel);
     vec3 origin = local_position(ray.cell, ray.fraction);
     NearestSphere nearest = nearest_sphere(origin, ray.direction, hit.t, kNoSphere);
     hit.t = nearest.t;

@@ -31,7 +31,7 @@ void main() {
         key.stream = pixel.y * frame.width + pixel.x;
         key.index = frame.sample_index;
         key.seed = frame.seed;
-        vec2 u = sample_2d(frame.sequence, key, kPairSun);
+        vec2 u = draw_2d(key, kPairSun);
         vec3 direction = uniform_cone(frame.sun_direction, frame.sun_cone_height, u);
         float cosine = dot(surface_normal(hit), direction);
         traced = cosine > 0.0;

@@ -23,14 +23,14 @@ VX_CONST(uint, kPairPhoton, 6u);     // three pairs, of the emission of a photon
 VX_CONST(uint, kPairBounce, 16u);    // kPairsOfBounce for each surface that a path meets
 VX_CONST(uint, kPairsOfBounce, 3u);
 
-// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from the sample sequence.
-// Pinhole, box filter.
-VX_FN Ray camera_ray(FrameParams frame, uint x, uint y) {
+// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its
+// kSequence* id. Pinhole, box filter.
+VX_FN Ray camera_ray(FrameParams frame, uint sequence, uint x, uint y) {
     SampleKey key;
     key.stream = y * frame.width + x;
     key.index = frame.sample_index;
     key.seed = frame.seed;
-    const vec2 jitter = sample_2d(frame.sequence, key, kPairPixel);
+    const vec2 jitter = sample_2d(sequence, key, kPairPixel);
     VX_PRECISE float right = 2.0f * (float(x) + jitter.x) / float(frame.width) - 1.0f;
     VX_PRECISE float up = 1.0f - 2.0f * (float(y) + jitter.y) / float(frame.height);
     VX_PRECISE vec3 v = frame.camera_forward + right * frame.camera_right + up * frame.camera_up;

@@ -80,15 +80,11 @@ struct FrameParams {
     uint band_first_row;  // of the film band that the slice is in, image row
     uint sample_index;
     uint seed;
-    uint sequence;    // of sequence.h
-    uint ao_rays;     // per sample
     float ao_radius;  // voxels
     vec3 sky_radiance;
     vec3 sun_direction;     // unit, towards the sun
     vec3 sun_irradiance;    // on a surface facing the sun
     float sun_cone_height;  // cone_height of the sun's angular radius
-    uint sphere_count;
-    uint glass_spheres;  // the first so many spheres have glass
     uint light_count;
     float light_power;  // of all lamps: brightness() times etendue, summed
     // Photons of one sample: those of the lamps first, then those of the sun, which start on a disc that

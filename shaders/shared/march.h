@@ -125,6 +125,15 @@ VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     return ((extent + 1) << found.log2) - passed;
 }
 
+// Planes that a ray from inside the world can cross. (A limit that is the same for all rays would be another
+// bound of the loop for each world, and lavapipe would compile the march anew for each dispatch.)
+VX_FN uint planes_ahead(MarchAxes axes, ivec3 size) {
+    const ivec3 ahead = ivec3(axes.flip.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
+                              axes.flip.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
+                              axes.flip.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
+    return uint(max(ahead.x + ahead.y + ahead.z, 0));
+}
+
 // The ray at its start, before the first step.
 VX_FN MarchHit march_nothing(Ray ray) {
     MarchHit hit;
@@ -143,9 +152,10 @@ VX_FN MarchHit march_nothing(Ray ray) {
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
-    const uint limit = uint(size.x + size.y + size.z) + kMarchSlack;
+    const uint limit = planes_ahead(axes, size) + kMarchSlack;
     MarchHit hit = march_nothing(ray);
-    if (hit.fault != kMarchFine || !(max(start, 0.0f) < ray.t_max)) return hit;
+    const float from = hit.fault == kMarchFine ? max(start, 0.0f) : ray.t_max;
+    if (!(from < ray.t_max)) return hit;
     int axis = -1;
     if (start > 0.0f) {
         hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMostPlanes));

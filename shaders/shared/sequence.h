@@ -26,7 +26,8 @@ VX_FN SampleKey sample_key(uint stream, uvec2 index, uint seed) {
     SampleKey key;
     key.stream = stream;
     key.index = index.x;
-    key.seed = index.y == 0u ? seed : seed ^ pcg_hash(index.y);
+    const uint other_seed = seed ^ pcg_hash(index.y);
+    key.seed = index.y == 0u ? seed : other_seed;
     return key;
 }
 

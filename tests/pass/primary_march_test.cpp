@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "passes/plane.h"
 #include "support/frame_rig.h"
 #include "support/march_probe.h"
 #include "support/pixel_oracle.h"
@@ -77,9 +78,10 @@ Marched march_picture(const Scene& scene) {
     test::FrameRig rig(scene);
     Marched marched{.hits = rig.render(0).hits, .solids = local_cells(scene, rig.march_world().origin)};
     std::vector<gpu::Hit> want;
+    const gpu::uint sequence = sequence_id(scene.settings.sequence);
     for (gpu::uint y = 0; y < rig.params().height; ++y) {
         for (gpu::uint x = 0; x < rig.params().width; ++x) {
-            marched.rays.push_back(gpu::camera_ray(rig.params(), x, y));
+            marched.rays.push_back(gpu::camera_ray(rig.params(), sequence, x, y));
             want.push_back(hit_in_cpp(rig.march_world(), marched.rays.back()));
             marched.hit_count += want.back().face != gpu::kFaceMiss ? 1 : 0;
         }

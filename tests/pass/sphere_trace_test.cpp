@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "passes/plane.h"
 #include "support/frame_rig.h"
 #include "support/march_probe.h"
 #include "support/pixel_oracle.h"
@@ -56,8 +57,9 @@ Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
     Judged judged;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const gpu::uint width = rig.params().width;
-        const test::DoubleRay ray = test::to_double(gpu::camera_ray(
-            rig.params(), static_cast<gpu::uint>(i) % width, static_cast<gpu::uint>(i) / width));
+        const test::DoubleRay ray = test::to_double(
+            gpu::camera_ray(rig.params(), sequence_id(scene.settings.sequence),
+                            static_cast<gpu::uint>(i) % width, static_cast<gpu::uint>(i) / width));
         const glm::dvec3 origin = ray.origin + glm::dvec3(rig.march_world().origin);
         double nearest = voxels[i].face == gpu::kFaceMiss ? std::numeric_limits<double>::infinity()
                                                           : static_cast<double>(voxels[i].t);

@@ -31,7 +31,6 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     frame.height = rows_of(job);
     frame.row_count = frame.height;
     frame.column_count = job.width;
-    frame.sphere_count = static_cast<gpu::uint>(job.spheres.size());
     recording.upload(use_buffer(plan, "frame", recording), to_bytes(frame));
     recording.clear(use_buffer(plan, "tally", recording));
     if (!job.spheres.empty())

@@ -29,7 +29,6 @@ gpu::FrameParams camera_at(glm::dvec3 position, glm::vec3 forward, float half_he
     params.camera_up = glm::cross(right, forward) * half_height;
     params.width = 36;
     params.height = 24;
-    params.sequence = gpu::kSequenceWhite;
     params.seed = kSeed;
     return params;
 }
@@ -74,7 +73,8 @@ void compare_starts(const MarchWorld& world, gpu::FrameParams camera,
         const gpu::uint y = pixel / camera.width;
         const gpu::Beam beam = gpu::tile_beam(camera, x - x % gpu::kBeamPixels, y - y % gpu::kBeamPixels);
         const float start = moved(gpu::beam_start(world, beam, world.chunks_size));
-        const gpu::WorldEntry entry = gpu::enter_world(gpu::camera_ray(camera, x, y), world.size());
+        const gpu::WorldEntry entry =
+            gpu::enter_world(gpu::camera_ray(camera, gpu::kSequenceWhite, x, y), world.size());
         if (!entry.enters) continue;
         const gpu::MarchHit want = gpu::march(world, entry.ray, world.chunks_size);
         const gpu::MarchHit hit = gpu::march_from(world, entry.ray, world.chunks_size, start - entry.t);

@@ -71,9 +71,9 @@ TracedStrip record_strip(const RenderPlan& plan, const Slice& slice, gpu::FrameP
     record_frame_upload(plan, params, recording);
     Plane hits = record_primary_march(plan, slice, record_primary_beam(plan, slice, recording), recording);
     if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, slice, hits, recording);
-    params.sequence = gpu::kSequenceSobol;
-    record_frame_upload(plan, params, recording);
-    return {hits.buffer, record_ao_trace(plan, slice, hits, recording).buffer};
+    RenderPlan traced = plan;
+    traced.settings.sequence = Sequence::sobol;
+    return {hits.buffer, record_ao_trace(traced, slice, hits, recording).buffer};
 }
 
 }  // namespace

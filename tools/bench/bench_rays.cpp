@@ -33,7 +33,6 @@ gpu::FrameParams camera_params(const BenchScene& scene, glm::ivec2 size, std::ui
     params.width = static_cast<gpu::uint>(size.x);
     params.height = static_cast<gpu::uint>(size.y);
     params.seed = seed;
-    params.sequence = gpu::kSequenceSobol;
     return params;
 }
 
@@ -74,7 +73,7 @@ std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guid
     for_each_pixel(size, [&](glm::ivec2 pixel) {
         const auto x = static_cast<gpu::uint>(pixel.x);
         const auto y = static_cast<gpu::uint>(pixel.y);
-        const gpu::Ray camera_ray = gpu::camera_ray(params, x, y);
+        const gpu::Ray camera_ray = gpu::camera_ray(params, gpu::kSequenceSobol, x, y);
         if (kind == RayKind::primary) {
             rays.push_back(camera_ray);
             return;

@@ -1,0 +1,25 @@
+// The sample sequence of a frame. It is a constant of the pipeline: on lavapipe a branch on a value of a uniform block is
+// either taken both ways or compiled anew for each sample.
+#ifndef VX_SAMPLES_GLSL
+#define VX_SAMPLES_GLSL
+
+#include "lib/frame_access.glsl"
+#include "lib/world_access.glsl"
+#include "shared/camera.h"
+
+layout(constant_id = 50) const uint sequence = 0u;  // a kSequence* id
+
+vec2 draw_2d(SampleKey key, uint dimension_pair) {
+    return sample_2d(sequence, key, dimension_pair);
+}
+
+float draw_1d(SampleKey key, uint dimension) {
+    return sample_1d(sequence, key, dimension);
+}
+
+// The ray of the frame's sample through a pixel.
+Ray camera_ray_of(Pixel pixel) {
+    return camera_ray(frame, sequence, pixel.x, pixel.y);
+}
+
+#endif
