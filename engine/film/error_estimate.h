@@ -41,10 +41,9 @@ struct ErrorEstimate {
 [[nodiscard]] ErrorEstimate unknown_error();
 
 // The error of film_image(width, height, a, b) by the two-halves argument (error_estimate.cpp). Needs
-// independent halves; low-discrepancy halves disagree more than their mean errs, which makes the estimate too
-// high. Events that no sample met (a caustic not yet found) are invisible to it.
-// With squares, which independent samples allow, the error comes from the variance of each pixel, and only
-// the width of the interval from the halves: the estimate itself scatters less.
+// independent halves, as those of record_frame() are. Events that no sample met (a caustic not yet found) are
+// invisible to it. With squares, which independent samples allow, the error comes from the variance of each
+// pixel, and only the width of the interval from the halves: the estimate itself scatters less.
 [[nodiscard]] ErrorEstimate estimate_error(int width, int height, const FilmHalf& a, const FilmHalf& b,
                                            FilmSquares squares = {});
 

@@ -13,10 +13,22 @@
 #include "passes/sun.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
+#include "shared/hash.h"
 #include "shared/sppm.h"
 
 namespace voxilux {
 namespace {
+
+// Each half of the film follows a sequence of its own, scrambled apart: the halves are independent, and what
+// they disagree by tells how far their mean is off (replicates, as in P. L'Ecuyer and C. Lemieux, "Recent
+// Advances in Randomized Quasi-Monte Carlo Methods", 2002). Every other point of one sequence is no
+// replicate: such halves fill each other's gaps and disagree by up to seven times what their mean errs by.
+// Cells of occlusion have sequences of their own, and no halves.
+void number_sample(const RenderPlan& plan, std::uint32_t sample, gpu::FrameParams& params) {
+    const bool halves = !plan.has_ao_cells();
+    params.sample_index = halves ? sample / 2 : sample;
+    if (halves && sample % 2 == 1) params.seed = gpu::pcg_hash(params.seed);
+}
 
 // Half an axis of the image plane, such that its product with a vector in that plane is the image coordinate.
 gpu::vec3 dual_axis(gpu::vec3 half_axis) {
@@ -93,7 +105,7 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     params.first_row = picture_row + slice.first_row;
     params.row_count = slice.row_count;
     params.band_first_row = picture_row + slice.band_first_row;
-    params.sample_index = sample;
+    number_sample(plan, sample, params);
     record_frame_upload(plan, params, rec);
 
     const Plane voxels = plan.has(Effect::voxels)

@@ -15,7 +15,7 @@ struct FilmPlane {
 };
 
 // The planes of a plan, the two halves of the beauty first. Samples alternate between the halves, even ones
-// to a.
+// to a; each half has its own sequence (frame/frame.cpp).
 [[nodiscard]] std::vector<FilmPlane> film_planes(const RenderPlan& plan);
 
 [[nodiscard]] std::string film_buffer(const std::string& plane, std::uint32_t band);

@@ -99,7 +99,7 @@ struct RenderPlan {
     // Radii of photons that outlive a sample: it depends on those before.
     [[nodiscard]] bool has_own_radii() const { return has_photons() && settings.photons.classic; }
     // Whether samples of a pixel are independent of each other, so that their variance tells the error of
-    // their mean. Those of a low-discrepancy sequence are not: they err less.
+    // their mean. Those of a low-discrepancy sequence are not: their mean errs less. (Its two halves are.)
     // Iterations of photons are independent whatever leads the camera's rays.
     [[nodiscard]] bool has_independent_samples() const {
         return settings.sequence == Sequence::white || has_photons();

@@ -23,8 +23,9 @@ struct ErrorPoint {
 // Nothing where the estimate is unknown, or an end of its interval infinite.
 [[nodiscard]] std::optional<ErrorPoint> error_point(double samples, const ErrorEstimate& estimate);
 
-// How noise may fall with the number of samples. Independent ones: as 1/n. Those of a sequence: between 1/n
-// and 1/n^2. Photons: between 1/n and n^-alpha, as the variance of iteration i grows as i^(1-alpha).
+// How noise may fall with the number of samples. Independent ones: as 1/n. Those of a sequence: as a
+// power of n between 1/n and 1/n^2. Photons: between 1/n and n^-alpha, as the variance of iteration i grows
+// as i^(1-alpha).
 enum class NoiseLaw : std::uint8_t { independent, sequence, photons };
 
 struct ErrorLaw {

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;  // of the attribute; another one is refused
+constexpr int kFormat = 2;  // of the attribute; another one is refused
 
 std::string_view name_of(Sequence sequence) {
     switch (sequence) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "film/film.h"
+#include "film/metrics.h"
 #include "scene/scene_toml.h"
 #include "support/frame_rig.h"
 #include "support/shared_data.h"
@@ -105,6 +106,51 @@ TEST(SequenceError, sobol_errs_no_more_than_halton_and_less_than_white_noise_in_
     EXPECT_NEAR(white_gain, 2.0, 0.2);
     EXPECT_EQ(RenderSettings{}.sequence, Sequence::sobol);
 }
+
+// What pictures claim of their error over what it is.
+class ClaimOfSequence : public testing::TestWithParam<Sequence> {
+  protected:
+    static constexpr std::uint32_t kSamples = 64;
+
+    void SetUp() override {
+        scene_.settings.sequence = GetParam();
+        scene_.settings.spp = kSamples;
+        claims_ = test::render_validated(scene_);
+        Scene finer = scene_;
+        finer.settings.seed = kTruthSeed;
+        finer.settings.sequence = Sequence::sobol;
+        finer.settings.ao_rays = kTruthRays;
+        finer.settings.spp = 512;
+        truth_ = test::render_validated(finer).image;
+    }
+    [[nodiscard]] double true_error() const {
+        const auto pixels = selected_pixels(truth_.width, truth_.height, {});
+        return std::sqrt(measure_difference(truth_, claims_.image, pixels).relmse);
+    }
+
+    Scene scene_ = our_scene("wall_corner", {48, 36});
+    RenderOutcome claims_;
+    Image truth_;
+};
+
+// Of 1728 pixels the claim and the truth scatter by 4 % each.
+TEST_P(ClaimOfSequence, is_the_error) {
+    EXPECT_NEAR(claims_.statistics.error.estimate / true_error(), 1.0, 0.15);
+}
+
+// The twin: the claim of half the samples is not.
+TEST_P(ClaimOfSequence, of_fewer_samples_is_not) {
+    scene_.settings.spp = kSamples / 2;
+    EXPECT_GT(test::render_validated(scene_).statistics.error.estimate / true_error(), 1.3);
+}
+
+std::string sequence_name(const testing::TestParamInfo<Sequence>& test) {
+    constexpr std::array<const char*, 3> kNames = {"sobol", "halton", "white"};
+    return kNames[static_cast<std::size_t>(test.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Sequences, ClaimOfSequence,
+                         testing::Values(Sequence::sobol, Sequence::halton, Sequence::white), sequence_name);
 
 TEST(SequenceErrorNightly, table_of_our_scenes) {
     for (const std::string name : {"wall_corner", "first_light"}) {

@@ -92,7 +92,7 @@ TEST(ErrorStop, pilot_decides_before_the_first_sample) {
 }
 
 TEST(ErrorStop, smaller_error_takes_more_samples) {
-    EXPECT_GT(render_to(0.08, yard()).statistics.samples, 2 * render_to(0.16, yard()).statistics.samples);
+    EXPECT_GT(render_to(0.02, yard()).statistics.samples, 2 * render_to(0.08, yard()).statistics.samples);
 }
 
 TEST(ErrorStop, error_out_of_reach_takes_the_samples_allowed) {

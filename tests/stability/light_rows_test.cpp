@@ -281,7 +281,7 @@ TEST(Row31, faint_lamp_beside_a_bright_one_and_many_lamps_agree_with_paths) {
     test::add_box(scene, {0, 3, 5}, {1, 4, 6}, test::add_lamp(scene, 300.0f));
     for (int i = 0; i < 9; ++i)
         test::add_box(scene, {i, 9, 7}, {i + 1, 10, 8}, test::add_lamp(scene, 0.2f * static_cast<float>(i)));
-    expect_equal(render(scene, 64), truth_of(scene, 512), "many lamps");
+    expect_equal(render(scene, 64), truth_of(scene, 2048), "many lamps");
 }
 
 // Row 32 and 33. Light of the sun through an opening, which only photons carry on.
