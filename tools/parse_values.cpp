@@ -138,7 +138,9 @@ AoMethod parse_ao_method(std::string_view name) {
 
 Sequence parse_sequence(std::string_view name) {
     static constexpr std::array<std::pair<std::string_view, Sequence>, 3> kNames = {
-        {{"sobol", Sequence::sobol}, {"halton", Sequence::halton}, {"white", Sequence::white}}};
+        {{name_of(Sequence::sobol), Sequence::sobol},
+         {name_of(Sequence::halton), Sequence::halton},
+         {name_of(Sequence::white), Sequence::white}}};
     return parse_name("--sequence", name, kNames);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -117,6 +118,10 @@ struct Camera {
 };
 
 enum class Sequence : std::uint8_t { sobol, halton, white };
+inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "halton", "white"};  // in that order
+[[nodiscard]] constexpr std::string_view name_of(Sequence sequence) {
+    return kSequenceNames[static_cast<std::size_t>(sequence)];
+}
 
 struct RenderSettings {
     glm::ivec2 size{640, 360};  // pixels

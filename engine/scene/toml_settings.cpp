@@ -33,8 +33,7 @@ void read_render(TomlScene& in) {
     whole("seed", 0, std::numeric_limits<std::uint32_t>::max(), settings.seed);
     if (const auto radius = section.number("ao_radius", {0.0, kMaxAoRadius, true}))
         settings.ao_radius = static_cast<float>(*radius);
-    constexpr std::array<std::string_view, 3> kNames{"sobol", "halton", "white"};  // in the order of Sequence
-    if (const auto choice = section.choice("sequence", kNames))
+    if (const auto choice = section.choice("sequence", kSequenceNames))
         settings.sequence = static_cast<Sequence>(*choice);
 }
 

@@ -14,18 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 2;  // of the attribute; another one is refused
 
-std::string_view name_of(Sequence sequence) {
-    switch (sequence) {
-        case Sequence::sobol:
-            return "sobol";
-        case Sequence::halton:
-            return "halton";
-        case Sequence::white:
-            return "white";
-    }
-    VX_ASSERT(false);
-}
-
 Json matrix_json(const std::optional<glm::mat4>& matrix) {
     if (!matrix) return nullptr;
     Json numbers = Json::array();

@@ -16,14 +16,9 @@ namespace {
 // Relative; the pictures are stored as the floats nearest to exact means (analytic plane).
 constexpr double kRoundingError = 1e-5;
 
-// A large plane seen from above: occlusion finds nothing, and sun and sky are the same everywhere.
+// The plane, seen by more pixels.
 Scene lit_plane(float angular_diameter_deg) {
-    Scene scene = test::white_scene();
-    test::add_box(scene, {-40, -40, -1}, {40, 40, 0});
-    scene.materials[0].albedo = glm::vec3(0.12f, 0.5f, 0.93f);
-    scene.sky.radiance = glm::vec3(0.7f, 0.9f, 1.2f);
-    scene.sun = {.azimuth_deg = 300.0f, .elevation_deg = 35.0f, .angular_diameter_deg = angular_diameter_deg};
-    scene.camera = test::camera_down({0, 0, 20}, 50.0);
+    Scene scene = test::lit_plane(angular_diameter_deg);
     scene.settings.size = {48, 48};
     return scene;
 }

@@ -15,18 +15,6 @@ constexpr double kRadianceError = 4.0 * 0x1p-24 + 0x1p-25 / 0.01;
 // Standard deviations of a mean of thousands of samples; 1 in 16,000 by chance, and the seeds are fixed.
 constexpr double kSigmas = 4.0;
 
-Scene lit_plane(float angular_diameter_deg) {
-    Scene scene = test::white_scene();
-    test::add_box(scene, {-40, -40, -1}, {40, 40, 0});
-    scene.materials[0].albedo = glm::vec3(0.12f, 0.5f, 0.93f);
-    scene.sky.radiance = glm::vec3(0.7f, 0.9f, 1.2f);
-    scene.sun = {.azimuth_deg = 300.0f, .elevation_deg = 35.0f, .angular_diameter_deg = angular_diameter_deg};
-    scene.camera = test::camera_down({0, 0, 20}, 50.0);
-    scene.settings.size = {32, 32};
-    scene.settings.spp = 8;
-    return scene;
-}
-
 // albedo (sky + irradiance cosine / pi), the cosine of a cap of half angle r being sin(elevation) (1 + cos r)
 // / 2.
 glm::dvec3 closed_form(const Scene& scene) {
@@ -56,7 +44,7 @@ Mean mean_of(const std::vector<float>& pixels) {
 constexpr std::array<const char*, 3> kColours = {"R", "G", "B"};
 
 TEST(AnalyticPlane, under_sky_and_hard_sun_every_pixel_is_the_closed_form_and_the_error_estimate_zero) {
-    const Scene scene = lit_plane(0.0f);
+    const Scene scene = test::lit_plane(0.0f);
     const RenderOutcome outcome = test::render_validated(scene);
     const glm::dvec3 want = closed_form(scene);
     for (int c = 0; c < 3; ++c) {
@@ -69,7 +57,7 @@ TEST(AnalyticPlane, under_sky_and_hard_sun_every_pixel_is_the_closed_form_and_th
 
 TEST(AnalyticPlane, under_a_soft_sun_the_mean_is_the_closed_form) {
     for (const Sequence sequence : {Sequence::white, Sequence::sobol, Sequence::halton}) {
-        Scene scene = lit_plane(24.0f);
+        Scene scene = test::lit_plane(24.0f);
         scene.settings.sequence = sequence;
         const RenderOutcome outcome = test::render_validated(scene);
         const glm::dvec3 want = closed_form(scene);
@@ -82,7 +70,7 @@ TEST(AnalyticPlane, under_a_soft_sun_the_mean_is_the_closed_form) {
 }
 
 TEST(AnalyticPlane, mean_under_a_soft_sun_rejects_an_elevation_half_a_degree_off) {
-    const Scene scene = lit_plane(24.0f);
+    const Scene scene = test::lit_plane(24.0f);
     Scene moved = scene;
     moved.sun.elevation_deg += 0.5f;
     const Mean mean = mean_of(test::render_validated(moved).image.channels.at("R").pixels);
@@ -91,7 +79,7 @@ TEST(AnalyticPlane, mean_under_a_soft_sun_rejects_an_elevation_half_a_degree_off
 
 // Sky, sun and emission add up: the picture of all three is the sum of the pictures of each.
 TEST(AnalyticPlane, light_is_additive) {
-    Scene all = lit_plane(24.0f);
+    Scene all = test::lit_plane(24.0f);
     all.materials[0].emission = glm::vec3(0.25f);
     const auto red_of = [](const Scene& scene) {
         return test::render_validated(scene).image.channels.at("R").pixels;

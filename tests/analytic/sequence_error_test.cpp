@@ -79,8 +79,7 @@ void print_table(const std::string& name, const Measurement& measurement) {
     fmt::print("\n");
     for (const std::uint32_t ao_rays : {1u, 4u}) {
         for (const auto& [sequence, rmse_of] : measure(measurement, truth, ao_rays)) {
-            constexpr std::array<const char*, 3> kNames = {"sobol", "halton", "white"};
-            fmt::print("{:<14} {:>8}", kNames[static_cast<std::size_t>(sequence)], ao_rays);
+            fmt::print("{:<14} {:>8}", name_of(sequence), ao_rays);
             for (const double error : rmse_of)
                 fmt::print(" {:>11.5f}", error);
             fmt::print("\n");
@@ -145,8 +144,7 @@ TEST_P(ClaimOfSequence, of_fewer_samples_is_not) {
 }
 
 std::string sequence_name(const testing::TestParamInfo<Sequence>& test) {
-    constexpr std::array<const char*, 3> kNames = {"sobol", "halton", "white"};
-    return kNames[static_cast<std::size_t>(test.param)];
+    return std::string(name_of(test.param));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sequences, ClaimOfSequence,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <random>
 #include <string>
 
 #include "film/image.h"
@@ -35,6 +36,14 @@ inline Image rgb_image(int width, int height, const PixelFunction& value) {
 
 inline Image constant_image(int width, int height, float value) {
     return rgb_image(width, height, [&](int, int, int) { return value; });
+}
+
+// Adds independent normal noise to every value.
+inline void add_noise(Image& image, double deviation, std::mt19937& random) {
+    std::normal_distribution<double> noise(0.0, deviation);
+    for (auto& [name, channel] : image.channels)
+        for (float& value : channel.pixels)
+            value += static_cast<float>(noise(random));
 }
 
 // Display-referred image from 8-bit sRGB codes.

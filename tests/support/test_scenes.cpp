@@ -42,6 +42,18 @@ Camera camera_towards(glm::dvec3 position, glm::dvec3 target, double fov_y_deg) 
             .fov_y_deg = fov_y_deg};
 }
 
+Scene lit_plane(float angular_diameter_deg) {
+    Scene scene = white_scene();
+    add_box(scene, {-40, -40, -1}, {40, 40, 0});
+    scene.materials[0].albedo = glm::vec3(0.12f, 0.5f, 0.93f);
+    scene.sky.radiance = glm::vec3(0.7f, 0.9f, 1.2f);
+    scene.sun = {.azimuth_deg = 300.0f, .elevation_deg = 35.0f, .angular_diameter_deg = angular_diameter_deg};
+    scene.camera = camera_down({0, 0, 20}, 50.0);
+    scene.settings.size = {32, 32};
+    scene.settings.spp = 8;
+    return scene;
+}
+
 std::vector<glm::ivec3> scene_cells(const Scene& scene) {
     std::vector<glm::ivec3> cells;
     for (const Instance& instance : scene.instances) {

@@ -20,6 +20,10 @@ void add_box(Scene& scene, glm::ivec3 from, glm::ivec3 to, std::uint16_t materia
 // A camera at `position` that looks at `target`.
 [[nodiscard]] Camera camera_towards(glm::dvec3 position, glm::dvec3 target, double fov_y_deg = 45.0);
 
+// A large plane seen from above, lit by a sun of this diameter and by a sky that nothing hides: sun and sky
+// are the same everywhere.
+[[nodiscard]] Scene lit_plane(float angular_diameter_deg);
+
 // Scene cells of all voxels.
 [[nodiscard]] std::vector<glm::ivec3> scene_cells(const Scene& scene);
 

@@ -8,25 +8,15 @@
 #include "film/difference_estimate.h"
 #include "film/metrics.h"
 #include "film/student_quantile.h"
+#include "support/test_images.h"
 
 namespace voxilux {
 namespace {
 
 constexpr int kEdge = 64;
-const std::array<std::string, 3> kNames = {"R", "G", "B"};
 
 Image flat(float value) {
-    Image image = make_image(kEdge, kEdge, kNames);
-    for (auto& [name, channel] : image.channels)
-        channel.pixels.assign(pixel_count(image), value);
-    return image;
-}
-
-void add_noise(Image& image, double deviation, std::mt19937& random) {
-    std::normal_distribution<double> noise(0.0, deviation);
-    for (auto& [name, channel] : image.channels)
-        for (float& pixel : channel.pixels)
-            pixel += static_cast<float>(noise(random));
+    return test::constant_image(kEdge, kEdge, value);
 }
 
 // Noise that discs of photons make: the same for the pixels of an 8 x 8 tile.
@@ -60,8 +50,8 @@ Pictures noisy(double bias, double deviation, std::uint32_t seed, std::size_t tr
     for (std::size_t k = 0; k < trials; ++k) {
         pictures.tests.push_back(flat(0.5f + static_cast<float>(bias)));
         pictures.bases.push_back(flat(0.5f));
-        add_noise(pictures.tests.back(), deviation, random);
-        add_noise(pictures.bases.back(), 0.02, random);
+        test::add_noise(pictures.tests.back(), deviation, random);
+        test::add_noise(pictures.bases.back(), 0.02, random);
     }
     return pictures;
 }
@@ -148,7 +138,7 @@ TEST(DifferenceEstimate, large_difference_among_fireflies_is_beyond_noise) {
     for (int k = 0; k < 3; ++k) {
         pictures.tests.push_back(flat(0.0f));
         pictures.bases.push_back(flat(0.2f));
-        add_noise(pictures.bases.back(), 0.15, random);
+        test::add_noise(pictures.bases.back(), 0.15, random);
         for (int i = 0; i < 200; ++i)
             pictures.bases.back().channels.at("G").pixels[place(random)] = 50.0f;
     }

@@ -196,8 +196,8 @@ TEST(FilmPart, damaged_description_is_refused) {
         }
         return std::string();
     };
-    EXPECT_EQ(refusal("\"format\":1", "\"format\":1"), "");
-    EXPECT_NE(refusal("\"format\":1", "\"format\":2"), "");
+    EXPECT_EQ(refusal("\"format\":2", "\"format\":2"), "");
+    EXPECT_NE(refusal("\"format\":2", "\"format\":1"), "");
     EXPECT_NE(refusal("\"shards\":3", "\"shards\":0"), "");
     EXPECT_NE(refusal("\"shards\":3", "\"shards\":1"), "") << "shard 2 of 1";
     EXPECT_NE(refusal("\"samples\":4", "\"samples\":5"), "") << "more than a shard has";

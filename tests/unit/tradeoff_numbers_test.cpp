@@ -10,6 +10,7 @@
 
 #include "film/metrics.h"
 #include "support/scratch_folder.h"
+#include "support/test_images.h"
 #include "tradeoff/difference_map.h"
 #include "tradeoff/equal_rows.h"
 #include "tradeoff/error_split.h"
@@ -20,7 +21,6 @@ namespace voxilux {
 namespace {
 
 constexpr int kEdge = 64;
-const std::array<std::string, 3> kNames = {"R", "G", "B"};
 
 std::vector<PricePoint> power_law(double exponent, double scatter, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -80,17 +80,7 @@ TEST(ParetoFront, changes_when_a_point_gets_better) {
 }
 
 Image flat(float value) {
-    Image image = make_image(kEdge, kEdge, kNames);
-    for (auto& [name, channel] : image.channels)
-        channel.pixels.assign(pixel_count(image), value);
-    return image;
-}
-
-void add_noise(Image& image, double deviation, std::mt19937& random) {
-    std::normal_distribution<double> noise(0.0, deviation);
-    for (auto& [name, channel] : image.channels)
-        for (float& pixel : channel.pixels)
-            pixel += static_cast<float>(noise(random));
+    return test::constant_image(kEdge, kEdge, value);
 }
 
 // Pictures that are `bias` off a radiance of 0.5 and noisy, against a reference that is a little noisy
@@ -98,10 +88,10 @@ void add_noise(Image& image, double deviation, std::mt19937& random) {
 SplitError split(double bias, double noise, double reference_noise, std::uint32_t seed) {
     std::mt19937 random(seed);
     Image reference = flat(0.5f);
-    add_noise(reference, reference_noise, random);
+    test::add_noise(reference, reference_noise, random);
     std::vector<Image> pictures(3, flat(0.5f + static_cast<float>(bias)));
     for (Image& picture : pictures)
-        add_noise(picture, noise, random);
+        test::add_noise(picture, noise, random);
     const double square = reference_noise * reference_noise / (0.25 + kRelMseEpsilon);
     return split_error(pictures, reference, {square, square, square});
 }
@@ -132,10 +122,10 @@ TEST(ErrorSplit, finds_no_bias_where_there_is_none) {
 TEST(ErrorSplit, takes_unknown_noise_of_the_reference_for_bias) {
     std::mt19937 random(5);
     Image reference = flat(0.5f);
-    add_noise(reference, 0.05, random);
+    test::add_noise(reference, 0.05, random);
     std::vector<Image> pictures(3, flat(0.5f));
     for (Image& picture : pictures)
-        add_noise(picture, 0.05, random);
+        test::add_noise(picture, 0.05, random);
     EXPECT_GT(split_error(pictures, reference, {}).bias_low, 0.5 * relative(0.05));
 }
 
@@ -180,7 +170,7 @@ TEST(EqualError, extends_the_last_two_levels) {
 CachedPicture some_picture() {
     std::mt19937 random(3);
     CachedPicture picture{.image = flat(0.5f)};
-    add_noise(picture.image, 0.1, random);
+    test::add_noise(picture.image, 0.1, random);
     picture.facts = {{"samples", 64}};
     return picture;
 }

@@ -87,7 +87,7 @@ int run_plan(const PlanCommand& plan_command) {
     }
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
-    const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device));
+    const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device.selector));
     return print_plan(command, frames, prepared.plan, plan_json(scene, prepared.plan),
                       command.verbose ? describe_first_frame(prepared, scene) : "");
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "cache_folder.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
@@ -82,8 +81,8 @@ CLI::App* add_render(CLI::App& app, RenderCommand& command) {
 RenderOptions render_options(const RenderCommand& command, const std::vector<std::string>& outputs) {
     RenderOptions options;
     options.plan = request_of(command, outputs);
-    options.device = {.selector = command.device, .validation = command.validation && !command.no_validation};
-    if (!command.no_cache) options.executor.cache_dir = cache_folder();
+    options.device = command.device.request();
+    options.executor.cache_dir = command.device.cache_dir();
     const glm::ivec2 group = parse_size("--group-size", command.group_size);
     options.executor.group_size = {static_cast<std::uint32_t>(group.x), static_cast<std::uint32_t>(group.y)};
     if (command.time_limit) options.time_limit_s = parse_duration(*command.time_limit);

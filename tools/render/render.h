@@ -1,5 +1,6 @@
 #pragma once
 
+#include "device_options.h"
 #include "scene_options.h"
 #include "session/render_session.h"
 
@@ -10,7 +11,7 @@ struct RenderCommand {
     SceneOptions scene;
     std::vector<std::string> outputs;
     std::string json;
-    std::string device;
+    DeviceOptions device;
     std::optional<std::string> time_limit;
     std::optional<std::string> error;
     std::optional<std::string> shard;
@@ -21,9 +22,6 @@ struct RenderCommand {
     float exposure_ev = 0.0f;
     std::string group_size = "8x8";
     bool reproducible = false;
-    bool validation = VX_VALIDATION_DEFAULT;
-    bool no_validation = false;
-    bool no_cache = false;
     bool quiet = false;
     bool verbose = false;
 };

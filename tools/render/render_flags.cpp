@@ -11,7 +11,6 @@ namespace fs = std::filesystem;
 constexpr const char* kStop = "When to stop";
 constexpr const char* kOutput = "Output";
 constexpr const char* kParts = "Parts and checkpoints";
-constexpr const char* kDevice = "Device";
 
 void add_output_flags(CLI::App& command, RenderCommand& options) {
     command
@@ -45,24 +44,12 @@ void add_output_flags(CLI::App& command, RenderCommand& options) {
         ->group(kOutput);
 }
 
-void add_device_flags(CLI::App& command, RenderCommand& options) {
-    command.add_option("--device", options.device, "index or part of the name, see voxilux devices")
-        ->type_name("NAME")
-        ->group(kDevice);
-    command
-        .add_option("--memory-budget", options.scene.memory_budget_mib,
-                    "most memory on the device, in MiB; 0 is no limit (default 0)")
-        ->type_name("N")
-        ->group(kDevice);
+void add_machine_flags(CLI::App& command, RenderCommand& options) {
+    add_device_flags(command, options.device, options.scene.memory_budget_mib, "the pipeline cache");
     command
         .add_option("--group-size", options.group_size, "workgroup of the passes over pixels (default 8x8)")
         ->type_name("WxH")
-        ->group(kDevice);
-    command.add_flag("--no-cache", options.no_cache, "neither read nor write the pipeline cache")
-        ->group(kDevice);
-    command.add_flag("--validation", options.validation, "run under the Vulkan validation layers")
-        ->group(kDevice);
-    command.add_flag("--no-validation", options.no_validation, "run without them")->group(kDevice);
+        ->group(kDeviceGroup);
 }
 
 void add_part_flags(CLI::App& command, RenderCommand& options) {
@@ -102,7 +89,7 @@ void add_render_flags(CLI::App& command, RenderCommand& options) {
         ->type_name("T")
         ->group(kStop);
     add_part_flags(command, options);
-    add_device_flags(command, options);
+    add_machine_flags(command, options);
 }
 
 std::vector<std::string> output_files(const RenderCommand& command) {

@@ -22,18 +22,6 @@ std::uint32_t seed_of(const Workshop& workshop, std::size_t repeat, std::uint32_
     return workshop.seed + static_cast<std::uint32_t>(repeat + 1) * kRepeatStep + (samples + 7) * kLevelStep;
 }
 
-const char* name_of(Sequence sequence) {
-    switch (sequence) {
-        case Sequence::sobol:
-            return "sobol";
-        case Sequence::halton:
-            return "halton";
-        case Sequence::white:
-            return "white";
-    }
-    VX_ASSERT(false);
-}
-
 const char* method_of(const PhotonSettings& photons) {
     if (photons.classic) return "classic";
     return photons.scatter ? "scatter" : "gather";

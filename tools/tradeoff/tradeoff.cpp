@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "cache_folder.h"
 #include "film/difference_estimate.h"
 #include "output_files.h"
 #include "parse_values.h"
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kOutput = "Output";
-constexpr const char* kDevice = "Device";
 constexpr const char* kPrice = "Price list";
 constexpr int kMostRepeats = 100;
 
@@ -96,8 +94,8 @@ void prepare_folder(const TradeoffCommand& command) {
 RenderOptions render_options(const TradeoffCommand& command) {
     RenderOptions options;
     options.plan = plan_request(command.scene);
-    options.device = {.selector = command.device, .validation = command.validation && !command.no_validation};
-    if (!command.no_cache) options.executor.cache_dir = cache_folder();
+    options.device = command.device.request();
+    options.executor.cache_dir = command.device.cache_dir();
     options.keeps_film = true;  // the reference is made from sums
     return options;
 }
@@ -129,7 +127,7 @@ Way base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& pla
 }
 
 fs::path reference_folder(const TradeoffCommand& command) {
-    const fs::path folder = command.no_cache ? fs::path() : cache_folder();
+    const fs::path folder = command.device.cache_dir();
     return folder.empty() ? folder : folder / "references";
 }
 
@@ -221,23 +219,6 @@ void add_output_flags(CLI::App& tradeoff, TradeoffCommand& command) {
     tradeoff.add_flag("-q,--quiet", command.quiet, "print errors only")->group(kOutput);
 }
 
-void add_device_flags(CLI::App& tradeoff, TradeoffCommand& command) {
-    tradeoff.add_option("--device", command.device, "index or part of the name, see voxilux devices")
-        ->type_name("NAME")
-        ->group(kDevice);
-    tradeoff
-        .add_option("--memory-budget", command.scene.memory_budget_mib,
-                    "most memory on the device, in MiB; 0 is no limit (default 0)")
-        ->type_name("N")
-        ->group(kDevice);
-    tradeoff
-        .add_flag("--no-cache", command.no_cache, "neither read nor write caches of pipelines and references")
-        ->group(kDevice);
-    tradeoff.add_flag("--validation", command.validation, "run under the Vulkan validation layers")
-        ->group(kDevice);
-    tradeoff.add_flag("--no-validation", command.no_validation, "run without them")->group(kDevice);
-}
-
 }  // namespace
 
 CLI::App* add_tradeoff(CLI::App& app, TradeoffCommand& command) {
@@ -255,7 +236,8 @@ CLI::App* add_tradeoff(CLI::App& app, TradeoffCommand& command) {
                      "pictures of each run, with random numbers of their own; at least 3 (default 3)")
         ->type_name("N")
         ->group(kPrice);
-    add_device_flags(*tradeoff, command);
+    add_device_flags(*tradeoff, command.device, command.scene.memory_budget_mib,
+                     "caches of pipelines and references");
     return tradeoff;
 }
 

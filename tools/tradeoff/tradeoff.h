@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "device_options.h"
 #include "scene_options.h"
 
 namespace voxilux {
@@ -12,14 +13,11 @@ struct TradeoffCommand {
     SceneOptions scene;
     std::string output;
     std::string json;
-    std::string device;
+    DeviceOptions device;
     std::string time_limit = "120s";
     std::string progress = "auto";
     int repeats = 3;
     bool no_page = false;
-    bool no_cache = false;
-    bool validation = VX_VALIDATION_DEFAULT;
-    bool no_validation = false;
     bool quiet = false;
 };
 
