@@ -93,7 +93,7 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
 // the first sample.
 TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
     const ScratchFolder scratch;
-    const Words job = {"render", scene_file("mixed"), "--size", "32x64", "--spp", "2", "--ao-rays",
+    const Words job = {"render", scene_file("mixed"), "--size", "32x64", "--spp", "3", "--ao-rays",
                        "150000", "--reproducible",    "-o",     "a.exr"};
     const auto with = [&](const Words& more) {
         Words words = job;
@@ -106,11 +106,13 @@ TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
     EXPECT_EQ(child.finish().code, 130);
     const Image part = decode_exr(read_file(scratch / "a.exr.part"), "a.exr.part");
     const Json description = Json::parse(part.attributes.at("voxilux.part"));
-    EXPECT_EQ(description["done"][0]["samples"], 0);
+    const int whole =
+        description["done"][0]["samples"];  // as many as the machine took before it was told to stop
+    EXPECT_LT(whole, 3);
     EXPECT_GT(description["rows_ahead"], 0) << "or this tests nothing";
     const std::vector<float>& samples = part.channels.at("sampleCount.Y").pixels;
-    EXPECT_EQ(samples.front(), 1.0f);
-    EXPECT_EQ(samples.back(), 0.0f);
+    EXPECT_EQ(samples.front(), static_cast<float>(whole + 1));
+    EXPECT_EQ(samples.back(), static_cast<float>(whole));
     const Ending merged =
         run({"merge", "a.exr.part", "--partial", "-o", "m.exr"}, {.folder = scratch.path()});
     EXPECT_EQ(merged.code, 3);
