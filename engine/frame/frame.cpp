@@ -22,7 +22,7 @@ namespace {
 // Each half of the film follows a sequence of its own, scrambled apart: the halves are independent, and what
 // they disagree by tells how far their mean is off (replicates, as in P. L'Ecuyer and C. Lemieux, "Recent
 // Advances in Randomized Quasi-Monte Carlo Methods", 2002). Every other point of one sequence is no
-// replicate: such halves fill each other's gaps and disagree by up to seven times what their mean errs by.
+// replicate: such halves fill each other's gaps and disagree by far more than their mean errs by.
 // Cells of occlusion have sequences of their own, and no halves.
 void number_sample(const RenderPlan& plan, std::uint32_t sample, gpu::FrameParams& params) {
     const bool halves = !plan.has_ao_cells();
