@@ -88,6 +88,7 @@ PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Pl
                                                     .iteration = iteration,
                                                     .alpha = settings.alpha});
     record_photon_clear(plan, params, rec);
+    record_photon_mark(plan, slice, hits, rec);
     record_photon_emit(plan, rec);
     record_photon_trace(plan, rec);
     if (settings.scatter) return record_photon_splat(plan, params, slice, hits, rec);

@@ -116,6 +116,17 @@ void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params
     recording.clear(use_buffer(plan, "photon.counts", recording));
 }
 
+void record_photon_mark(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
+    const std::string wanted = use_buffer(plan, "photon.wanted", recording);
+    recording.clear(wanted);
+    Dispatch dispatch{.label = "photon.mark",
+                      .shader = "photon_mark",
+                      .extent = pixel_extent(plan, slice),
+                      .bindings = point_bindings(plan, hits, recording)};
+    dispatch.bindings.push_back({"WantedCells", wanted});
+    recording.dispatch(std::move(dispatch));
+}
+
 void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording) {
     record_photon_scan(plan, params, recording);
     const std::string head = use_buffer(plan, "photon.head", recording);
@@ -126,8 +137,7 @@ void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params,
                       {"PhotonHeads", head},
                       {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
                       {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                      {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
-                      {"SortedPowers", use_buffer(plan, "photon.powers", recording)}}},
+                      {"SortedPhotons", use_buffer(plan, "photon.sorted", recording)}}},
         head);
 }
 
@@ -142,11 +152,11 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
     dispatch.bindings.insert(dispatch.bindings.end(),
                              {{"Tally", use_buffer(plan, "tally", recording)},
                               {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                              {"SortedPlaces", use_buffer(plan, "photon.places", recording)},
-                              {"SortedPowers", use_buffer(plan, "photon.powers", recording)}});
+                              {"SortedPhotons", use_buffer(plan, "photon.sorted", recording)}});
     dispatch.bindings.push_back(
         {"PixelRadii", own ? use_buffer(plan, "photon.radii", recording) : placeholder_buffer(recording)});
     dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
+    dispatch.constants.push_back({"known_lanes", plan.photons.gather_lanes});
     let_resolve(plan, planes, dispatch, recording);
     recording.dispatch(std::move(dispatch));
     return planes;

@@ -44,6 +44,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                              {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
                               {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
                               {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                              {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
                               {"BucketCounts", use_buffer(plan, "photon.counts", recording)}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));

@@ -16,6 +16,7 @@ struct DeviceLimits {
     std::uint64_t max_allocation_bytes = std::uint64_t{2} << 30;  // one buffer
     std::array<std::uint32_t, 3> max_groups = {65535, 65535, 65535};
     std::uint32_t max_push_bytes = 128;
+    std::uint32_t subgroup_size = 8;  // of a CPU in all its subgroups, of others at most
     bool is_cpu = true;
     std::string name = "lavapipe";
 

@@ -6,6 +6,7 @@
 #include "plan/film_planes.h"
 #include "shared/alias.h"
 #include "shared/gpu_types.h"
+#include "shared/photon_cell.h"
 #include "shared/photon_types.h"
 #include "shared/tally.h"
 
@@ -37,6 +38,7 @@ void list_ao_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass&
 
 void list_photon_passes(const RenderPlan& plan, std::uint64_t slices, const AddPass& add) {
     const bool on = plan.has_photons();
+    add(on, "photon.mark", slices);
     add(on, "photon.emit", slices);
     add(on, "photon.trace", slices);
     const bool scatter = plan.settings.photons.scatter;
@@ -59,6 +61,7 @@ void list_photon_buffers(RenderPlan& plan) {
     list("photon.rays", photons.count() * sizeof(gpu::PhotonStart));
     list("photon.head", sizeof(gpu::PhotonHead));
     list("photon.stored", photons.capacity * sizeof(gpu::StoredPhoton));
+    list("photon.wanted", gpu::mark_words(photons.buckets) * sizeof(gpu::uint));
     list("photon.counts", photons.buckets * sizeof(gpu::uint));
     list("photon.runs", gpu::scan_runs(photons.buckets) * sizeof(gpu::uint));
     list("photon.starts", (photons.buckets + 1) * sizeof(gpu::uint));
@@ -73,8 +76,7 @@ void list_photon_buffers(RenderPlan& plan) {
         list("photon.points", pixels * sizeof(gpu::PhotonPoint));
         list("photon.totals", pixels * 6 * sizeof(std::uint64_t));
     } else {
-        list("photon.places", photons.capacity * 4 * sizeof(gpu::uint));
-        list("photon.powers", photons.capacity * sizeof(gpu::uvec2));
+        list("photon.sorted", photons.capacity * sizeof(gpu::SortedPhoton));
     }
 }
 

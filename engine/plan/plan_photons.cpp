@@ -21,7 +21,10 @@ constexpr double kLaneTurns = 16384.0;
 constexpr double kMarchTurns = 32.0;  // of a ray through voxels
 constexpr std::uint32_t kFewestPhotons = 1u << 14;
 constexpr std::uint32_t kMostPhotons = 1u << 24;
+constexpr std::uint32_t kFewestBuckets = 1u << 10;
 constexpr std::uint32_t kMostBuckets = 1u << 22;
+constexpr std::uint32_t kMostGatherLanes = 32;
+constexpr std::uint64_t kCellsPerPixel = 4;
 // Surfaces that receive a photon are a geometric series in the albedo; the deviation of their sum over all
 // photons is far below a half. Below: of photons that bounce between caustics only.
 constexpr double kStoreMargin = 1.5;
@@ -49,7 +52,19 @@ std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixel
     return static_cast<std::uint32_t>(std::min(static_cast<double>(wanted), std::floor(most)));
 }
 
+// No more than photons, and enough for the cells that the discs of the visible points touch: of neighbours
+// they are mostly the same.
+std::uint32_t bucket_count(std::uint32_t capacity, std::uint64_t pixels) {
+    const std::uint64_t cells = std::min<std::uint64_t>(capacity, kCellsPerPixel * pixels);
+    const std::uint64_t most = kMostBuckets;
+    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(cells, kFewestBuckets, most)));
+}
+
 }  // namespace
+
+std::uint32_t gather_lanes(const DeviceLimits& limits) {
+    return limits.is_cpu ? std::min(limits.subgroup_size, kMostGatherLanes) : 0;
+}
 
 LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec3 world_size,
                           glm::ivec3 origin) {
@@ -86,6 +101,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     plan.lamp_photons = wanted - plan.sun_photons;
     const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
     plan.lanes = (wanted + per_lane - 1) / per_lane;
+    plan.gather_lanes = gather_lanes(limits);
     const double stored = wanted * met;
     if (stored > room)
         throw Error(ExitCode::input_refused,
@@ -94,7 +110,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
                                 wanted, stored, limits.max_binding_bytes, limits.name));
     plan.radius = settings.radius.value_or(0.0);
     plan.capacity = static_cast<std::uint32_t>(stored);
-    plan.buckets = std::min(std::bit_ceil(std::max(plan.capacity, 1024u)), kMostBuckets);
+    plan.buckets = bucket_count(plan.capacity, needs.pixels);
     if (plan.lamp_photons != 0)
         plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);
     if (plan.sun_photons != 0)

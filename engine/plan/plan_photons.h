@@ -29,11 +29,12 @@ struct LightFacts {
 struct PhotonPlan {
     std::uint32_t lamp_photons = 0;  // emitted per iteration
     std::uint32_t sun_photons = 0;
-    std::uint32_t lanes = 0;     // invocations that trace them
-    std::uint32_t capacity = 0;  // photons that can be stored in an iteration
-    std::uint32_t buckets = 0;   // that they are sorted into, a power of two
-    glm::dvec3 most_power{0.0};  // of one photon, W
-    double radius = 0.0;         // of the first iteration, voxels; 0: a pilot has to find it
+    std::uint32_t lanes = 0;         // invocations that trace them
+    std::uint32_t capacity = 0;      // photons that can be stored in an iteration
+    std::uint32_t buckets = 0;       // that they are sorted into, a power of two
+    std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
+    glm::dvec3 most_power{0.0};      // of one photon, W
+    double radius = 0.0;             // of the first iteration, voxels; 0: a pilot has to find it
 
     bool operator==(const PhotonPlan&) const = default;
     [[nodiscard]] std::uint32_t count() const { return lamp_photons + sun_photons; }
@@ -50,6 +51,9 @@ struct PhotonNeeds {
     std::uint32_t spheres = 0;
     bool has_voxels = false;
 };
+
+// PhotonPlan::gather_lanes of a device.
+[[nodiscard]] std::uint32_t gather_lanes(const DeviceLimits& limits);
 
 // Throws Error(input_refused) when the photons of an iteration would not fit in a binding.
 [[nodiscard]] PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs,

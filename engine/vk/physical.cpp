@@ -163,12 +163,14 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
     VkPhysicalDeviceVulkan12Properties v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
     VkPhysicalDeviceMaintenance3Properties allocation{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 two{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     VkPhysicalDeviceProperties& base = two.properties;
     vkGetPhysicalDeviceProperties(device, &base);
     if (base.apiVersion >= VK_API_VERSION_1_2) {
         two.pNext = &allocation;
         allocation.pNext = &v12;
+        v12.pNext = &subgroups;
         vkGetPhysicalDeviceProperties2(device, &two);
     }
     DeviceInfo info{.index = index,
@@ -181,6 +183,7 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
                    .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                                   limits.maxComputeWorkGroupCount[2]},
                    .max_push_bytes = limits.maxPushConstantsSize,
+                   .subgroup_size = subgroups.subgroupSize,
                    .is_cpu = base.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
                    .name = info.name};
     judge(device, base.apiVersion, info);

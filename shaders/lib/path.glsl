@@ -35,6 +35,7 @@ struct PathHit {
     bool leaves_medium;  // through a face of its glass voxels
     bool stays;          // no surface: the next voxel is of the same glass, or the ray starts in glass
     uint far_medium;     // material of the glass voxel behind the face, or kNoMedium
+    float curvature;     // of the sphere that was hit
 };
 
 PathRay path_from(Hit hit, vec3 direction) {
@@ -60,6 +61,7 @@ PathHit no_hit() {
     found.leaves_medium = false;
     found.stays = false;
     found.far_medium = kNoMedium;
+    found.curvature = 0.0;
     return found;
 }
 
@@ -153,7 +155,9 @@ void find_sphere(PathRay path, inout PathHit found) {
     if (nearest.i == kNoSphere) return;
     found = no_hit();
     found.hit.t = nearest.t;
-    found.normal = place_on_sphere(found.hit, nearest.i, origin, path.direction);
+    SphereRecord sphere = sphere_record(nearest.i);
+    found.curvature = sphere.shape.curvature;
+    found.normal = place_on_sphere(found.hit, nearest.i, sphere, origin, path.direction);
 }
 
 // What a ray meets first.
@@ -168,17 +172,32 @@ PathHit next_hit(PathRay path) {
     return found;
 }
 
-// The smallest glass sphere around a point, other than `but`; kNoSphere in none. Of equal ones the later.
-uint glass_around(vec3 point, uint but) {
-    uint found = kNoSphere;
-    float curvature = 0.0;
+// The glass sphere that a point is in.
+struct GlassAround {
+    uint i;         // kNoSphere: in none
+    uint material;  // kNoMedium: in none
+    float curvature;
+};
+
+// The smallest glass sphere around a point, other than `but`. Of equal ones the later.
+GlassAround glass_around(vec3 point, uint but) {
+    GlassAround around;
+    around.i = kNoSphere;
+    around.material = kNoMedium;
+    around.curvature = 0.0;
     for (uint i = 0u; i < glass_spheres; ++i) {
-        Sphere shape = spheres[i].shape;
-        bool inner = i != but && shape.curvature >= curvature && is_in_sphere(shape, point);
-        found = inner ? i : found;
-        curvature = inner ? shape.curvature : curvature;
+        SphereRecord sphere;
+        if (sphere_count <= kFewSpheres) {
+            sphere = held_spheres[i];
+        } else {
+            sphere = sphere_record(i);
+        }
+        bool inner = i != but && sphere.shape.curvature >= around.curvature && is_in_sphere(sphere.shape, point);
+        around.i = inner ? i : around.i;
+        around.material = inner ? sphere.material : around.material;
+        around.curvature = inner ? sphere.shape.curvature : around.curvature;
     }
-    return found;
+    return around;
 }
 
 // Indices of refraction on the side that a ray comes from and on the other one.
@@ -192,27 +211,27 @@ float ior_of(uint medium) {
     return medium == kNoMedium ? 1.0 : materials[medium].ior;
 }
 
-Interface interface_at(PathRay path, PathHit found) {
+// `own_ior` is that of the material that was hit.
+Interface interface_at(PathRay path, PathHit found, float own_ior) {
     bool on_sphere = is_on_sphere(found.hit);
-    uint around = kNoSphere;
-    if (glass_spheres != 0u)
-        around = glass_around(local_position(found.hit.cell, found.hit.fraction), on_sphere ? found.hit.sphere : kNoSphere);
-    uint sphere_medium = around == kNoSphere ? kNoMedium : spheres[around].material;
-    uint outer_medium = sphere_medium != kNoMedium ? sphere_medium : path.medium;
-    float outside = ior_of(outer_medium);
+    uint sphere = on_sphere ? found.hit.sphere : kNoSphere;
+    GlassAround around = glass_around(local_position(found.hit.cell, found.hit.fraction), sphere);
+    uint voxel_medium = has_glass_voxels != 0u ? path.medium : kNoMedium;
+    uint outer_medium = around.material != kNoMedium ? around.material : voxel_medium;
     Interface between;
+    between.near = 1.0;
+    between.far = 1.0;
+    between.is_none = true;
     if (on_sphere) {
         bool leaves = found.hit.face == kFaceSphereInside;
-        float own = ior_of(found.hit.material);
-        float own_curvature = spheres[found.hit.sphere].shape.curvature;
-        float curvature = around == kNoSphere ? 0.0 : spheres[around].shape.curvature;
-        bool is_inner = around != kNoSphere && (curvature > own_curvature ||
-                                                (curvature == own_curvature && around > found.hit.sphere));
+        float outside = ior_of(outer_medium);
+        bool is_inner = around.i != kNoSphere && (around.curvature > found.curvature ||
+                                                  (around.curvature == found.curvature && around.i > sphere));
         between.is_none = is_inner || outer_medium == found.hit.material;
-        between.near = leaves ? own : outside;
-        between.far = leaves ? outside : own;
-    } else {
-        between.is_none = found.stays || around != kNoSphere;
+        between.near = leaves ? own_ior : outside;
+        between.far = leaves ? outside : own_ior;
+    } else if (has_glass_voxels != 0u) {
+        between.is_none = found.stays || around.i != kNoSphere;
         between.near = ior_of(path.medium);
         between.far = ior_of(found.far_medium);
     }
@@ -245,7 +264,7 @@ PathEvent path_event(PathRay path, PathHit found, vec2 u) {
     event.eta = 1.0;
     event.direction = mirror_direction(path.direction, found.normal);
     if (is_glass_here) {
-        Interface between = interface_at(path, found);
+        Interface between = interface_at(path, found, material.ior);
         event.eta = between.far / between.near;
         Dielectric surface = dielectric(-dot(path.direction, found.normal), event.eta);
         bool reflects = u.y < surface.reflectance || surface.is_total;

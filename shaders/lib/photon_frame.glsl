@@ -5,7 +5,14 @@
 #include "shared/photon_types.h"
 
 layout(scalar) uniform PhotonFrame {
-    PhotonParams photon;
+    PhotonParams photon_block;
 };
+
+PhotonParams photon;
+
+// Takes the parameters once, at the start of main(): in a loop, lavapipe would load them anew in every turn.
+void open_photons() {
+    photon = photon_block;
+}
 
 #endif

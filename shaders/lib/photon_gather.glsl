@@ -1,6 +1,7 @@
-// The sums of photons around the visible points of a subgroup. Points of one surface that are near each other gather
-// together: each invocation fetches a photon, and each photon that may matter is shown to all of them in turn. Photons
-// are so loaded once for a subgroup; on software devices, where loads cost most, that halves the time. Include lib/address.glsl and lib/frame_access.glsl first.
+// The sums of photons around the visible points of a subgroup. Points of one surface that are near each other
+// gather together: each invocation fetches a photon, and each photon that may matter is shown to all of them
+// in turn. Photons are so loaded once for a subgroup; on software devices, where loads cost most, that halves
+// the time. Include lib/address.glsl and lib/frame_access.glsl first.
 #ifndef VX_PHOTON_GATHER_GLSL
 #define VX_PHOTON_GATHER_GLSL
 
@@ -10,18 +11,30 @@
 
 #include "lib/loops.glsl"
 #include "lib/photon_light.glsl"
+#include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
 
 layout(constant_id = 32) const uint own_radii = 0u;
 
+// Invocations of a subgroup that fetch, where the host knows how many it has, a power of two; 0 where it does
+// not. Loops over them are unrolled then, which makes the gather a sixth faster on lavapipe.
+layout(constant_id = 33) const uint known_lanes = 0u;
+
+const uint kLaneBits = 5u;  // of 32 invocations, the most that fetch
+
+// Invocations that fetch, the same for all of a subgroup.
+uint fetching_lanes = known_lanes;
+
+void count_lanes() {
+    if (known_lanes == 0u)
+        fetching_lanes = min(subgroupBallotBitCount(subgroupBallot(true)), 1u << kLaneBits);
+}
+
 layout(scalar) readonly buffer BucketStarts {
     uint bucket_starts[];
 };
-layout(scalar) readonly buffer SortedPlaces {
-    uint64_t sorted_places[];
-};
-layout(scalar) readonly buffer SortedPowers {
-    uint64_t sorted_powers[];
+layout(scalar) readonly buffer SortedPhotons {
+    uint64_t sorted_words[];
 };
 
 // The pixel of an invocation of a list of 8x8 tiles; eight invocations in a row are a block of 4x2 pixels.
@@ -70,62 +83,59 @@ GatherRow gather_row(GatherBox box, uint number, uint columns, uint total) {
     return row;
 }
 
-// Whether a photon is one that the points of a box look for in a row. Rows may share buckets, so a photon counts only in
-// its own.
-bool is_in_row(GatherBox box, int y, int z, vec3 position, uint surface) {
-    bool is_inside = all(greaterThanEqual(position, box.low)) && all(lessThanEqual(position, box.high));
-    return is_inside && surface == box.surface &&
-           photon_cell(position.y, photon.grid.cells_per_voxel) == y &&
-           photon_cell(position.z, photon.grid.cells_per_voxel) == z;
+// Whether a photon is one that the points of a box look for in a row. Rows may share buckets, so a photon
+// counts only in its own.
+bool is_in_row(GatherBox box, int y, int z, SortedPhoton found) {
+    bool is_inside =
+        all(greaterThanEqual(found.position, box.low)) && all(lessThanEqual(found.position, box.high));
+    return is_inside && found.surface == box.surface &&
+           photon_cell(found.position.y, photon.grid.cells_per_voxel) == y &&
+           photon_cell(found.position.z, photon.grid.cells_per_voxel) == z;
 }
-
-// A photon that an invocation has fetched for its subgroup.
-struct Fetched {
-    vec3 position;
-    uvec2 power;
-    bool is_wanted;
-};
 
 // Rows, one for each invocation of a subgroup, and the photons in them numbered through.
 struct GatherList {
     GatherRow row;
     uint end;    // photons in the rows up to this one
     uint count;  // in all rows
-    uint lanes;  // invocations that fetch, a power of two up to 32: the bits of a word
     uint total;  // photons in the store
+};
+
+// A photon that an invocation has fetched for its subgroup.
+struct Fetched {
+    vec3 position;  // beyond every disc where no point of the box wants it
+    uvec3 quanta;
 };
 
 Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
     uint at = 0u;  // the invocation whose row holds photon n
-    for (uint step = 16u; step > 0u; step /= 2u) {
-        uint next = subgroupShuffle(list.end, (at + step - 1u) & (list.lanes - 1u));
-        at += step < list.lanes && n >= next ? step : 0u;
+    for (uint bit = kLaneBits; bit > 0u; --bit) {
+        uint step = 1u << (bit - 1u);
+        uint next = subgroupShuffle(list.end, (at + step - 1u) & (fetching_lanes - 1u));
+        at += step < fetching_lanes && n >= next ? step : 0u;
     }
     uint i = subgroupShuffle(list.row.first + list.row.count - list.end, at) + n;
     i = i >= list.total ? i - list.total : i;
-    i = n < list.count ? i : 0u;
-    uvec2 xy = unpack32(sorted_places[2u * i]);
-    uvec2 zs = unpack32(sorted_places[2u * i + 1u]);
-    Fetched fetched;
-    fetched.power = unpack32(sorted_powers[i]);
-    fetched.position = uintBitsToFloat(uvec3(xy, zs.x));
+    uint word = kSortedWords * (n < list.count ? i : 0u);
+    SortedPhoton found =
+        photon_of_words(sorted_words[word], sorted_words[word + 1u], sorted_words[word + 2u]);
     int y = subgroupShuffle(list.row.y, at);
     int z = subgroupShuffle(list.row.z, at);
-    fetched.is_wanted = n < list.count && is_in_row(box, y, z, fetched.position, zs.y);
+    Fetched fetched;
+    fetched.position = n < list.count && is_in_row(box, y, z, found) ? found.position : vec3(kUnbounded);
+    fetched.quanta = unpack_power(found.power);
     return fetched;
 }
 
 // Adds the photons of a list to the sums of the points that take part.
 void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout PhotonSums sums) {
-    for (uint first = 0u; first < list.count; first += list.lanes) {
+    for (uint first = 0u; first < list.count; first += fetching_lanes) {
         Fetched fetched = fetch_photon(box, list, first + gl_SubgroupInvocationID);
-        uint wanted = subgroupBallot(fetched.is_wanted).x;
-        uvec3 wide = uvec3(0u);  // 2^5 photons of less than 2^21 quanta
+        uvec3 wide = uvec3(0u);  // of at most 2^kLaneBits photons of less than 2^21 quanta
         uvec3 narrow = uvec3(0u);
-        for (uint left = wanted; left != 0u; left &= left - 1u) {
-            uint from = findLSB(left);
+        for (uint from = 0u; from < fetching_lanes; ++from) {
             float squared = photon_distance_squared(point, subgroupShuffle(fetched.position, from));
-            uvec3 quanta = unpack_power(subgroupShuffle(fetched.power, from));
+            uvec3 quanta = subgroupShuffle(fetched.quanta, from);
             wide += squared <= discs.squared ? quanta : uvec3(0u);
             if (own_radii != 0u) sums.met += squared <= discs.squared ? 1u : 0u;
             narrow += squared <= discs.narrow_squared ? quanta : uvec3(0u);
@@ -136,7 +146,8 @@ void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout Pho
 
 // Cells of a box along y or z.
 uint cells_between(float low, float high) {
-    int cells = photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel) + 1;
+    int cells =
+        photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel) + 1;
     return uint(max(cells, 0));  // none of an empty box
 }
 
@@ -146,19 +157,19 @@ void add_box(GatherBox box, vec3 point, Discs discs, inout PhotonSums sums) {
     uint rows = columns * cells_between(box.low.z, box.high.z);
     GatherList list;
     list.total = bucket_starts[photon.grid.mask + 1u];
-    list.lanes = min(subgroupBallotBitCount(subgroupBallot(true)), 32u);
-    for (uint first = 0u; first < rows; first += list.lanes) {
+    for (uint first = 0u; first < rows; first += fetching_lanes) {
         uint number = first + gl_SubgroupInvocationID;
         list.row = gather_row(box, number, columns, list.total);
-        list.row.count = number < rows && gl_SubgroupInvocationID < list.lanes ? list.row.count : 0u;
+        list.row.count = number < rows && gl_SubgroupInvocationID < fetching_lanes ? list.row.count : 0u;
         list.end = subgroupInclusiveAdd(list.row.count);
-        list.count = subgroupShuffle(list.end, list.lanes - 1u);
+        list.count = subgroupShuffle(list.end, fetching_lanes - 1u);
         add_list(box, list, point, discs, sums);
     }
 }
 
 // The sums at a point; kNoSurface gets none. All invocations of a subgroup call it together.
 PhotonSums gather(vec3 position, uint surface, Discs own) {
+    count_lanes();
     PhotonSums sums = no_photons();
     float reach = photon.radius * kPhotonReach;
     bool waits = surface != kNoSurface;
@@ -167,7 +178,8 @@ PhotonSums gather(vec3 position, uint surface, Discs own) {
         GatherBox box;
         box.surface = subgroupShuffle(surface, leader);
         vec3 away = abs(position - subgroupShuffle(position, leader));
-        bool takes = waits && surface == box.surface && max(max(away.x, away.y), away.z) <= kGatherSpread * photon.radius;
+        bool takes = waits && surface == box.surface &&
+                     max(max(away.x, away.y), away.z) <= kGatherSpread * photon.radius;
         box.low = subgroupMin(takes ? position : vec3(kUnbounded)) - reach;
         box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
         Discs discs;  // of those that take part

@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 
 #include "lib/photon_frame.glsl"
+#include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
@@ -15,7 +16,10 @@ layout(scalar) buffer PhotonHeads {
     PhotonHead head;
 };
 layout(scalar) writeonly buffer StoredPhotons {
-    StoredPhoton stored[];
+    uint64_t stored_words[];
+};
+layout(scalar) readonly buffer WantedCells {
+    uint wanted_cells[];  // a bit of each mark
 };
 layout(scalar) buffer BucketCounts {
     uint bucket_counts[];
@@ -27,29 +31,53 @@ bool is_finite(vec3 v) {
     return largest < 0x7F800000u;
 }
 
+void put_photon(uint slot, StoredPhoton kept) {
+    uint first = kStoredWords * slot;
+    uvec3 position = floatBitsToUint(kept.position);
+    stored_words[first] = pack64(position.xy);
+    stored_words[first + 1u] = pack64(uvec2(position.z, kept.surface));
+    stored_words[first + 2u] = pack64(kept.power);
+    stored_words[first + 3u] = pack64(uvec2(kept.bucket, kept.rank));
+}
+
+// Faults of an invocation, counted when it is done: an atomic in a loop costs time even where no invocation needs it.
+uint misplaced_photons = 0u;
+uint late_photons = 0u;
+
+void count_store_faults() {
+    count(kFaultPhotonPower, misplaced_photons);
+    count(kFaultPhotonStoreFull, late_photons);
+}
+
 // Keeps a photon: where it met a surface, local to the world, photon_surface() of it, and its power in watts before the
-// surface takes its share. Any invocations may call it, the others of their subgroup need not. A photon without a
-// finite place or beyond the capacity is lost and counted.
+// surface takes its share. Any invocations may call it, the others of their subgroup need not. A photon that no visible
+// point could take is left out; one without a finite place or beyond the capacity is lost and counted:
+// count_store_faults() does it at the end.
 void store_photon(vec3 position, uint surface, vec3 power) {
+    bool is_placed = is_finite(position);
+    uint key = photon_key(is_placed ? position : vec3(0.0), surface, photon.grid);
+    uint mark = photon_mark(key, photon.grid);
+    bool is_wanted = (wanted_cells[mark >> 5u] >> (mark & 31u) & 1u) != 0u;
+    misplaced_photons += is_placed ? 0u : 1u;
+    if (!is_placed || !is_wanted) return;
     // One atomic for all that store at once.
     uvec4 storing = subgroupBallot(true);
     uint first = 0u;
     if (subgroupElect()) first = atomicAdd(head.count, subgroupBallotBitCount(storing));
     uint slot = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(storing);
-    bool is_placed = is_finite(position);
     PackedPower packed = pack_power(power, photon.power_scale, position);
-    count(kFaultPhotonPower, is_placed && packed.is_sound ? 0u : 1u);
-    count(kFaultPhotonStoreFull, slot < photon.capacity ? 0u : 1u);
+    misplaced_photons += packed.is_sound ? 0u : 1u;
+    late_photons += slot < photon.capacity ? 0u : 1u;
     if (slot >= photon.capacity) return;
     StoredPhoton kept;
-    kept.position = is_placed ? position : vec3(0.0);
-    kept.surface = is_placed ? surface : kNoSurface;
+    kept.position = position;
+    kept.surface = surface;
     kept.power = packed.words;
-    kept.bucket = photon_bucket(kept.position, kept.surface, photon.grid);
+    kept.bucket = key & photon.grid.mask;
     kept.rank = 0u;
     // The rank among those of the bucket makes a second atomic in photon_sort unnecessary.
     if (sorts_photons != 0u) kept.rank = atomicAdd(bucket_counts[kept.bucket], 1u);
-    stored[slot] = kept;
+    put_photon(slot, kept);
 }
 
 #endif

@@ -34,12 +34,18 @@ uint own_sphere(Hit hit) {
 // Unit, on the side that was hit.
 vec3 surface_normal(Hit hit) {
     if (is_on_sphere(hit)) {
-        Sphere shape = spheres[hit.sphere].shape;
+        Sphere shape = sphere_record(hit.sphere).shape;
         vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
         vec3 outward = normalize(shape.normal + shape.curvature * from_anchor);
         return hit.face == kFaceSphereInside ? -outward : outward;
     }
     return face_normal(hit.face);
+}
+
+// Makes the world and the spheres ready for rays. At the start of main(), while all invocations are active.
+void open_scene() {
+    open_world();
+    if (sphere_count != 0u && sphere_count <= kFewSpheres) hold_spheres();
 }
 
 struct NearestSphere {
@@ -54,13 +60,13 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     nearest.t = t_max;
     if (sphere_count <= kFewSpheres) {
         for (uint i = 0u; i < sphere_count; ++i) {
-            float t = sphere_time(sphere_table[i].shape, origin, direction, nearest.t, i == own);
+            float t = sphere_time(held_spheres[i].shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
         }
     } else {
         for (uint i = 0u; i < sphere_count; ++i) {
-            float t = sphere_time(spheres[i].shape, origin, direction, nearest.t, i == own);
+            float t = sphere_time(sphere_record(i).shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
         }
@@ -68,16 +74,16 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     return nearest;
 }
 
-// Makes a hit of the crossing of sphere `i` at hit.t. Returns the normal on the side that was hit.
-vec3 place_on_sphere(inout Hit hit, uint i, vec3 origin, vec3 direction) {
+// Makes a hit of the crossing of a sphere, number `i`, at hit.t. Returns the normal on the side that was hit.
+vec3 place_on_sphere(inout Hit hit, uint i, SphereRecord sphere, vec3 origin, vec3 direction) {
     vec3 position = origin + hit.t * direction;
     vec3 corner = floor(position);
     hit.cell = ivec3(corner);
     hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));
-    vec3 outward = sphere_normal(spheres[i].shape, position);
+    vec3 outward = sphere_normal(sphere.shape, position);
     bool leaves = dot(outward, direction) > 0.0;
     hit.face = leaves ? kFaceSphereInside : kFaceSphere;
-    hit.material = spheres[i].material;
+    hit.material = sphere.material;
     hit.sphere = i;
     return leaves ? -outward : outward;
 }

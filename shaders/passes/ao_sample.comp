@@ -79,7 +79,7 @@ uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
 }
 
 void main() {
-    open_world();
+    open_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

@@ -19,7 +19,7 @@ layout(scalar) writeonly buffer Ao {
 };
 
 void main() {
-    open_world();
+    open_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

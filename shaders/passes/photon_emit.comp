@@ -12,10 +12,7 @@
 #include "lib/path.glsl"
 
 #include "lib/lights.glsl"
-
-layout(scalar) writeonly buffer Starts {
-    PhotonStart starts[];
-};
+#include "lib/photon_start.glsl"
 
 PhotonStart start_at(vec3 position) {
     PhotonStart start;
@@ -27,7 +24,7 @@ PhotonStart start_at(vec3 position) {
 }
 
 PhotonStart leave_sphere(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
-    Sphere shape = spheres[lamp.parts.sphere].shape;
+    Sphere shape = sphere_record(lamp.parts.sphere).shape;
     SphereEmission emission = sphere_emission(u_point, u_direction);
     PhotonStart start = start_at(shape.anchor + (emission.normal - shape.normal) / shape.curvature);
     start.direction = emission.direction;
@@ -69,19 +66,19 @@ void main() {
     vec2 u_choice = draw_2d(key, kPairPhoton);
     vec2 u_point = draw_2d(key, kPairPhoton + 1u);
     vec2 u_direction = draw_2d(key, kPairPhoton + 2u);
-    if (id >= frame.lamp_photons) {
-        PhotonStart start = leave_sun(u_point, u_direction);
-        start.power /= float(frame.sun_photons);
-        starts[id] = start;
-        return;
-    }
-    DrawnLight lamp = draw_light(uint(u_choice.x * 16777216.0) << 8u, u_choice.y);
     PhotonStart start;
-    if (lamp.parts.kind == kLightSphere) {
-        start = leave_sphere(lamp, u_point, u_direction);
+    if (id >= frame.lamp_photons) {
+        start = leave_sun(u_point, u_direction);
+        start.power /= float(frame.sun_photons);
     } else {
-        start = leave_face(lamp, u_point, u_direction);
+        DrawnLight lamp = draw_light(uint(u_choice.x * 16777216.0) << 8u, u_choice.y);
+        if (lamp.parts.kind == kLightSphere) {
+            start = leave_sphere(lamp, u_point, u_direction);
+        } else {
+            start = leave_face(lamp, u_point, u_direction);
+        }
+        start.power /= lamp.pdf * float(frame.lamp_photons);
     }
-    start.power /= lamp.pdf * float(frame.lamp_photons);
-    starts[id] = start;
+    start.noise = rng_uint(frame.seed, frame.sample_index, id, 2u * kPairBounce);
+    put_start(id, start);
 }

@@ -71,6 +71,7 @@ void write_starts(uint run, uint buckets) {
 }
 
 void main() {
+    open_photons();
     uint i = linear_id();
     uint buckets = photon.grid.mask + 1u;
     uint runs = scan_runs(buckets);

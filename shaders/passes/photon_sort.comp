@@ -9,29 +9,27 @@
 #include "lib/invocation.glsl"
 
 #include "lib/photon_frame.glsl"
+#include "lib/photon_words.glsl"
 
 layout(scalar) readonly buffer PhotonHeads {
     PhotonHead head;
 };
 layout(scalar) readonly buffer StoredPhotons {
-    StoredPhoton stored[];
+    uint64_t stored_words[];
 };
 layout(scalar) readonly buffer BucketStarts {
     uint bucket_starts[];
 };
-layout(scalar) writeonly buffer SortedPlaces {
-    uint64_t sorted_places[];
-};
-layout(scalar) writeonly buffer SortedPowers {
-    uint64_t sorted_powers[];
+layout(scalar) writeonly buffer SortedPhotons {
+    uint64_t sorted_words[];
 };
 
 void main() {
+    open_photons();
     uint i = linear_id();
     if (i >= min(head.count, photon.capacity)) return;
-    StoredPhoton photon_i = stored[i];
-    uint place = bucket_starts[photon_i.bucket] + photon_i.rank;
-    sorted_places[2u * place] = pack64(floatBitsToUint(vec2(photon_i.position.x, photon_i.position.y)));
-    sorted_places[2u * place + 1u] = pack64(uvec2(floatBitsToUint(photon_i.position.z), photon_i.surface));
-    sorted_powers[place] = pack64(photon_i.power);
+    uvec2 bucket_rank = unpack32(stored_words[kStoredWords * i + kSortedWords]);
+    uint place = bucket_starts[bucket_rank.x] + bucket_rank.y;
+    for (uint word = 0u; word < kSortedWords; ++word)
+        sorted_words[kSortedWords * place + word] = stored_words[kStoredWords * i + word];
 }

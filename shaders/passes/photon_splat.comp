@@ -11,6 +11,7 @@
 
 #include "lib/loops.glsl"
 #include "lib/photon_frame.glsl"
+#include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
@@ -19,7 +20,7 @@ layout(scalar) readonly buffer PhotonHeads {
     PhotonHead head;
 };
 layout(scalar) readonly buffer StoredPhotons {
-    StoredPhoton stored[];
+    uint64_t stored_words[];
 };
 layout(scalar) readonly buffer BucketStarts {
     uint bucket_starts[];
@@ -38,7 +39,7 @@ void add(uint first, uvec3 quanta) {
 }
 
 // The points in a row of cells, of which some may belong to others that share its buckets.
-void splat_row(StoredPhoton from, int y, int z) {
+void splat_row(SortedPhoton from, int y, int z) {
     float reach = photon.radius * kPhotonReach;
     int x0 = photon_cell(from.position.x - reach, photon.grid.x_cells_per_voxel);
     int x1 = photon_cell(from.position.x + reach, photon.grid.x_cells_per_voxel);
@@ -60,9 +61,11 @@ void splat_row(StoredPhoton from, int y, int z) {
 }
 
 void main() {
+    open_photons();
     uint i = linear_id();
     if (i >= min(head.count, photon.capacity)) return;
-    StoredPhoton from = stored[i];
+    uint word = kStoredWords * i;
+    SortedPhoton from = photon_of_words(stored_words[word], stored_words[word + 1u], stored_words[word + 2u]);
     float reach = photon.radius * kPhotonReach;
     int y1 = photon_cell(from.position.y + reach, photon.grid.cells_per_voxel);
     int z1 = photon_cell(from.position.z + reach, photon.grid.cells_per_voxel);
@@ -70,5 +73,5 @@ void main() {
         for (int y = photon_cell(from.position.y - reach, photon.grid.cells_per_voxel); y <= y1; ++y)
             splat_row(from, y, z);
     }
-    count(kFaultLoopCut, are_loops_spent(2u + (from.bucket & 1u)) ? 1u : 0u);
+    count(kFaultLoopCut, are_loops_spent(2u + (i & 1u)) ? 1u : 0u);
 }

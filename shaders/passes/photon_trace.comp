@@ -13,6 +13,7 @@
 #include "lib/path.glsl"
 
 #include "lib/loops.glsl"
+#include "lib/photon_start.glsl"
 #include "lib/photon_store.glsl"
 
 layout(constant_id = 42) const uint keeps_caustics = 1u;  // light that mirrors and glass alone have sent
@@ -20,23 +21,18 @@ layout(constant_id = 43) const uint keeps_indirect = 1u;  // light that a diffus
 layout(constant_id = 44) const uint lanes = 1u;           // invocations
 layout(constant_id = 45) const uint depth_limit = 0u;     // surfaces that a photon meets; 0: roulette ends its path
 
-layout(scalar) readonly buffer Starts {
-    PhotonStart starts[];
-};
-
 struct Photon {
     PathRay path;
     vec3 power;       // at the start
     vec3 throughput;  // since then
-    uint id;
-    uint events;        // surfaces and borders of glass that are none: each draws its own random numbers
+    NoiseStream noise;
     uint bounces;       // surfaces
     bool has_passed;    // a border of glass that is no surface, behind which no shadow ray looks
     bool is_scattered;  // by a diffuse surface
 };
 
 Photon start_photon(uint id) {
-    PhotonStart start = starts[id];
+    PhotonStart start = photon_start(id);
     Photon photon;
     photon.path.cell = start.cell;
     photon.path.fraction = start.fraction;
@@ -45,22 +41,28 @@ Photon start_photon(uint id) {
     photon.path.medium = kNoMedium;
     photon.power = start.power;
     photon.throughput = vec3(1.0);
-    photon.id = id;
-    photon.events = 0u;
+    photon.noise.state = start.noise;
+    photon.noise.increment = 2u * id + 1u;
     photon.bounces = 0u;
     photon.has_passed = false;
     photon.is_scattered = false;
     return photon;
 }
 
-float draw(Photon photon, uint number) {
-    uint dimension = 2u * (kPairBounce + kPairsOfBounce * photon.events) + number;
-    return rng_float(frame.seed, frame.sample_index, photon.id, dimension);
+float draw(inout Photon photon) {
+    float u = stream_float(photon.noise);
+    photon.noise = stream_after(photon.noise);
+    return u;
+}
+
+vec2 draw_pair(inout Photon photon) {
+    float u = draw(photon);
+    return vec2(u, draw(photon));
 }
 
 // Sends the photon on from what it has met. False where it ends.
 bool bounce(inout Photon photon, PathHit found) {
-    PathEvent event = path_event(photon.path, found, vec2(draw(photon, 0u), draw(photon, 1u)));
+    PathEvent event = path_event(photon.path, found, draw_pair(photon));
     PathRay next = path_after(photon.path, found, event);
     bool is_diffuse = event.kind == kEventDiffuse;
     bool is_caustic = (photon.bounces > 0u || photon.has_passed) && !photon.is_scattered;
@@ -68,28 +70,25 @@ bool bounce(inout Photon photon, PathHit found) {
     bool sends = max(event.albedo.x, max(event.albedo.y, event.albedo.z)) > 0.0;
     if (is_diffuse && is_kept && sends)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
-    vec3 scattered = cosine_about(found.normal, vec2(draw(photon, 2u), draw(photon, 3u)));
+    vec3 scattered = cosine_about(found.normal, draw_pair(photon));
     PathRay off_surface = path_from(found.hit, scattered);
     off_surface.medium = photon.path.medium;
     if (is_diffuse) next = off_surface;
     photon.is_scattered = photon.is_scattered || is_diffuse;
     photon.path = next;
     photon.has_passed = photon.has_passed || event.kind == kEventPass;
-    if (event.kind == kEventPass) {
-        ++photon.events;
-        return true;
-    }
+    if (event.kind == kEventPass) return true;
     photon.throughput *= event.albedo;
     float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;
-    bool survives = draw(photon, 4u) < survival && (keeps_indirect != 0u || !is_diffuse);
+    bool survives = draw(photon) < survival && (keeps_indirect != 0u || !is_diffuse);
     photon.throughput /= survives ? survival : 1.0;
-    ++photon.events;
     ++photon.bounces;
     return survives && (depth_limit == 0u || photon.bounces < depth_limit);
 }
 
 void main() {
-    open_world();
+    open_photons();
+    open_scene();
     uint lane = linear_id();
     if (lane >= lanes) return;
     uint count_all = frame.lamp_photons + frame.sun_photons;
@@ -113,6 +112,7 @@ void main() {
         is_alive = is_surface(found.hit) && (found.hit.face != kFaceInside || found.stays) && passes < kMostBounces;
         if (is_alive) is_alive = bounce(photon, found);
     }
+    count_store_faults();
     count(kWorkPathSegments, segments);
     count(kFaultPathTooLong, too_long);
     count(kFaultLoopCut, are_loops_spent(2u + (segments & 1u)) ? 1u : 0u);

@@ -21,6 +21,7 @@ layout(scalar) writeonly buffer Hits {
 };
 
 void main() {
+    hold_spheres();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = voxel_hits[pixel.index * hits_stride];
@@ -29,7 +30,7 @@ void main() {
     vec3 origin = local_position(ray.cell, ray.fraction);
     NearestSphere nearest = nearest_sphere(origin, ray.direction, hit.t, kNoSphere);
     hit.t = nearest.t;
-    if (nearest.i != kNoSphere) place_on_sphere(hit, nearest.i, origin, ray.direction);
+    if (nearest.i != kNoSphere) place_on_sphere(hit, nearest.i, sphere_record(nearest.i), origin, ray.direction);
     if (!is_surface(hit)) hit.t = 0.0;
     hits[pixel.index] = hit;
 }

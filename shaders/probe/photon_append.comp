@@ -16,8 +16,10 @@ layout(scalar) readonly buffer In {
 layout(push_constant, scalar) uniform Push { uint count; } push;
 
 void main() {
+    open_photons();
     uint i = linear_id();
     if (i >= push.count) return;
     PhotonIn given = inputs[i];
     if (given.is_stored != 0u) store_photon(given.position, given.surface, given.power);
+    count_store_faults();
 }

@@ -102,7 +102,15 @@ struct PhotonStart {
     vec3 direction;
     uint sphere;  // that it starts on, or all bits set
     vec3 power;
+    uint noise;  // state of its NoiseStream
 };
+
+// Words of 64 bits that shaders read and write it by.
+VX_CONST(uint, kStartWords, 7u);
+
+#ifdef __cplusplus
+static_assert(sizeof(PhotonStart) == 8 * kStartWords);
+#endif
 
 // What the passes of the ambient occlusion hash share beside FrameParams: one sample of one frame.
 struct AoParams {

@@ -9,10 +9,12 @@ VX_BEGIN
 // One round of a 32-bit linear congruential step and the RXS-M-XS output permutation: a bijection of 32-bit
 // words. Source: O'Neill 2014, "PCG", section 6.3.4, used as a hash as in Jarzynski and Olano 2020, "Hash
 // Functions for GPU Rendering", JCGT 9(3), listing of pcg.
-VX_FN uint pcg_hash(uint v) {
-    uint state = v * 747796405u + 2891336453u;
+VX_FN uint pcg_output(uint state) {
     uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return (word >> 22u) ^ word;
+}
+VX_FN uint pcg_hash(uint v) {
+    return pcg_output(v * 747796405u + 2891336453u);
 }
 
 // Three words to three: a bijection. Differences in the high bits of the input reach only part of the output,

@@ -120,6 +120,10 @@ VX_CONST(float, kPhotonReach, 1.00000095367431640625f);  // 1 + 2^-20
 VX_CONST(float, kFarthestPhotonCell, 1.073741824e9f);  // 2^30
 // Cells along x in the width of a cell along y and z: fewer photons to look at, more buckets.
 VX_CONST(float, kPhotonCellParts, 2.0f);
+// Marks of cells that visible points touch, for each bucket; a power of two. A room's unseen part has several
+// times the cells of the seen one: with one mark for each of few buckets, up to half as many photons again
+// would be stored.
+VX_CONST(uint, kMarksPerBucket, 8u);
 // Visible points gather together when they are no farther apart than this many radii.
 VX_CONST(float, kGatherSpread, 4.0f);
 // A sphere cuts the disc of a point only where the sine of the angle between their surfaces is above this:

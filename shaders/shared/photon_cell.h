@@ -59,12 +59,23 @@ VX_FN uint photon_row(int y, int z, uint surface) {
     return pcg_hash(uint(y) + pcg_hash(uint(z) + pcg_hash(surface)));
 }
 
-// Bucket of a photon.
-VX_FN uint photon_bucket(vec3 position, uint surface, PhotonGrid grid) {
+// Number of a photon's cell, from which bucket and mark follow.
+VX_FN uint photon_key(vec3 position, uint surface, PhotonGrid grid) {
     const int x = photon_cell(position.x, grid.x_cells_per_voxel);
     const int y = photon_cell(position.y, grid.cells_per_voxel);
     const int z = photon_cell(position.z, grid.cells_per_voxel);
-    return (photon_row(y, z, surface) + uint(x)) & grid.mask;
+    return photon_row(y, z, surface) + uint(x);
+}
+
+// Bucket of a photon.
+VX_FN uint photon_bucket(vec3 position, uint surface, PhotonGrid grid) {
+    return photon_key(position, surface, grid) & grid.mask;
+}
+
+// Mark of a cell: whether a visible point could take photons in it. Cells may share a mark; there are more of
+// them than buckets, as unwanted cells are many where a room goes on out of sight.
+VX_FN uint photon_mark(uint key, PhotonGrid grid) {
+    return key & ((grid.mask * kMarksPerBucket + (kMarksPerBucket - 1u)) | 31u);
 }
 
 // Neighbouring buckets, from `begin` to before `end`, places in the table of starts; it goes on at the
@@ -89,6 +100,11 @@ VX_FN BucketRun bucket_run(int y, int z, int x0, int x1, uint surface, PhotonGri
 }
 
 #ifdef __cplusplus
+// Words of 32 bits that hold the marks beside so many buckets.
+inline std::uint32_t mark_words(std::uint32_t buckets) {
+    return (buckets * kMarksPerBucket + 31) / 32;
+}
+
 // The grid for discs of a radius in a world whose coordinates are at most `extent` > 0 in magnitude, and a
 // power of two of buckets. Cells are wider than the disc by 2^-20 of the extent, several roundings of a
 // coordinate, so that the ends of a disc never lie in three of them; and there are less than 2^21 along an

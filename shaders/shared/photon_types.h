@@ -33,14 +33,30 @@ struct PixelRadius {
     float photons;  // that count as met
 };
 
-// A photon where it met a diffuse surface: as it was stored, and as it was sorted.
-struct StoredPhoton {
+// A photon where it met a diffuse surface, as it is gathered.
+struct SortedPhoton {
     vec3 position;  // local to the world, voxels
     uint surface;   // photon_surface()
     uvec2 power;    // packed (photon_power.h)
+};
+
+// The same as it is stored, with where it is to be sorted.
+struct StoredPhoton {
+    vec3 position;
+    uint surface;
+    uvec2 power;
     uint bucket;
     uint rank;  // among those of the bucket, in order of arrival
 };
+
+// Words of 64 bits that shaders read and write them by.
+VX_CONST(uint, kSortedWords, 3u);
+VX_CONST(uint, kStoredWords, 4u);
+
+#ifdef __cplusplus
+static_assert(sizeof(SortedPhoton) == 8 * kSortedWords);
+static_assert(sizeof(StoredPhoton) == 8 * kStoredWords);
+#endif
 
 // A visible point that photons look for.
 struct PhotonPoint {

@@ -353,7 +353,9 @@ TEST(LightForms, lamp_in_a_hollow_ball_of_any_size_gives_the_series_of_reflectio
 TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
     for (const float albedo : {0.5f, 0.9f}) {
         constexpr double kPhotons = 16384.0 * 16.0;
-        test::FrameRig rig(hollow_ball(4.0, glm::vec3(albedo)), PlanRequest{});
+        Scene scene = hollow_ball(4.0, glm::vec3(albedo));
+        scene.settings.photons.radius = 16.0;  // so that visible points want all of them
+        test::FrameRig rig(scene, PlanRequest{});
         double stored = 0.0;
         for (std::uint32_t i = 0; i < 16; ++i)
             stored += rig.render(i).tally[gpu::kWorkPhotonsStored];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -165,6 +166,7 @@ TEST(PhotonGather, sums_are_whole_or_a_fault_is_counted) {
 
 TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
     PhotonJob job = random_job(9, {0, 0, 0}, 5.0, 2);
+    job.setup.radius = 20.0;  // so that points want all photons
     for (gpu::PhotonIn& photon : job.photons)
         photon.is_stored = 1;
     const auto count = static_cast<std::uint32_t>(job.photons.size());
@@ -174,14 +176,52 @@ TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
         EXPECT_EQ(outcome.tally[gpu::kFaultPhotonStoreFull], count - capacity);
         EXPECT_EQ(outcome.tally[gpu::kWorkPhotonsStored], capacity);
         EXPECT_EQ(outcome.head.count, count);
-        std::vector<std::array<std::uint64_t, 3>> sorted;
+        std::vector<std::array<std::uint64_t, gpu::kSortedWords>> sorted;
         for (std::size_t i = 0; i < capacity; ++i)
-            sorted.push_back({outcome.places[2 * i], outcome.places[2 * i + 1], outcome.powers[i]});
+            sorted.push_back(std::bit_cast<std::array<std::uint64_t, gpu::kSortedWords>>(outcome.sorted[i]));
         std::ranges::sort(sorted);
         // Every sorted record is a photon of the job, none twice.
         EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end()) << capacity;
         EXPECT_EQ(wrong_points(job, outcome) == 0, capacity == count);
     }
+}
+
+// What is stored lies in cells that discs touch, and light is that of all photons.
+TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
+    PhotonJob job = random_job(11, {0, 0, 0}, 5.0, 1);
+    job.setup.extent = 60.0;
+    job.setup.buckets = 1u << 18;  // so that few cells share a mark
+    TestRandom random(12);
+    for (gpu::PhotonIn& photon : job.photons) {
+        photon.is_stored = 1;
+        if (random.bits32() % 4 != 0) photon.position.x += 40.0f;
+    }
+    const auto near = std::ranges::count_if(job.photons, [](const auto& p) { return p.position.x < 20.0f; });
+    const PhotonOutcome outcome = test::run_photons(job);
+    EXPECT_EQ(wrong_points(job, outcome), 0);
+    EXPECT_EQ(outcome.head.count, outcome.tally[gpu::kWorkPhotonsStored]);
+    EXPECT_LE(outcome.head.count, near);
+    EXPECT_GT(outcome.head.count, near / 2);
+    // The twin: a photon that a point takes and that is left out is missed.
+    const auto taken = std::ranges::find_if(job.photons, [&](const gpu::PhotonIn& photon) {
+        return std::ranges::any_of(job.points, [&](const gpu::Hit& point) {
+            return glm::distance(photon.position, gpu::photon_position(point)) < 0.6 * job.setup.radius;
+        });
+    });
+    ASSERT_NE(taken, job.photons.end());
+    PhotonJob without = job;
+    without.photons[static_cast<std::size_t>(taken - job.photons.begin())].is_stored = 0;
+    EXPECT_GT(wrong_points(job, test::run_photons(without)), 0);
+}
+
+// Subgroups of a size that the host knows, and of one that only the device knows.
+TEST(PhotonGather, light_does_not_depend_on_who_knows_the_size_of_subgroups) {
+    PhotonJob job = random_job(13, {0, 0, 0}, 5.0, 2);
+    const PhotonOutcome known = test::run_photons(job);
+    job.knows_lanes = false;
+    const PhotonOutcome unknown = test::run_photons(job);
+    EXPECT_EQ(wrong_points(job, unknown), 0);
+    EXPECT_TRUE(same_light(known, unknown));
 }
 
 TEST(PhotonGather, no_photons_are_no_light) {

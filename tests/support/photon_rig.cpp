@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "plan/plan_photons.h"
+#include "shared/photon_cell.h"
+
 namespace voxilux::test {
 namespace {
 
@@ -20,6 +23,7 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Rec
                                      {"Tally", use_buffer(plan, "tally", recording)},
                                      {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
                                      {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                                     {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
                                      {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
                         .constants = {{"sorts_photons", sorts ? 1u : 0u}},
                         .push = to_bytes(count)});
@@ -47,10 +51,8 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
     outcome.light = values_of<glm::vec3>(result, planes.light.buffer);
     outcome.narrow = values_of<glm::vec3>(result, planes.narrow.buffer);
     outcome.head = values_of<gpu::PhotonHead>(result, "photon.head").front();
-    if (result.readbacks.contains("photon.places")) {
-        outcome.places = values_of<std::uint64_t>(result, "photon.places");
-        outcome.powers = values_of<std::uint64_t>(result, "photon.powers");
-    }
+    if (result.readbacks.contains("photon.sorted"))
+        outcome.sorted = values_of<gpu::SortedPhoton>(result, "photon.sorted");
     if (result.readbacks.contains("photon.radii"))
         outcome.radii = values_of<gpu::PixelRadius>(result, "photon.radii");
     const auto tally = values_of<gpu::uint>(result, "tally");
@@ -66,6 +68,7 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     Recording recording;
     record_inputs(plan, job, recording);
     record_photon_clear(plan, params, recording);
+    record_photon_mark(plan, slice, {"t.points"}, recording);
     record_append(plan, job, !scatters, recording);
     if (!scatters) record_photon_sort(plan, params, recording);
     const PhotonPlanes planes = scatters
@@ -74,7 +77,7 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     for (const std::string& buffer :
          {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally")})
         recording.readback(buffer);
-    for (const char* buffer : {"photon.places", "photon.powers", "photon.radii"})
+    for (const char* buffer : {"photon.sorted", "photon.radii"})
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
     return outcome_of(executor.run(recording), planes);
 }
@@ -92,6 +95,7 @@ RenderPlan photon_plan(const PhotonJob& job) {
     RenderPlan plan;
     plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
     plan.effects[static_cast<std::size_t>(Effect::spheres)].on = !job.spheres.empty();
+    if (job.knows_lanes) plan.photons.gather_lanes = gather_lanes(test_device().limits());
     plan.sphere_count = static_cast<std::uint32_t>(job.spheres.size());
     plan.buffers = {
         {"frame", sizeof(gpu::FrameParams)},
@@ -100,11 +104,11 @@ RenderPlan photon_plan(const PhotonJob& job) {
         {"photon.frame", sizeof(gpu::PhotonParams)},
         {"photon.head", sizeof(gpu::PhotonHead)},
         {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
+        {"photon.wanted", std::uint64_t{gpu::mark_words(job.setup.buckets)} * 4},
         {"photon.counts", buckets * 4},
         {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
         {"photon.starts", (buckets + 1) * 4},
-        {"photon.places", capacity * 16},
-        {"photon.powers", capacity * 8},
+        {"photon.sorted", capacity * sizeof(gpu::SortedPhoton)},
         {"photon.ranks", pixels * 4},
         {"photon.radii", pixels * sizeof(gpu::PixelRadius), true},
         {"photon.points", pixels * sizeof(gpu::PhotonPoint)},

@@ -23,14 +23,14 @@ struct PhotonJob {
     std::vector<gpu::SphereRecord> spheres;
     PhotonSetup setup;
     PhotonRadii radii = PhotonRadii::common;
+    bool knows_lanes = true;  // the size of subgroups, as plans for software devices do
 };
 
 // What the passes wrote.
 struct PhotonOutcome {
     std::vector<glm::vec3> light;
     std::vector<glm::vec3> narrow;
-    std::vector<std::uint64_t> places;
-    std::vector<std::uint64_t> powers;
+    std::vector<gpu::SortedPhoton> sorted;
     std::vector<gpu::PixelRadius> radii;
     gpu::PhotonHead head{};
     std::array<gpu::uint, gpu::kTallyCount> tally{};

@@ -29,6 +29,8 @@ const std::map<std::string, std::string> kReadAndWritten = {
      "every writer of a frame writes the number of the frame; the pass that empties slots reads it"},
     {"PhotonHeads", "the store's length grows by atomics; the prefix sum adds the workgroups that it takes"},
     {"BucketCounts", "atomic counters"},
+    {"WantedCells", "marks are set by atomics"},
+    {"Starts", "one file holds how one pass writes them and another reads them"},
     {"PhotonTotals", "sums that photons add to by atomics"},
     {"PixelRadii", "each pixel's radius shrinks from iteration to iteration; it belongs to one invocation"},
     {"BucketRunSums", "photon_scan turns them into prefix sums in place, in one workgroup"},
