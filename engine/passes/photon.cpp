@@ -20,7 +20,6 @@ void record_scan_level(const RenderPlan& plan, std::uint32_t level, std::uint32_
                         .shader = "photon_scan",
                         .extent = {count, 1, 1},
                         .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                                     {"Tally", use_buffer(plan, "tally", recording)},
                                      {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
                                      {"BucketCounts", use_buffer(plan, "photon.counts", recording)},
                                      {"BucketRunSums", use_buffer(plan, "photon.runs", recording)},

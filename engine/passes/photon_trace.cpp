@@ -38,6 +38,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                                {"keeps_indirect", plan.has(Effect::indirect) ? 1u : 0u},
                                {"sorts_photons", settings.scatter ? 0u : 1u},
                                {"lanes", plan.photons.lanes},
+                               {"slots_at_once", plan.photons.slots_at_once},
                                {"depth_limit", settings.roulette ? 0u : settings.depth}});
     dispatch.bindings.push_back({"Starts", use_buffer(plan, "photon.rays", recording)});
     dispatch.bindings.insert(dispatch.bindings.end(),

@@ -23,6 +23,8 @@ constexpr std::uint32_t kFewestPhotons = 1u << 14;
 constexpr std::uint32_t kMostPhotons = 1u << 24;
 constexpr std::uint32_t kFewestBuckets = 1u << 10;
 constexpr std::uint32_t kMostBuckets = 1u << 22;
+// Places in the store that an invocation takes together where it traces many photons.
+constexpr std::uint32_t kSlotsAtOnce = 16;
 constexpr std::uint32_t kMostGatherLanes = 32;
 constexpr std::uint64_t kCellsPerPixel = 4;
 // Surfaces that receive a photon are a geometric series in the albedo; the deviation of their sum over all
@@ -109,7 +111,10 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
                                 "use fewer of them and more iterations",
                                 wanted, stored, limits.max_binding_bytes, limits.name));
     plan.radius = settings.radius.value_or(0.0);
-    plan.capacity = static_cast<std::uint32_t>(stored);
+    plan.slots_at_once = per_lane > 1 ? kSlotsAtOnce : 1;
+    // Each invocation leaves less than that many places empty.
+    const double slots = stored + static_cast<double>(plan.lanes) * (plan.slots_at_once - 1);
+    plan.capacity = static_cast<std::uint32_t>(std::min(slots, room));
     plan.buckets = bucket_count(plan.capacity, needs.pixels);
     if (plan.lamp_photons != 0)
         plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);

@@ -29,9 +29,10 @@ struct LightFacts {
 struct PhotonPlan {
     std::uint32_t lamp_photons = 0;  // emitted per iteration
     std::uint32_t sun_photons = 0;
-    std::uint32_t lanes = 0;         // invocations that trace them
-    std::uint32_t capacity = 0;      // photons that can be stored in an iteration
-    std::uint32_t buckets = 0;       // that they are sorted into, a power of two
+    std::uint32_t lanes = 0;          // invocations that trace them
+    std::uint32_t capacity = 0;       // photons that can be stored in an iteration
+    std::uint32_t slots_at_once = 0;  // of these that an invocation takes together
+    std::uint32_t buckets = 0;        // that they are sorted into, a power of two
     std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
     glm::dvec3 most_power{0.0};      // of one photon, W
     double radius = 0.0;             // of the first iteration, voxels; 0: a pilot has to find it

@@ -2,8 +2,6 @@
 #ifndef VX_PHOTON_STORE_GLSL
 #define VX_PHOTON_STORE_GLSL
 
-#extension GL_KHR_shader_subgroup_basic : require
-
 #include "lib/photon_frame.glsl"
 #include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
@@ -11,6 +9,8 @@
 #include "shared/photon_power.h"
 
 layout(constant_id = 30) const uint sorts_photons = 1u;  // 0: whoever reads them needs no order
+// Places that an invocation takes together. One that stores many photons so spares atomics that all invocations share.
+layout(constant_id = 34) const uint slots_at_once = 1u;
 
 layout(scalar) buffer PhotonHeads {
     PhotonHead head;
@@ -40,35 +40,45 @@ void put_photon(uint slot, StoredPhoton kept) {
     stored_words[first + 3u] = pack64(uvec2(kept.bucket, kept.rank));
 }
 
-// Faults of an invocation, counted when it is done: an atomic in a loop costs time even where no invocation needs it.
-uint misplaced_photons = 0u;
+// What an invocation has done, counted when it is done: an atomic in a loop costs time even where no invocation needs it.
+uint kept_photons = 0u;
+uint unsound_photons = 0u;
 uint late_photons = 0u;
 
-void count_store_faults() {
-    count(kFaultPhotonPower, misplaced_photons);
-    count(kFaultPhotonStoreFull, late_photons);
+// The places that it has taken and not used yet.
+uint next_slot = 0u;
+uint end_slot = 0u;
+
+uint take_slot() {
+    if (next_slot == end_slot) {
+        next_slot = atomicAdd(head.count, slots_at_once);
+        end_slot = next_slot + slots_at_once;
+    }
+    return next_slot++;
+}
+
+void put_hole(uint slot) {
+    uint first = kStoredWords * slot;
+    stored_words[first + 1u] = pack64(uvec2(0u, kNoSurface));
+    stored_words[first + 3u] = pack64(uvec2(kNoBucket, 0u));
 }
 
 // Keeps a photon: where it met a surface, local to the world, photon_surface() of it, and its power in watts before the
 // surface takes its share. Any invocations may call it, the others of their subgroup need not. A photon that no visible
-// point could take is left out; one without a finite place or beyond the capacity is lost and counted:
-// count_store_faults() does it at the end.
+// point could take is left out; one without a finite place or beyond the capacity is lost and counted.
 void store_photon(vec3 position, uint surface, vec3 power) {
     bool is_placed = is_finite(position);
     uint key = photon_key(is_placed ? position : vec3(0.0), surface, photon.grid);
     uint mark = photon_mark(key, photon.grid);
     bool is_wanted = (wanted_cells[mark >> 5u] >> (mark & 31u) & 1u) != 0u;
-    misplaced_photons += is_placed ? 0u : 1u;
+    unsound_photons += is_placed ? 0u : 1u;
     if (!is_placed || !is_wanted) return;
-    // One atomic for all that store at once.
-    uvec4 storing = subgroupBallot(true);
-    uint first = 0u;
-    if (subgroupElect()) first = atomicAdd(head.count, subgroupBallotBitCount(storing));
-    uint slot = subgroupBroadcastFirst(first) + subgroupBallotExclusiveBitCount(storing);
     PackedPower packed = pack_power(power, photon.power_scale, position);
-    misplaced_photons += packed.is_sound ? 0u : 1u;
+    uint slot = take_slot();
+    unsound_photons += packed.is_sound ? 0u : 1u;
     late_photons += slot < photon.capacity ? 0u : 1u;
     if (slot >= photon.capacity) return;
+    ++kept_photons;
     StoredPhoton kept;
     kept.position = position;
     kept.surface = surface;
@@ -78,6 +88,15 @@ void store_photon(vec3 position, uint surface, vec3 power) {
     // The rank among those of the bucket makes a second atomic in photon_sort unnecessary.
     if (sorts_photons != 0u) kept.rank = atomicAdd(bucket_counts[kept.bucket], 1u);
     put_photon(slot, kept);
+}
+
+// Gives back the places that were taken and not used, and counts what was done. At the end of main().
+void close_store() {
+    for (; next_slot != end_slot; ++next_slot)
+        if (next_slot < photon.capacity) put_hole(next_slot);
+    count(kWorkPhotonsStored, kept_photons);
+    count(kFaultPhotonPower, unsound_photons);
+    count(kFaultPhotonStoreFull, late_photons);
 }
 
 #endif

@@ -8,7 +8,6 @@
 #include "lib/invocation.glsl"
 
 #include "lib/photon_frame.glsl"
-#include "lib/tally_access.glsl"
 
 layout(constant_id = 0) const uint level = 0u;
 
@@ -59,7 +58,6 @@ void scan_runs_of_all(uint runs, uint buckets) {
     head.groups_x = min(groups, kMostGroups);
     head.groups_y = (groups + kMostGroups - 1u) / kMostGroups;
     head.groups_z = 1u;
-    count(kWorkPhotonsStored, kept);
 }
 
 void write_starts(uint run, uint buckets) {

@@ -10,6 +10,7 @@
 
 #include "lib/photon_frame.glsl"
 #include "lib/photon_words.glsl"
+#include "shared/photon_cell.h"
 
 layout(scalar) readonly buffer PhotonHeads {
     PhotonHead head;
@@ -29,6 +30,7 @@ void main() {
     uint i = linear_id();
     if (i >= min(head.count, photon.capacity)) return;
     uvec2 bucket_rank = unpack32(stored_words[kStoredWords * i + kSortedWords]);
+    if (bucket_rank.x == kNoBucket) return;
     uint place = bucket_starts[bucket_rank.x] + bucket_rank.y;
     for (uint word = 0u; word < kSortedWords; ++word)
         sorted_words[kSortedWords * place + word] = stored_words[kStoredWords * i + word];

@@ -66,6 +66,7 @@ void main() {
     if (i >= min(head.count, photon.capacity)) return;
     uint word = kStoredWords * i;
     SortedPhoton from = photon_of_words(stored_words[word], stored_words[word + 1u], stored_words[word + 2u]);
+    if (from.surface == kNoSurface) return;
     float reach = photon.radius * kPhotonReach;
     int y1 = photon_cell(from.position.y + reach, photon.grid.cells_per_voxel);
     int z1 = photon_cell(from.position.z + reach, photon.grid.cells_per_voxel);

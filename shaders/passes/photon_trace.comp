@@ -112,7 +112,7 @@ void main() {
         is_alive = is_surface(found.hit) && (found.hit.face != kFaceInside || found.stays) && passes < kMostBounces;
         if (is_alive) is_alive = bounce(photon, found);
     }
-    count_store_faults();
+    close_store();
     count(kWorkPathSegments, segments);
     count(kFaultPathTooLong, too_long);
     count(kFaultLoopCut, are_loops_spent(2u + (segments & 1u)) ? 1u : 0u);

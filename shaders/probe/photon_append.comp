@@ -21,5 +21,5 @@ void main() {
     if (i >= push.count) return;
     PhotonIn given = inputs[i];
     if (given.is_stored != 0u) store_photon(given.position, given.surface, given.power);
-    count_store_faults();
+    close_store();
 }

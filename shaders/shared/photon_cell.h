@@ -18,6 +18,7 @@
 VX_BEGIN
 
 VX_CONST(uint, kNoSurface, 0xFFFFFFFFu);
+VX_CONST(uint, kNoBucket, 0xFFFFFFFFu);  // of a place in the store that holds no photon
 VX_CONST(uint, kSphereSurface, 0x80000000u);
 VX_CONST(uint, kInsideOfSphere, 0x40000000u);
 

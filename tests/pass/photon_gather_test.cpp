@@ -214,6 +214,20 @@ TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
     EXPECT_GT(wrong_points(job, test::run_photons(without)), 0);
 }
 
+// Invocations that take several places and fill one leave holes behind.
+TEST(PhotonGather, places_that_hold_no_photon_change_nothing) {
+    PhotonJob job = random_job(14, {0, 0, 0}, 5.0, 2);
+    const PhotonOutcome want = test::run_photons(job);
+    job.slots_at_once = 16;
+    job.setup.capacity = 16 * 3000;
+    const PhotonOutcome gathered = test::run_photons(job);
+    expect_no_faults(gathered);
+    EXPECT_EQ(gathered.tally[gpu::kWorkPhotonsStored], want.head.count);
+    EXPECT_EQ(gathered.head.count, 16 * want.head.count);
+    EXPECT_TRUE(same_light(want, gathered));
+    EXPECT_TRUE(same_light(want, test::run_splat(job)));
+}
+
 // Subgroups of a size that the host knows, and of one that only the device knows.
 TEST(PhotonGather, light_does_not_depend_on_who_knows_the_size_of_subgroups) {
     PhotonJob job = random_job(13, {0, 0, 0}, 5.0, 2);

@@ -15,18 +15,19 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Rec
         {.name = "t.photons", .size_bytes = std::max<std::size_t>(count, 1) * sizeof(gpu::PhotonIn)});
     if (count == 0) return;
     recording.upload("t.photons", std::as_bytes(std::span(job.photons)));
-    recording.dispatch({.label = "t.append",
-                        .shader = "photon_append",
-                        .extent = {count, 1, 1},
-                        .bindings = {{"In", "t.photons"},
-                                     {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                                     {"Tally", use_buffer(plan, "tally", recording)},
-                                     {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
-                                     {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
-                                     {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
-                                     {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
-                        .constants = {{"sorts_photons", sorts ? 1u : 0u}},
-                        .push = to_bytes(count)});
+    recording.dispatch(
+        {.label = "t.append",
+         .shader = "photon_append",
+         .extent = {count, 1, 1},
+         .bindings = {{"In", "t.photons"},
+                      {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+                      {"Tally", use_buffer(plan, "tally", recording)},
+                      {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
+                      {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
+                      {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
+                      {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
+         .constants = {{"sorts_photons", sorts ? 1u : 0u}, {"slots_at_once", job.slots_at_once}},
+         .push = to_bytes(count)});
 }
 
 void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& recording) {

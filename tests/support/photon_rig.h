@@ -23,7 +23,8 @@ struct PhotonJob {
     std::vector<gpu::SphereRecord> spheres;
     PhotonSetup setup;
     PhotonRadii radii = PhotonRadii::common;
-    bool knows_lanes = true;  // the size of subgroups, as plans for software devices do
+    std::uint32_t slots_at_once = 1;  // as PhotonPlan::slots_at_once
+    bool knows_lanes = true;          // the size of subgroups, as plans for software devices do
 };
 
 // What the passes wrote.
