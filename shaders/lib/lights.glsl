@@ -27,7 +27,7 @@ DrawnLight draw_light(uint bits, float u) {
     drawn.parts = light_parts(lights[i].what);
     drawn.cell = lights[i].cell;
     drawn.pdf = light_table[i].pdf;
-    uint material = drawn.parts.kind == kLightSphere ? sphere_record(drawn.parts.sphere).material : drawn.parts.material;
+    uint material = drawn.parts.kind == kLightSphere ? spheres[drawn.parts.sphere].material : drawn.parts.material;
     drawn.emission = materials[material].emission;
     return drawn;
 }
@@ -41,8 +41,8 @@ vec3 sphere_centre(Sphere shape) {
 float light_pdf(vec3 origin, vec3 direction, Hit hit, vec3 emission) {
     float shining = brightness(emission) / frame.light_power;
     if (is_on_sphere(hit)) {
-        float radius = 1.0 / sphere_record(hit.sphere).shape.curvature;
-        SphereCone cone = sphere_cone(sphere_centre(sphere_record(hit.sphere).shape) - origin, radius);
+        float radius = 1.0 / spheres[hit.sphere].shape.curvature;
+        SphereCone cone = sphere_cone(sphere_centre(spheres[hit.sphere].shape) - origin, radius);
         bool is_seen = hit.face == kFaceSphere && cone.height > 0.0;
         return is_seen ? shining * sphere_emission_etendue(radius) * sphere_cone_pdf(cone) : 0.0;
     }

@@ -155,7 +155,7 @@ void find_sphere(PathRay path, inout PathHit found) {
     if (nearest.i == kNoSphere) return;
     found = no_hit();
     found.hit.t = nearest.t;
-    SphereRecord sphere = sphere_record(nearest.i);
+    SphereRecord sphere = spheres[nearest.i];
     found.curvature = sphere.shape.curvature;
     found.normal = place_on_sphere(found.hit, nearest.i, sphere, origin, path.direction);
 }
@@ -190,7 +190,7 @@ GlassAround glass_around(vec3 point, uint but) {
         if (sphere_count <= kFewSpheres) {
             sphere = held_spheres[i];
         } else {
-            sphere = sphere_record(i);
+            sphere = spheres[i];
         }
         bool inner = i != but && sphere.shape.curvature >= around.curvature && is_in_sphere(sphere.shape, point);
         around.i = inner ? i : around.i;

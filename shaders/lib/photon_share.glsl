@@ -12,7 +12,7 @@ layout(constant_id = 31) const uint clips_discs = 1u;
 
 vec3 disc_normal(Hit hit) {
     if (hit.face < kFaceSphere) return face_normal(hit.face);
-    Sphere shape = sphere_record(hit.sphere).shape;
+    Sphere shape = spheres[hit.sphere].shape;
     return normalize(shape.normal + shape.curvature * (photon_position(hit) - shape.anchor));
 }
 
@@ -34,7 +34,7 @@ vec2 disc_shares(Hit hit, vec2 radii) {
             shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
     } else {
         for (uint i = 0u; i < sphere_count; ++i)
-            shares *= shares_left(sphere_record(i).shape, i, own, point, normal, radii);
+            shares *= shares_left(spheres[i].shape, i, own, point, normal, radii);
     }
     return max(shares, vec2(kLeastShare));
 }

@@ -34,7 +34,7 @@ uint own_sphere(Hit hit) {
 // Unit, on the side that was hit.
 vec3 surface_normal(Hit hit) {
     if (is_on_sphere(hit)) {
-        Sphere shape = sphere_record(hit.sphere).shape;
+        Sphere shape = spheres[hit.sphere].shape;
         vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
         vec3 outward = normalize(shape.normal + shape.curvature * from_anchor);
         return hit.face == kFaceSphereInside ? -outward : outward;
@@ -66,7 +66,7 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
         }
     } else {
         for (uint i = 0u; i < sphere_count; ++i) {
-            float t = sphere_time(sphere_record(i).shape, origin, direction, nearest.t, i == own);
+            float t = sphere_time(spheres[i].shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
         }

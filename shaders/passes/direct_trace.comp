@@ -34,7 +34,7 @@ Aim aim_at_lamp(vec3 origin, uint bits, float u, vec2 u_point) {
     aim.pdf = 0.0;
     aim.direction = vec3(0.0, 0.0, 1.0);
     if (aim.lamp.parts.kind == kLightSphere) {
-        Sphere shape = sphere_record(aim.lamp.parts.sphere).shape;
+        Sphere shape = spheres[aim.lamp.parts.sphere].shape;
         SphereCone cone = sphere_cone(sphere_centre(shape) - origin, 1.0 / shape.curvature);
         if (cone.height > 0.0) {
             aim.direction = uniform_cone(cone.axis, cone.height, u_point);

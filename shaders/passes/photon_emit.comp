@@ -24,7 +24,7 @@ PhotonStart start_at(vec3 position) {
 }
 
 PhotonStart leave_sphere(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
-    Sphere shape = sphere_record(lamp.parts.sphere).shape;
+    Sphere shape = spheres[lamp.parts.sphere].shape;
     SphereEmission emission = sphere_emission(u_point, u_direction);
     PhotonStart start = start_at(shape.anchor + (emission.normal - shape.normal) / shape.curvature);
     start.direction = emission.direction;

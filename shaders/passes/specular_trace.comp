@@ -28,7 +28,7 @@ PathHit first_hit(Pixel pixel) {
     found.hit = first_hits[pixel.index];
     if (!is_surface(found.hit)) return found;
     found.normal = surface_normal(found.hit);
-    if (is_on_sphere(found.hit)) found.curvature = sphere_record(found.hit.sphere).shape.curvature;
+    if (is_on_sphere(found.hit)) found.curvature = spheres[found.hit.sphere].shape.curvature;
     found.far_medium = is_glass(found.hit.material) && !is_on_sphere(found.hit) ? found.hit.material : kNoMedium;
     found.stays = found.hit.face == kFaceInside && found.far_medium != kNoMedium;
     return found;

@@ -30,7 +30,7 @@ void main() {
     vec3 origin = local_position(ray.cell, ray.fraction);
     NearestSphere nearest = nearest_sphere(origin, ray.direction, hit.t, kNoSphere);
     hit.t = nearest.t;
-    if (nearest.i != kNoSphere) place_on_sphere(hit, nearest.i, sphere_record(nearest.i), origin, ray.direction);
+    if (nearest.i != kNoSphere) place_on_sphere(hit, nearest.i, spheres[nearest.i], origin, ray.direction);
     if (!is_surface(hit)) hit.t = 0.0;
     hits[pixel.index] = hit;
 }
