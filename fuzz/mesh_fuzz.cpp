@@ -8,10 +8,10 @@
 #include <string_view>
 
 #include "support/allocation_counter.h"
-#include "voxelize/load_gltf.h"
-#include "voxelize/load_mtl.h"
-#include "voxelize/load_obj.h"
-#include "voxelize/texture_sample.h"
+#include "voxelizer/load_gltf.h"
+#include "voxelizer/load_mtl.h"
+#include "voxelizer/load_obj.h"
+#include "voxelizer/texture_sample.h"
 
 namespace {
 

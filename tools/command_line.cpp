@@ -11,7 +11,7 @@
 #include "merge/merge.h"
 #include "plan/plan.h"
 #include "render/render.h"
-#include "scene/nearest_name.h"
+#include "base/nearest_name.h"
 #include "tradeoff/tradeoff.h"
 #include "voxelize/voxelize.h"
 

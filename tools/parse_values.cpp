@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "parse_box.h"
-#include "scene/nearest_name.h"
+#include "base/nearest_name.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {

@@ -10,7 +10,7 @@
 #include "scene/animation.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
-#include "scene/scene_toml.h"
+#include "formats/scene_toml.h"
 
 namespace voxilux {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "film/image.h"
+#include "formats/image.h"
 #include "shared/limits.h"
 
 namespace voxilux {

@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
-#include "film/bias_estimate.h"
-#include "film/exr.h"
+#include "formats/exr.h"
 #include "film/film.h"
 
 namespace voxilux {
@@ -16,7 +15,6 @@ namespace {
 constexpr std::array<const char*, 3> kXyz{"X", "Y", "Z"};
 constexpr std::array<const char*, 3> kRgb{"R", "G", "B"};
 constexpr std::size_t kMostComponents = 4;
-constexpr const char* kSquares = "squares";
 
 std::size_t pixels_of(const FilmSums& film) {
     return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
@@ -42,22 +40,6 @@ std::vector<std::uint64_t> spread_rows(const FilmSums& film, const std::vector<s
         counts.insert(counts.end(), static_cast<std::size_t>(film.width), n);
     return counts;
 }
-
-// The two halves with the samples of each pixel.
-struct Halves {
-    std::vector<std::uint64_t> even;
-    std::vector<std::uint64_t> odd;
-    FilmHalf a;
-    FilmHalf b;
-
-    explicit Halves(const FilmSums& film)
-        : even(spread_rows(film, film.even)),
-          odd(spread_rows(film, film.odd)),
-          a{film.sums.at("beauty_a"), even},
-          b{film.sums.at("beauty_b"), odd} {}
-    Halves(const Halves&) = delete;
-    Halves& operator=(const Halves&) = delete;
-};
 
 void add_means(const FilmSums& film, const std::string& name, Image& image) {
     const std::vector<std::int64_t>& sums = film.sums.at(name);
@@ -101,8 +83,8 @@ void add_firsts(FilmSums& film, const FilmSums& more) {
     }
 }
 
-void add_variance(const FilmSums& film, const Halves& halves, Image& image) {
-    const std::vector<std::int64_t>& squares = film.sums.at(kSquares);
+void add_variance(const FilmSums& film, const FilmHalves& halves, Image& image) {
+    const std::vector<std::int64_t>& squares = film.sums.at(kSquaresPlane);
     std::array<std::vector<float>, 3> planes;
     for (std::size_t pixel = 0; pixel < pixels_of(film); ++pixel) {
         const std::array<double, 3> variance = mean_variance(halves.a, halves.b, squares, pixel);
@@ -171,6 +153,12 @@ void load_first(const Image& image, const std::string& name, std::size_t compone
 
 }  // namespace
 
+FilmHalves::FilmHalves(const FilmSums& film)
+    : even(spread_rows(film, film.even)),
+      odd(spread_rows(film, film.odd)),
+      a{film.sums.at("beauty_a"), even},
+      b{film.sums.at("beauty_b"), odd} {}
+
 void add_film(FilmSums& film, const FilmSums& more) {
     VX_ASSERT(film.width == more.width && film.height == more.height);
     VX_ASSERT_EQ(film.sums.size(), more.sums.size());
@@ -178,34 +166,23 @@ void add_film(FilmSums& film, const FilmSums& more) {
     for (auto& [name, sums] : film.sums) {
         const std::vector<std::int64_t>& others = more.sums.at(name);
         VX_ASSERT_EQ(sums.size(), others.size());
-        std::ranges::transform(sums, others, sums.begin(), name == kSquares ? full_sum : wrapped_sum);
+        std::ranges::transform(sums, others, sums.begin(), name == kSquaresPlane ? full_sum : wrapped_sum);
     }
     std::ranges::transform(film.even, more.even, film.even.begin(), std::plus());
     std::ranges::transform(film.odd, more.odd, film.odd.begin(), std::plus());
 }
 
 Image picture_of(const FilmSums& film) {
-    const Halves halves(film);
+    const FilmHalves halves(film);
     Image image = film_image(film.width, film.height, halves.a, halves.b);
     for (const auto& [name, sums] : film.sums) {
-        if (!is_half(name) && name != kSquares) add_means(film, name, image);
+        if (!is_half(name) && name != kSquaresPlane) add_means(film, name, image);
     }
     for (const auto& [name, values] : film.firsts)
         add_first(film, name, image);
-    if (film.sums.contains(kSquares)) add_variance(film, halves, image);
+    if (film.sums.contains(kSquaresPlane)) add_variance(film, halves, image);
     if (film.sums.contains("bias_a")) add_bias(film, image);
     return image;
-}
-
-ErrorEstimate error_of(const FilmSums& film) {
-    const Halves halves(film);
-    const auto squares = film.sums.find(kSquares);
-    const bool has_squares = film.is_independent && squares != film.sums.end();
-    const ErrorEstimate noise = estimate_error(film.width, film.height, halves.a, halves.b,
-                                               has_squares ? FilmSquares(squares->second) : FilmSquares{});
-    if (!film.sums.contains("bias_a")) return noise;
-    return with_bias(noise, estimate_bias(film.width, film.height, halves.a, halves.b, film.sums.at("bias_a"),
-                                          film.sums.at("bias_b")));
 }
 
 void store_sums(FilmSums film, Image& image) {
@@ -240,7 +217,7 @@ Result<FilmSums> load_sums(const Image& image) {
         if (!film.sums.contains(half) || film.sums.at(half).size() != 3 * pixel_count(image))
             return Failure{fmt::format("it has no sums of {}", half)};
     }
-    const auto squares = film.sums.find(kSquares);
+    const auto squares = film.sums.find(kSquaresPlane);
     if (squares != film.sums.end() && squares->second.size() != 3 * pixel_count(image))
         return Failure{"its squares are damaged"};
     load_first(image, "position", 3, film);

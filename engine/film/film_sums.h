@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "film/error_estimate.h"
-#include "film/image.h"
+#include "film/film.h"
+#include "formats/image.h"
 
 namespace voxilux {
 
@@ -25,6 +25,21 @@ struct FilmSums {
     bool operator==(const FilmSums&) const = default;
 };
 
+// Plane of the squares of the beauty, where there is one.
+inline constexpr const char* kSquaresPlane = "squares";
+
+// The two halves of the beauty with the samples of each pixel. The film outlives them.
+struct FilmHalves {
+    std::vector<std::uint64_t> even;
+    std::vector<std::uint64_t> odd;
+    FilmHalf a;
+    FilmHalf b;
+
+    explicit FilmHalves(const FilmSums& film);
+    FilmHalves(const FilmHalves&) = delete;
+    FilmHalves& operator=(const FilmHalves&) = delete;
+};
+
 // Adds the samples of another film of the same size and planes. Where both have positions and depths those of
 // `film` stay.
 void add_film(FilmSums& film, const FilmSums& more);
@@ -34,10 +49,6 @@ void add_film(FilmSums& film, const FilmSums& more);
 // the variance of the beauty by mean_variance(); above the truth where samples are not independent. bias.R .G
 // .B is what the radius of the photons adds to the beauty.
 [[nodiscard]] Image picture_of(const FilmSums& film);
-
-// The error of the beauty: from the squares where there are some and samples are independent, else from the
-// halves; with its bias where the film knows it.
-[[nodiscard]] ErrorEstimate error_of(const FilmSums& film);
 
 // Moves the sums into the whole-number planes of an image: sums.PLANE.COMPONENT.lo and .hi (kSumsLayer).
 // Planes leave the film one by one, so that there is hardly ever a second copy in memory.

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "base/assert.h"
-#include "film/srgb.h"
+#include "base/srgb.h"
 
 namespace voxilux {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "film/image.h"
+#include "formats/image.h"
 
 namespace voxilux {
 

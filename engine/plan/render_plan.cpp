@@ -123,7 +123,7 @@ void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const Devi
 
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     if (plan.has(Effect::sky) && (facts.has_glass || facts.has_metal))
-        plan.notes.push_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
+        plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
 }
 
 }  // namespace

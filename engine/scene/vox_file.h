@@ -3,9 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,8 +11,6 @@
 #include <vector>
 
 #include <glm/glm.hpp>
-
-#include "base/error.h"
 
 namespace voxilux {
 
@@ -171,13 +167,5 @@ struct VoxFile {
 
 // The colour of a voxel's index (1..255).
 [[nodiscard]] VoxColour colour_of(const VoxFile& file, std::uint8_t index);
-
-// The file, or the first broken rule and its byte offset. Checks all that the other vox_* functions rely on.
-// Memory: at most 64 MiB + 64 bytes per byte of the file, whatever it holds; time: linear but for sorting
-// node ids.
-[[nodiscard]] Result<VoxFile> read_vox(std::span<const std::byte> bytes);
-
-// read_vox of a file on disk. Throws Error(input_refused) with its name.
-[[nodiscard]] VoxFile load_vox(const std::filesystem::path& path);
 
 }  // namespace voxilux

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/error.h"
 #include "scene/scene.h"
 #include "scene/vox_file.h"
 

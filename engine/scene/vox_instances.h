@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/error.h"
 #include "scene/scene.h"
 #include "scene/vox_file.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "frame/frame_state.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 #include "shared/tally.h"
 #include "support/ao_keys.h"
 #include "support/device_fixture.h"

@@ -9,7 +9,7 @@
 
 #include "frame/frame_state.h"
 #include "plan/render_plan.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 #include "shared/gpu_types.h"
 #include "shared/tally.h"
 #include "support/device_fixture.h"

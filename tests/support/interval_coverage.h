@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "film/error_estimate.h"
+#include "estimators/error_estimate.h"
 
 namespace voxilux::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "voxelize/mesh.h"
+#include "voxelizer/mesh.h"
 
 namespace voxilux::test {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "film/image.h"
-#include "film/srgb.h"
+#include "formats/image.h"
+#include "base/srgb.h"
 
 namespace voxilux::test {
 

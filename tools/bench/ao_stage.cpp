@@ -11,7 +11,7 @@
 #include "passes/sphere.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
-#include "scene/scene_toml.h"
+#include "formats/scene_toml.h"
 #include "shared/sequence.h"
 
 namespace voxilux {

@@ -14,7 +14,7 @@
 #include "bench/ao_row.h"
 #include "bench/ao_variant.h"
 #include "bench/stopwatch.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 #include "shared/gpu_types.h"
 
 namespace voxilux {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "scene/scene_camera.h"
-#include "scene/scene_toml.h"
+#include "formats/scene_toml.h"
 #include "scene/terrain.h"
 #include "shared/rng.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "bench/stopwatch.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 
 namespace voxilux {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/photon_row.h"
-#include "film/image.h"
+#include "formats/image.h"
 #include "scene/scene.h"
 
 namespace voxilux {

@@ -7,12 +7,12 @@
 
 #include "base/error.h"
 #include "bench/bench_flags.h"
-#include "film/image_file.h"
+#include "formats/image_file.h"
 #include "output_files.h"
 #include "parse_box.h"
 #include "parse_values.h"
-#include "scene/nearest_name.h"
-#include "scene/scene_toml.h"
+#include "base/nearest_name.h"
+#include "formats/scene_toml.h"
 
 namespace voxilux {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "film/image.h"
-#include "film/metrics.h"
+#include "formats/image.h"
+#include "estimators/metrics.h"
 
 namespace voxilux {
 

@@ -11,9 +11,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "film/flip.h"
-#include "film/image_file.h"
-#include "film/metrics.h"
+#include "estimators/flip.h"
+#include "formats/image_file.h"
+#include "estimators/metrics.h"
 #include "parse_box.h"
 
 namespace voxilux {

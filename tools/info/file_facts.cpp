@@ -1,3 +1,4 @@
+#include "formats/vox_read.h"
 #include "info/file_facts.h"
 
 #include <fmt/format.h>
@@ -7,13 +8,13 @@
 #include <limits>
 
 #include "base/error.h"
-#include "film/image_file.h"
-#include "film/sum.h"
+#include "formats/image_file.h"
+#include "base/sum.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
-#include "scene/scene_hash.h"
-#include "scene/scene_toml.h"
-#include "scene/vox_info.h"
+#include "formats/scene_hash.h"
+#include "formats/scene_toml.h"
+#include "formats/vox_info.h"
 
 namespace voxilux {
 namespace {

@@ -1,10 +1,10 @@
 #include "merge/merge.h"
 
 #include "base/error.h"
-#include "film/png.h"
+#include "formats/png.h"
 #include "output_files.h"
 #include "render/render_output.h"
-#include "session/merge_parts.h"
+#include "jobs/merge_parts.h"
 
 namespace voxilux {
 namespace {

@@ -8,8 +8,8 @@
 #include "plan/plan_forecast.h"
 #include "render/render_output.h"
 #include "render/render_part.h"
-#include "session/forecast_history.h"
-#include "session/report.h"
+#include "jobs/forecast_history.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "output_files.h"
-#include "session/effect_price.h"
-#include "session/forecast_report.h"
-#include "session/frame_run.h"
-#include "session/memory_forecast.h"
-#include "session/report.h"
+#include "jobs/effect_price.h"
+#include "jobs/forecast_report.h"
+#include "jobs/frame_run.h"
+#include "jobs/memory_forecast.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "render/render.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 
 namespace voxilux {
 

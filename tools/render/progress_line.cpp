@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "session/forecast_report.h"
+#include "jobs/forecast_report.h"
 
 namespace voxilux {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 
 namespace voxilux {
 

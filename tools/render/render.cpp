@@ -11,9 +11,9 @@
 #include "render/render_frames.h"
 #include "render/render_output.h"
 #include "render/render_part.h"
-#include "scene/scene_hash.h"
-#include "session/memory_forecast.h"
-#include "session/report.h"
+#include "formats/scene_hash.h"
+#include "jobs/memory_forecast.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "device_options.h"
 #include "scene_options.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 
 namespace voxilux {
 

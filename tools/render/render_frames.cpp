@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "output_files.h"
 #include "render/render_output.h"
-#include "session/report.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "film/png.h"
+#include "formats/png.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/render_part.h"
-#include "session/forecast_history.h"
-#include "session/report.h"
+#include "jobs/forecast_history.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

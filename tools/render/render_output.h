@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "film/exr.h"
+#include "formats/exr.h"
 #include "film/tonemap.h"
 #include "render/render.h"
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 
 namespace voxilux {
 

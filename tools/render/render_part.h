@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "render/render.h"
-#include "session/film_part.h"
+#include "jobs/film_part.h"
 
 namespace voxilux {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/assert.h"
-#include "film/metrics.h"
-#include "film/srgb.h"
+#include "estimators/metrics.h"
+#include "base/srgb.h"
 
 namespace voxilux {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "base/assert.h"
-#include "film/difference_estimate.h"
-#include "film/metrics.h"
+#include "estimators/difference_estimate.h"
+#include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {

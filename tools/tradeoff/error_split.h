@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "film/image.h"
+#include "formats/image.h"
 
 namespace voxilux {
 

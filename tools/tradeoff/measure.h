@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 #include "tradeoff/error_split.h"
 #include "tradeoff/knobs.h"
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "base/file.h"
-#include "film/png.h"
+#include "formats/png.h"
 #include "film/tonemap.h"
 #include "tradeoff/difference_map.h"
 #include "tradeoff/price_list_json.h"

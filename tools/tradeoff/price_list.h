@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "session/effect_price.h"
+#include "jobs/effect_price.h"
 #include "tradeoff/equal_rows.h"
 #include "tradeoff/measure.h"
 #include "tradeoff/reference.h"

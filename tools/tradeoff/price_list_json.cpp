@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "session/report.h"
+#include "jobs/report.h"
 #include "tradeoff/difference_map.h"
 
 namespace voxilux {

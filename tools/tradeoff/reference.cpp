@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "estimators/film_error.h"
 #include "film/film_sums.h"
-#include "scene/scene_hash.h"
+#include "formats/scene_hash.h"
 #include "tradeoff/measure.h"
 #include "tradeoff/reference_cache.h"
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "session/render_session.h"
+#include "jobs/render_session.h"
 #include "tradeoff/error_split.h"
 #include "tradeoff/knobs.h"
 

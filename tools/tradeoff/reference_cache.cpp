@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "film/exr.h"
+#include "formats/exr.h"
 
 namespace voxilux {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "film/image.h"
+#include "formats/image.h"
 
 namespace voxilux {
 

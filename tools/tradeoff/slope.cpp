@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "film/student_quantile.h"
+#include "base/student_quantile.h"
 
 namespace voxilux {
 namespace {

@@ -6,12 +6,12 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "film/difference_estimate.h"
+#include "estimators/difference_estimate.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
-#include "scene/scene_hash.h"
-#include "session/effect_price.h"
+#include "formats/scene_hash.h"
+#include "jobs/effect_price.h"
 #include "tradeoff/page_maker.h"
 #include "tradeoff/price_files.h"
 #include "tradeoff/price_list.h"

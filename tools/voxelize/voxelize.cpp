@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "output_files.h"
-#include "voxelize/load_mesh.h"
-#include "voxelize/vox_output.h"
+#include "voxelizer/load_mesh.h"
+#include "voxelizer/vox_output.h"
 #include "voxelize/voxelize_progress.h"
 #include "voxelize/voxelize_report.h"
 

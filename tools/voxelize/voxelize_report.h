@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "voxelize/vox_output.h"
+#include "voxelizer/vox_output.h"
 #include "voxelize/voxelize.h"
 
 namespace voxilux {

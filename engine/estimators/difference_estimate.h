@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "formats/image.h"
+
+namespace voxilux {
+
+// The systematic part of a difference between pictures, in the units of sqrt(relMSE) squared: mean over
+// pixels and channels of difference^2 / (radiance^2 + kRelMseEpsilon).
+struct SquareEstimate {
+    double squared = 0.0;  // without bias, so that noise may make it negative
+    double low = 0.0;      // interval of 95 %
+    double high = 0.0;
+
+    // Lower end of the same where no pixel counts for more than a difference of 100 %: it tells a difference
+    // from noise, which a few bright pixels otherwise make so large that nothing can be said.
+    double bounded_low = 0.0;
+
+    // Noise alone would hardly give so much.
+    [[nodiscard]] bool is_beyond_noise() const { return low > 0.0 || bounded_low > 0.0; }
+};
+
+// One measurement of a difference: `test` - `base`. Not owned.
+struct DifferenceTrial {
+    const Image* test = nullptr;
+    const Image* base = nullptr;
+};
+
+inline constexpr std::size_t kFewestTrials = 3;
+
+// From kFewestTrials or more trials with independent random numbers; those of one trial may be common. The
+// mean product of the differences of two trials is free of the noise of either (difference_estimate.cpp).
+// Radiance is that of `radiance`, or, for null, that of the bases of the other trials. Images have one size
+// and colours (asserted).
+[[nodiscard]] SquareEstimate estimate_difference(std::span<const DifferenceTrial> trials,
+                                                 const Image* radiance = nullptr);
+
+}  // namespace voxilux

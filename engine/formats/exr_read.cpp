@@ -1,0 +1,191 @@
+// The reading half of film/exr.h. Files are hostile until proven otherwise: the header is held against the
+// caps before any plane is allocated, and every exception of the library becomes one line.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "formats/exr.h"
+
+namespace voxilux {
+namespace {
+
+class MemoryStream : public Imf::IStream {
+  public:
+    MemoryStream(std::span<const std::byte> bytes, const std::string& name)
+        : Imf::IStream(name.c_str()), bytes_(bytes) {}
+
+    bool read(char c[], int n) override {
+        const std::size_t wanted = n < 0 ? 0 : static_cast<std::size_t>(n);
+        if (at_ > bytes_.size() || wanted > bytes_.size() - at_)
+            throw std::runtime_error(fmt::format("the file ends early, at byte {}", bytes_.size()));
+        std::memcpy(c, bytes_.data() + at_, wanted);
+        at_ += wanted;
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
+
+  private:
+    std::span<const std::byte> bytes_;
+    std::size_t at_ = 0;
+};
+
+struct Window {
+    std::int64_t x = 0, y = 0, width = 0, height = 0;
+};
+
+Window window_of(const Imath::Box2i& box) {
+    return {box.min.x, box.min.y, std::int64_t{box.max.x} - box.min.x + 1,
+            std::int64_t{box.max.y} - box.min.y + 1};
+}
+
+void check_side(const Window& window, std::string_view which) {
+    if (window.width < 1 || window.height < 1 || window.width > kMaxExrSide || window.height > kMaxExrSide) {
+        throw std::runtime_error(fmt::format("the {} window is {}x{}, each side must be 1 to {}", which,
+                                             window.width, window.height, kMaxExrSide));
+    }
+}
+
+void check_header(const Imf::Header& header, std::size_t file_bytes) {
+    if (header.hasType() && Imf::isDeepData(header.type()))
+        throw std::runtime_error("deep data is not supported, flatten it first");
+    const Window data = window_of(header.dataWindow());
+    const Window display = window_of(header.displayWindow());
+    check_side(data, "data");
+    check_side(display, "display");
+    std::size_t channels = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        ++channels;
+        if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
+            throw std::runtime_error(
+                fmt::format("channel {} is subsampled, which is not supported", c.name()));
+    }
+    if (channels < 1 || channels > kMaxExrChannels)
+        throw std::runtime_error(fmt::format("{} channels, must be 1 to {}", channels, kMaxExrChannels));
+    const auto bytes_of = [&](const Window& w) {
+        return static_cast<std::size_t>(w.width * w.height) * channels * sizeof(float);
+    };
+    if (bytes_of(data) > kMaxExrBytes)
+        throw std::runtime_error(fmt::format("its planes need more than {} bytes", kMaxExrBytes));
+    if (bytes_of(display) > std::max(bytes_of(data), kMaxExrFrameBytes))
+        throw std::runtime_error(
+            fmt::format("the frame around its crop needs more than {} bytes", kMaxExrFrameBytes));
+    if (bytes_of(data) > kFreeExrBytes + kMaxExrGrowth * file_bytes) {
+        throw std::runtime_error(fmt::format("{}x{} pixels of {} channels cannot lie in {} bytes", data.width,
+                                             data.height, channels, file_bytes));
+    }
+}
+
+// Copies a plane of the data window to its place in the display window; what lies outside is dropped.
+std::vector<float> place(const std::vector<float>& plane, const Window& data, const Window& display) {
+    std::vector<float> result(static_cast<std::size_t>(display.width * display.height), 0.0f);
+    const std::int64_t x0 = std::max(data.x, display.x);
+    const std::int64_t x1 = std::min(data.x + data.width, display.x + display.width);
+    const std::int64_t y1 = std::min(data.y + data.height, display.y + display.height);
+    for (std::int64_t y = std::max(data.y, display.y); y < y1 && x0 < x1; ++y) {
+        const auto from = plane.begin() + ((y - data.y) * data.width + (x0 - data.x));
+        std::copy(from, from + (x1 - x0),
+                  result.begin() + ((y - display.y) * display.width + (x0 - display.x)));
+    }
+    return result;
+}
+
+void read_attributes(const Imf::Header& header, Image& image) {
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+        const std::string_view name = a.name();
+        if (text != nullptr && name != "type") image.attributes.emplace(name, text->value());
+    }
+}
+
+// What is read of a file.
+enum class Area {
+    frame,  // the display window, sums left out
+    data,   // the data window, whole numbers as such
+};
+
+template <class T>
+Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& box) {
+    static_assert(sizeof(T) == 4);
+    const Window data = window_of(box);
+    plane.resize(static_cast<std::size_t>(data.width * data.height));
+    return Imf::Slice::Make(type, plane.data(), box, sizeof(T),
+                            sizeof(T) * static_cast<std::size_t>(data.width));
+}
+
+void read_channels(Imf::InputPart& part, Area area, Image& image) {
+    const Imf::Header& header = part.header();
+    const Imath::Box2i box = header.dataWindow();
+    std::map<std::string, std::vector<float>> planes;
+    Imf::FrameBuffer frame;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        const std::string name = c.name();
+        const bool is_whole_number = c.channel().type == Imf::UINT;
+        if (is_whole_number && area == Area::data) {
+            frame.insert(name, slice_of(Imf::UINT, image.words[name], box));
+        } else if (!is_whole_number || !name.starts_with(kSumsLayer)) {
+            frame.insert(name, slice_of(Imf::FLOAT, planes[name], box));
+            image.channels[name].precision =
+                c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
+        }
+    }
+    part.setFrameBuffer(frame);
+    part.readPixels(box.min.y, box.max.y);
+    const bool is_whole = area == Area::data || header.dataWindow() == header.displayWindow();
+    for (auto& [name, plane] : planes)
+        image.channels[name].pixels =
+            is_whole ? std::move(plane)
+                     : place(plane, window_of(header.dataWindow()), window_of(header.displayWindow()));
+}
+
+Image decode(std::span<const std::byte> bytes, const std::string& name, Area area) {
+    try {
+        // The library sizes tables from the header while it opens a file; this makes it look at the header
+        // first.
+        Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
+        MemoryStream stream(bytes, name);
+        Imf::MultiPartInputFile file(stream, 0, false);
+        const Imf::Header& header = file.header(0);
+        check_header(header, bytes.size());
+        const Window window = window_of(area == Area::data ? header.dataWindow() : header.displayWindow());
+        Image image{.width = static_cast<int>(window.width), .height = static_cast<int>(window.height)};
+        Imf::InputPart part(file, 0);
+        read_attributes(part.header(), image);
+        read_channels(part, area, image);
+        return image;
+    } catch (const std::exception& cause) {
+        std::string reason = cause.what();
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        throw Error(ExitCode::input_refused, fmt::format("{}: not a readable EXR: {}", name, reason));
+    }
+}
+
+}  // namespace
+
+Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
+    return decode(bytes, name, Area::frame);
+}
+
+Image read_exr(const std::filesystem::path& path) {
+    return decode_exr(read_file(path, kMaxExrFileBytes), path.string());
+}
+
+Image read_exr_part(const std::filesystem::path& path) {
+    return decode(read_file(path, kMaxExrFileBytes), path.string(), Area::data);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,169 @@
+#include "formats/scene_toml.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "formats/toml_scene.h"
+#include "formats/toml_section.h"
+#include "formats/vox_read.h"
+#include "scene/vox_file.h"
+#include "scene/vox_scene.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;  // a person's file is a thousandth of it
+
+toml::table parse_toml(std::string_view text, const std::string& path) {
+    try {
+        return toml::parse(text, path);
+    } catch (const toml::parse_error& error) {
+        refuse_at(error.source(), std::string(error.description()));
+    }
+}
+
+// The tree of one -D option. A value that is no TOML is a text, so that -D render.sequence=white needs no
+// quotes.
+toml::table parse_override(const std::string& option) {
+    const std::string path = "-D " + option;
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos || equals == 0)
+        refuse_at({{}, {}, std::make_shared<const std::string>(path)},
+                  "must be key=value, for example sun.elevation=10");
+    const std::string key = option.substr(0, equals), value = option.substr(equals + 1);
+    try {
+        return toml::parse(key + " = " + value, path);
+    } catch (const toml::parse_error&) {
+        std::string quoted;
+        for (const char c : value)
+            quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+        return parse_toml(key + " = \"" + quoted + "\"", path);
+    }
+}
+
+void merge(toml::table& into, toml::table& from);
+
+// Replaces what is under `key` (or in its place in the list) by `value`, whose source it keeps: nodes are
+// moved.
+template <class Container, class Place>
+void put(Container& into, const Place& place, toml::node& value) {
+    value.visit([&](auto& node) {
+        if constexpr (std::is_same_v<Container, toml::array>)
+            into.replace(into.cbegin() + place, std::move(node));
+        else
+            into.insert_or_assign(place, std::move(node));
+    });
+}
+
+// "sphere.0.radius": the keys of `from` are positions in the list.
+void merge_into_list(toml::array& into, toml::table& from) {
+    for (auto&& [key, value] : from) {
+        std::size_t index = 0;
+        const std::string_view text = key.str();
+        const auto parsed = std::from_chars(text.data(), text.data() + text.size(), index);
+        if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size() || index >= into.size())
+            refuse_at(value.source(),
+                      fmt::format("'{}' is no position in a list of {} (the first is 0)", text, into.size()));
+        toml::node& old = into[index];
+        if (old.is_table() && value.is_table())
+            merge(*old.as_table(), *value.as_table());
+        else
+            put(into, static_cast<std::ptrdiff_t>(index), value);
+    }
+}
+
+void merge(toml::table& into, toml::table& from) {
+    for (auto&& [key, value] : from) {
+        toml::node* old = into.get(key);
+        if (old != nullptr && old->is_table() && value.is_table())
+            merge(*old->as_table(), *value.as_table());
+        else if (old != nullptr && old->is_array() && value.is_table())
+            merge_into_list(*old->as_array(), *value.as_table());
+        else
+            put(into, key, value);
+    }
+}
+
+void read_tree(toml::table& root, const std::filesystem::path& file, const LoadOptions& options,
+               Scene& scene) {
+    for (const std::string& option : options.overrides) {
+        toml::table tree = parse_override(option);
+        merge(root, tree);
+    }
+    const TomlSection sections(
+        root, "the scene",
+        {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
+    TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
+    read_render(in);
+    read_ao(in);
+    read_photons(in);
+    read_sun(in);
+    read_sky(in);
+    read_materials(in);
+    read_models(in);
+    read_shapes(in);
+    read_spheres(in);
+    read_camera(in);
+}
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+}  // namespace
+
+const toml::table* find_section(const TomlScene& in, std::string_view name) {
+    const toml::node* node = in.root.get(name);
+    if (node == nullptr) return nullptr;
+    if (!node->is_table()) refuse_at(node->source(), fmt::format("'{}' must be a section [{}]", name, name));
+    return node->as_table();
+}
+
+std::vector<const toml::table*> find_sections(const TomlScene& in, std::string_view name) {
+    std::vector<const toml::table*> tables;
+    const toml::node* node = in.root.get(name);
+    if (node == nullptr) return tables;
+    const auto refuse = [&](const toml::node& at) {
+        refuse_at(at.source(), fmt::format("'{}' must be sections [[{}]] in double brackets", name, name));
+    };
+    if (!node->is_array()) refuse(*node);
+    for (const toml::node& element : *node->as_array()) {
+        if (!element.is_table()) refuse(element);
+        tables.push_back(element.as_table());
+    }
+    return tables;
+}
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, const LoadOptions& options) {
+    toml::table root = parse_toml(text, file.string());
+    Scene scene;
+    read_tree(root, file, options, scene);
+    return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    const std::string extension = lower_extension(file);
+    if (extension == ".vox") {
+        Scene scene;
+        place_vox(scene, add_vox(scene, load_vox(file), options.frame), Rotation{}, glm::ivec3(0));
+        toml::table root;
+        read_tree(root, file, options, scene);
+        return scene;
+    }
+    if (extension != ".toml")
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: unknown kind of scene; give a .vox or a .toml file", file.string()));
+    const std::vector<std::byte> bytes = read_file(file, kMaxTomlBytes);
+    return parse_scene({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, options);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,178 @@
+// The named and repeated sections: [material.NAME], [[model]], [[sphere]].
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "scene/scene_bounds.h"
+#include "formats/toml_colour.h"
+#include "formats/toml_materials.h"
+#include "formats/toml_scene.h"
+#include "formats/toml_section.h"
+#include "scene/vox_animation.h"
+#include "formats/vox_read.h"
+#include "scene/vox_file.h"
+#include "scene/vox_scene.h"
+#include "scene/voxel_grid.h"
+
+namespace voxilux {
+namespace {
+
+constexpr int kMaxTranslation = static_cast<int>(kVoxMaxTranslation);
+
+// In the order of kSurfaces.
+constexpr std::array<std::string_view, 4> kSurfaceNames{"diffuse", "metal", "glass", "emit"};
+constexpr std::array<Surface, 4> kSurfaces{Surface::diffuse, Surface::metal, Surface::glass, Surface::emit};
+
+void read_surface(const TomlSection& section, Material& material) {
+    const auto surface = section.choice("surface", kSurfaceNames);
+    const bool glows = material.emission != glm::vec3(0.0f);
+    if (surface) material.surface = kSurfaces[*surface];
+    if (!surface && glows) material.surface = Surface::emit;
+    if (material.surface == Surface::emit && !glows)
+        section.refuse("surface", "is \"emit\", which needs 'emission' above zero");
+    const bool polished = material.surface == Surface::metal || material.surface == Surface::glass;
+    material.roughness =
+        static_cast<float>(section.number("roughness", {0.0, 1.0}).value_or(polished ? 0.0 : 1.0));
+    material.metallic = material.surface == Surface::metal ? 1.0f : 0.0f;
+    material.transmission = material.surface == Surface::glass ? 1.0f : 0.0f;
+}
+
+Material read_material(const TomlSection& section, const std::string& name) {
+    // Nothing that is transparent bends light more than germanium in the infrared does, 4.
+    constexpr Range kIorRange{1.0, 4.0};
+    Material material{.name = name};
+    if (section.has("color") && section.has("albedo")) section.refuse("color", "excludes 'albedo'");
+    if (const auto colour = read_colour(section, "color")) material.albedo = *colour;
+    if (const auto albedo = section.numbers3("albedo", {0.0, 1.0})) material.albedo = glm::vec3(*albedo);
+    if (const auto emission = section.numbers3("emission", kLightRange))
+        material.emission = glm::vec3(*emission);
+    if (const auto ior = section.number("ior", kIorRange)) material.ior = static_cast<float>(*ior);
+    read_surface(section, material);
+    return material;
+}
+
+// The signed permutation of one word of `rotate`: the right-handed turn of axis "x", "y", "z" by 90, 180 or
+// 270.
+Rotation turn(const TomlSection& section, const std::string& word) {
+    const std::string_view axes = "xyz";
+    const std::size_t k = word.empty() ? std::string_view::npos : axes.find(word.front());
+    const std::string_view angle = std::string_view(word).substr(std::min<std::size_t>(1, word.size()));
+    const int quarters = angle == "90" ? 1 : angle == "180" ? 2 : angle == "270" ? 3 : 0;
+    if (k == std::string_view::npos || quarters == 0)
+        section.refuse(
+            "rotate", fmt::format("must be of \"x90\", \"x180\", \"x270\", \"y90\", ... \"z270\", not \"{}\"",
+                                  word.substr(0, 40)));
+    // A quarter turn about axis k takes axis i to j: result j is v[i], result i is -v[j].
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    Rotation quarter;
+    quarter.axis[j] = static_cast<std::uint8_t>(i);
+    quarter.axis[i] = static_cast<std::uint8_t>(j);
+    quarter.sign[i] = -1;
+    Rotation result;
+    for (int q = 0; q < quarters; ++q)
+        result = quarter.after(result);
+    return result;
+}
+
+Rotation read_rotation(const TomlSection& section) {
+    Rotation rotation;
+    for (const std::string& word : section.texts("rotate").value_or(std::vector<std::string>{}))
+        rotation = turn(section, word).after(rotation);
+    for (const std::string& word : section.texts("mirror").value_or(std::vector<std::string>{})) {
+        if (word != "x" && word != "y" && word != "z")
+            section.refuse("mirror",
+                           fmt::format("must be of \"x\", \"y\", \"z\", not \"{}\"", word.substr(0, 40)));
+        Rotation mirror;
+        mirror.sign[static_cast<std::size_t>(word.front() - 'x')] = -1;
+        rotation = mirror.after(rotation);
+    }
+    return rotation;
+}
+
+// What has been added to the scene of each file, at a frame of its own or (none) moving with the scene: a
+// model that is placed often is read and kept once.
+using AddedFiles = std::map<std::pair<std::filesystem::path, std::optional<std::int64_t>>, AddedVox>;
+
+AddedVox add_file(TomlScene& in, const std::filesystem::path& path, std::optional<std::int64_t> frame) {
+    const VoxFile file = load_vox(path);
+    if (frame) return {.instances = add_vox_models(in.scene, file, static_cast<int>(*frame))};
+    return add_vox(in.scene, file, in.frame);
+}
+
+void read_model(TomlScene& in, const toml::table& table, AddedFiles& added) {
+    const TomlSection section(table, "[[model]]", {"file", "translate", "rotate", "mirror", "frame"});
+    const std::filesystem::path path = in.folder / section.require(section.text("file"), "file");
+    const auto translate = section.integers3("translate", -kMaxTranslation, kMaxTranslation);
+    const Rotation rotation = read_rotation(section);
+    const auto frame = section.integer("frame", 0, kMaxFrame);
+    try {
+        auto known = added.find({path, frame});
+        if (known == added.end())
+            known = added.emplace(std::pair(path, frame), add_file(in, path, frame)).first;
+        place_vox(in.scene, known->second, rotation, translate.value_or(glm::ivec3(0)));
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::input_refused) throw;
+        section.refuse("file", fmt::format("cannot be used: {}", error.what()));
+    }
+}
+
+}  // namespace
+
+void read_materials(TomlScene& in) {
+    const toml::table* all = find_section(in, "material");
+    if (all == nullptr) return;
+    for (const auto& [key, value] : *all) {
+        const std::string name(key.str());
+        if (!value.is_table())
+            refuse_at(value.source(),
+                      fmt::format("'{}' in [material] must be a section [material.{}]", name, name));
+        const TomlSection section(*value.as_table(), fmt::format("[material.{}]", name),
+                                  {"color", "albedo", "surface", "emission", "roughness", "ior"});
+        if (name == kAir) section.refuse("takes the name of what carves: choose another");
+        if (in.scene.materials.size() > kMaxGridMaterial)
+            section.refuse("is one material too many: at most 65535");
+        in.materials[name] = static_cast<std::uint32_t>(in.scene.materials.size());
+        in.scene.materials.push_back(read_material(section, name));
+    }
+}
+
+std::uint32_t find_material(const TomlScene& in, const TomlSection& section, std::string_view key,
+                            const std::string& name) {
+    const auto found = in.materials.find(name);
+    if (found != in.materials.end()) return found->second;
+    std::vector<std::string_view> names;
+    for (const auto& [known, index] : in.materials)
+        names.push_back(known);
+    section.refuse(
+        key, fmt::format("names the unknown material '{}'{}", name.substr(0, 40), name_hint(name, names)));
+}
+
+void read_models(TomlScene& in) {
+    AddedFiles added;
+    for (const toml::table* table : find_sections(in, "model"))
+        read_model(in, *table, added);
+}
+
+void read_spheres(TomlScene& in) {
+    for (const toml::table* table : find_sections(in, "sphere")) {
+        const TomlSection section(*table, "[[sphere]]", {"center", "radius", "material"});
+        Sphere sphere;
+        constexpr double kReach =
+            kMaxCoordinate / 2;  // so that centre and radius together stay within the limit
+        sphere.centre = section.require(section.numbers3("center", {-kReach, kReach}), "center");
+        sphere.radius = section.require(section.number("radius", {0.0, kReach, true}), "radius");
+        const std::string name = section.require(section.text("material"), "material");
+        sphere.material = find_material(in, section, "material", name);
+        in.scene.spheres.push_back(sphere);
+    }
+}
+
+}  // namespace voxilux

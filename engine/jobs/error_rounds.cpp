@@ -1,0 +1,67 @@
+#include "jobs/error_rounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+#include "jobs/forecast.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint32_t kFirstRound = 8;  // samples, where nothing is known
+// A round that its own picture decides grows it by this at least, so that looks stay few; and by this at
+// most: few samples say little, and of many one bright one may have said too much.
+constexpr double kLeastGrowth = 1.05;
+constexpr double kMostGrowth = 2.0;
+constexpr double kMostEarlyGrowth = 8.0;
+constexpr std::uint32_t kEarly = 64;  // samples
+constexpr double kAim = 0.98;         // of the target, after a claim that passed it
+
+}  // namespace
+
+std::string_view name_of(DecidedBy decided_by) {
+    switch (decided_by) {
+        case DecidedBy::request:
+            return "request";
+        case DecidedBy::pilot:
+            return "pilot";
+        case DecidedBy::frame_before:
+            return "frame before";
+        case DecidedBy::averaged:
+            return "averaged samples";
+    }
+    VX_ASSERT(false);
+}
+
+ErrorRounds::ErrorRounds(const ErrorLaw& law, double target, const ErrorGuess& guess, std::uint32_t most,
+                         std::uint32_t done)
+    : law_(law), target_(target), most_(most), points_(guess.points), decided_by_(guess.from) {
+    const auto curve = fit_error(law, points_);
+    if (!curve) decided_by_ = DecidedBy::averaged;
+    const std::uint32_t planned = curve ? planned_samples(*curve, target).value_or(most) : kFirstRound;
+    end_ = std::min(std::max(planned, done), most);
+}
+
+bool ErrorRounds::reaches(std::uint32_t samples, const ErrorEstimate& claim) {
+    if (claim.high <= target_) return true;
+    if (samples >= most_) return false;
+    if (const auto point = error_point(samples, claim)) points_.push_back(*point);
+    decided_by_ = DecidedBy::averaged;
+    ++rounds_;
+    // The curve says how the claim falls, the claim itself where it stands.
+    const auto curve = fit_error(law_, points_);
+    double wanted = 0.0;
+    if (curve && std::isfinite(claim.high)) {
+        const double aim = kAim * target_ * claimed_error(*curve, samples) / claim.high;
+        wanted = samples_for(*curve, aim).value_or(most_);
+    }
+    const double now = samples;
+    const double most_growth = samples < kEarly ? kMostEarlyGrowth : kMostGrowth;
+    const double next = std::clamp(wanted, std::ceil(kLeastGrowth * now) + 1.0, most_growth * now);
+    end_ = static_cast<std::uint32_t>(std::min(next, static_cast<double>(most_)));
+    end_ = std::min(end_ + end_ % 2, most_);  // halves of one size
+    return false;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,78 @@
+#include "jobs/memory_forecast.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "plan/film_planes.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint64_t kSumBytes = 8;
+constexpr std::uint64_t kValueBytes = 4;
+constexpr std::uint64_t kCountBytes = 8;     // samples of a pixel, in each half
+constexpr std::uint64_t kFirstValues = 4;    // position and depth
+constexpr std::uint64_t kBeautyValues = 5;   // R G B, error, sample count
+constexpr std::uint64_t kDisplayValues = 3;  // of a PNG
+constexpr std::uint64_t kCodeBytes = 3;
+constexpr std::uint64_t kHalfSaving = 6;  // bytes of a pixel's beauty that an EXR does not store
+
+// Bytes of a pixel on the host.
+struct PixelBytes {
+    std::uint64_t film = 0;
+    std::uint64_t picture = 0;
+    std::uint64_t making = 0;  // beside both, while the picture is made
+};
+
+bool is_hidden(const std::string& plane) {
+    return plane.ends_with("_a") || plane.ends_with("_b");
+}
+
+PixelBytes bytes_of_pixel(const RenderPlan& plan) {
+    std::uint64_t sums = 0, values = kBeautyValues;
+    for (const FilmPlane& plane : film_planes(plan)) {
+        sums += plane.components;
+        if (!is_hidden(plane.name)) values += plane.components;
+    }
+    if (plan.sums_bias) values += 3;
+    const std::uint64_t firsts = plan.has(Effect::aov) ? kFirstValues : 0;
+    return {.film = sums * kSumBytes + firsts * kValueBytes,
+            .picture = (values + firsts) * kValueBytes,
+            .making = 2 * kCountBytes + (plan.sums_bias ? 3 * kSumBytes : 0)};
+}
+
+}  // namespace
+
+std::uint64_t end_bytes(const RenderPlan& plan, const PictureUse& use) {
+    const PixelBytes bytes = bytes_of_pixel(plan);
+    const std::uint64_t kept = use.keeps_film ? bytes.film : 0;
+    const std::uint64_t stored = bytes.picture - kHalfSaving;
+    std::uint64_t most = bytes.film + bytes.picture + bytes.making;
+    if (use.writes_exr) most = std::max(most, kept + bytes.picture + stored);
+    if (use.writes_png)
+        most = std::max(most, kept + bytes.picture + kDisplayValues * kValueBytes + 2 * kCodeBytes);
+    if (use.writes_checkpoint) most = std::max(most, bytes.film + bytes.picture + stored);
+    return most * static_cast<std::uint64_t>(plan.settings.size.x) *
+           static_cast<std::uint64_t>(plan.settings.size.y);
+}
+
+ResidentBytes resident_bytes() {
+    ResidentBytes bytes;
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    std::uint64_t kib = 0;
+    while (status >> word) {
+        if (word == "VmRSS:" && status >> kib) bytes.now = kib * 1024;
+        if (word == "VmHWM:" && status >> kib) bytes.peak = kib * 1024;
+    }
+    return bytes;
+}
+
+MemoryForecast forecast_memory(const RenderPlan& plan, const PictureUse& use) {
+    const ResidentBytes resident = resident_bytes();
+    return {.device_bytes = plan.total_bytes(),
+            .peak_rss_bytes = std::max(resident.peak, resident.now + end_bytes(plan, use))};
+}
+
+}  // namespace voxilux

@@ -1,0 +1,19 @@
+#include "jobs/photon_report.h"
+
+namespace voxilux {
+
+nlohmann::ordered_json photons_json(const RenderPlan& plan) {
+    if (!plan.has_photons()) return nullptr;
+    const PhotonSettings& settings = plan.settings.photons;
+    nlohmann::ordered_json json = {{"per_iteration", plan.photons.count()},
+                                   {"of_lamps", plan.photons.lamp_photons},
+                                   {"of_sun", plan.photons.sun_photons},
+                                   {"capacity", plan.photons.capacity}};
+    const bool is_known = plan.photons.radius > 0.0;
+    json["first_radius"] = is_known ? nlohmann::ordered_json(plan.photons.radius) : nullptr;
+    json["alpha"] = settings.alpha;
+    json["method"] = settings.scatter ? "scatter" : settings.classic ? "classic" : "gather";
+    return json;
+}
+
+}  // namespace voxilux

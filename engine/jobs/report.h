@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "jobs/render_session.h"
+
+namespace voxilux {
+
+// The report of a render, with the keys that the command line promises (--json, and the header of the EXR).
+[[nodiscard]] nlohmann::ordered_json report_json(const Scene& scene, const RenderOutcome& outcome);
+
+// What a frame range did so far: the sums over its frames, and a row for each.
+struct SequenceReport {
+    RenderOutcome total;  // without a picture; the plan of the first frame
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+};
+
+// Adds a frame whose pictures are in `files`. What can be added up is; the total has the longest dispatch,
+// the fewest samples, the largest error, and the memory of the last frame.
+void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std::string>& files,
+               const RenderOutcome& outcome);
+
+// The report of a frame range: the keys of report_json over all frames, and `frames`. `scene_hash` is that of
+// the animated scene, `scene` any frame of it.
+[[nodiscard]] nlohmann::ordered_json sequence_json(const Scene& scene, std::uint64_t scene_hash,
+                                                   const SequenceReport& report);
+
+// The part of the report that does not depend on the clock, the machine's load or the order of threads: what
+// --reproducible stores.
+[[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene,
+                                                              const RenderOutcome& outcome);
+
+// The same part of any report.
+[[nodiscard]] nlohmann::ordered_json reproducible_report(const nlohmann::ordered_json& report);
+
+// The report's `error`.
+[[nodiscard]] nlohmann::ordered_json error_json(const ErrorEstimate& error);
+
+// The plan in the same terms, before anything ran.
+[[nodiscard]] nlohmann::ordered_json plan_json(const Scene& scene, const RenderPlan& plan);
+
+// The report as lines for people.
+[[nodiscard]] std::string describe(const RenderOutcome& outcome);
+
+}  // namespace voxilux

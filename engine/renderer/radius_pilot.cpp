@@ -1,0 +1,89 @@
+#include "renderer/radius_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "frame/frame.h"
+#include "passes/upload.h"
+#include "plan/plan_lists.h"
+#include "shared/photon_types.h"
+
+namespace voxilux {
+namespace {
+
+// With ten photons a disc's light scatters by a third, which some dozen iterations bring below the steps of a
+// display; the Cornell box gets a radius near 2, where its error is lowest (engine/passes/README.md).
+constexpr double kPilotPhotons = 10.0;
+constexpr double kSmallestPilot = 0.0625;  // voxels
+constexpr double kPilotGrowth = 4.0;
+constexpr int kMostPilots = 10;  // up to a radius of 16,384 voxels
+// Fewer photons in the middle disc say too little.
+constexpr double kEnoughPhotons = 3.0;
+// Parts of the longest side of a world of voxels that no disc may be wider than: where hardly a photon comes,
+// noise is better than a smear.
+constexpr double kFinestParts = 128.0;
+constexpr double kUnlitRadius = 1.0;  // voxels, where no photon reaches what is seen
+
+// One iteration in which each pixel counts the photons of its disc.
+RenderPlan counting_plan(const RenderPlan& plan, double radius) {
+    RenderPlan pilot = plan;
+    pilot.settings.spp = 1;
+    pilot.settings.photons.classic = true;
+    pilot.settings.photons.scatter = false;
+    pilot.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
+    pilot.photons.radius = radius;
+    pilot.effects[static_cast<std::size_t>(Effect::aov)].on = false;
+    pilot.sums_squares = false;
+    pilot.sums_bias = false;
+    pilot.buffers.clear();
+    list_buffers(pilot);
+    return pilot;
+}
+
+std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams& params,
+                                 Executor& executor) {
+    const Slice slice{.row_count =
+                          std::min(pilot.band_rows, static_cast<std::uint32_t>(pilot.settings.size.y))};
+    Recording recording;
+    record_frame(pilot, slice, params, {}, recording);
+    recording.readback("photon.radii");
+    auto radii = values_of<gpu::PixelRadius>(executor.run(recording), "photon.radii");
+    radii.resize(std::size_t{slice.row_count} * static_cast<std::size_t>(pilot.settings.size.x));
+    std::vector<float> photons;
+    for (const gpu::PixelRadius& pixel : radii)
+        photons.push_back(pixel.photons);
+    return photons;
+}
+
+double largest_radius(const PreparedScene& prepared) {
+    if (!prepared.plan.has(Effect::voxels)) return std::numeric_limits<double>::infinity();
+    const glm::i64vec3 extent = prepared.facts.extent;
+    return std::max(1.0, static_cast<double>(std::max({extent.x, extent.y, extent.z})) / kFinestParts);
+}
+
+}  // namespace
+
+double median_of_met(std::vector<float> photons) {
+    std::erase_if(photons, [](float met) { return !(met > 0.0f); });
+    if (photons.empty()) return 0.0;
+    const auto middle = photons.begin() + static_cast<std::ptrdiff_t>(photons.size() / 2);
+    std::ranges::nth_element(photons, middle);
+    return static_cast<double>(*middle);
+}
+
+double pilot_radius(const PreparedScene& prepared, const Scene& scene, Executor& executor) {
+    double radius = kSmallestPilot;
+    double met = 0.0;
+    const double most = largest_radius(prepared);
+    for (int i = 0; i < kMostPilots; ++i) {
+        const RenderPlan pilot = counting_plan(prepared.plan, radius);
+        met = median_of_met(count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor));
+        if (met >= kEnoughPhotons || radius >= most || i + 1 == kMostPilots) break;
+        radius *= kPilotGrowth;
+    }
+    if (!(met > 0.0)) return kUnlitRadius;
+    return std::min(radius * std::sqrt(kPilotPhotons / met), most);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "engine/plan/plan_scenes.h"
+
+namespace voxilux {
+namespace {
+
+Image render(const Scene& scene, const PlanRequest& request) {
+    const RenderOutcome outcome = render_scene(scene, {.plan = request, .device = {.validation = true}});
+    EXPECT_EQ(outcome.statistics.validation, std::vector<std::string>{});
+    for (const auto& [name, count] : outcome.statistics.faults)
+        EXPECT_EQ(count, 0u) << name;
+    return outcome.image;
+}
+
+Scene small_scene(const std::string& name) {
+    return test::repository_scene(name, {"render.size=[48, 27]", "render.spp=2"});
+}
+
+// Colour values whose bits differ.
+int differing_values(const Image& a, const Image& b) {
+    int count = 0;
+    for (const char* channel : {"R", "G", "B"}) {
+        const std::vector<float>& x = a.channels.at(channel).pixels;
+        const std::vector<float>& y = b.channels.at(channel).pixels;
+        EXPECT_EQ(x.size(), y.size());
+        for (std::size_t i = 0; i < x.size(); ++i)
+            count += std::memcmp(&x[i], &y[i], sizeof(float)) != 0 ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(ForcedEffect, occlusion_under_a_black_sky_changes_no_bit) {
+    const Scene scene = small_scene("black_sky");
+    const PlanRequest forced = test::with_switch(test::exr_request(), Effect::ao, Switch::on);
+    ASSERT_TRUE(test::plan_of(scene, forced).has(Effect::ao));
+    EXPECT_EQ(differing_values(render(scene, test::exr_request()), render(scene, forced)), 0);
+}
+
+TEST(ForcedEffect, extra_channels_change_no_bit_of_the_colour) {
+    const Scene scene = small_scene("mixed");
+    const PlanRequest forced = test::with_switch(PlanRequest{}, Effect::aov, Switch::on);
+    ASSERT_TRUE(test::plan_of(scene, forced).has(Effect::aov));
+    EXPECT_EQ(differing_values(render(scene, PlanRequest{}), render(scene, forced)), 0);
+}
+
+// What a scene does not call for is either not possible, and then forcing it changes nothing in the plan, or
+// it is one of those above, or sunlight between surfaces, for which occlusion of the sky stands: forcing that
+// does change the picture, as the plan says.
+TEST(ForcedEffect, unneeded_effect_is_impossible_or_tested_here) {
+    for (const std::string& name : test::scene_names()) {
+        const Scene scene = small_scene(name);
+        const RenderPlan plan = test::plan_of(scene, PlanRequest{});
+        for (std::size_t i = 0; i < kEffectCount; ++i) {
+            const auto effect = static_cast<Effect>(i);
+            if (plan.has(effect) || effect == Effect::ao || effect == Effect::aov ||
+                effect == Effect::indirect)
+                continue;
+            EXPECT_EQ(test::plan_of(scene, test::with_switch(PlanRequest{}, effect, Switch::on)), plan)
+                << name << ": " << name_of(effect);
+        }
+    }
+}
+
+struct Needed {
+    const char* scene;
+    Effect effect;
+};
+
+void PrintTo(const Needed& needed, std::ostream* os) {
+    *os << needed.scene << " without " << name_of(needed.effect);
+}
+
+class NeededEffect : public testing::TestWithParam<Needed> {};
+
+// The twin: an effect that runs is an effect that shows.
+TEST_P(NeededEffect, switched_off_changes_the_picture) {
+    const auto [name, effect] = GetParam();
+    const Scene scene = small_scene(name);
+    ASSERT_TRUE(test::plan_of(scene, PlanRequest{}).has(effect));
+    const Image without = render(scene, test::with_switch(PlanRequest{}, effect, Switch::off));
+    EXPECT_GT(differing_values(render(scene, PlanRequest{}), without), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(effects, NeededEffect,
+                         testing::Values(Needed{"overcast", Effect::voxels},
+                                         Needed{"spheres", Effect::spheres}, Needed{"overcast", Effect::ao},
+                                         Needed{"black_sky", Effect::sun}, Needed{"overcast", Effect::sky},
+                                         Needed{"emitters", Effect::emission}));
+
+}  // namespace
+}  // namespace voxilux

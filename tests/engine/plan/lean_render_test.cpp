@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include "engine/plan/plan_scenes.h"
+#include "support/device_fixture.h"
+
+namespace voxilux {
+namespace {
+
+// A render on the device with nothing else in its executor.
+struct LeanRun {
+    std::set<std::string> shaders;
+    std::set<std::string> buffers;  // alive afterwards, staging memory left out
+    std::uint64_t pipelines = 0;
+};
+
+LeanRun run_lean(const Scene& scene, const PlanRequest& request) {
+    const PreparedScene prepared = prepare_scene(scene, request, test_device().limits());
+    const test::RecordedRender render = test::record_render(scene, prepared);
+    Executor executor(test_device(), pass_shaders(), {.poison_transients = true});
+    for (const Recording& recording : render.recordings)
+        executor.run(recording);
+    LeanRun run{.shaders = render.shaders, .pipelines = executor.pipelines_created()};
+    for (const MemoryRow& row : executor.memory()) {
+        if (row.buffer != "executor.staging") run.buffers.insert(row.buffer);
+    }
+    return run;
+}
+
+LeanRun run_lean(const std::string& name, const PlanRequest& request = test::exr_request()) {
+    return run_lean(test::repository_scene(name, {"render.size=[32, 24]", "render.spp=2"}), request);
+}
+
+bool any_starts_with(const std::set<std::string>& names, std::string_view prefix) {
+    const auto found = names.lower_bound(std::string(prefix));
+    return found != names.end() && found->starts_with(prefix);
+}
+
+using Names = std::set<std::string>;
+
+TEST(LeanRender, sun_below_the_horizon_leaves_no_command_buffer_or_pipeline) {
+    for (const char* scene : {"night", "overcast"}) {
+        const LeanRun run = run_lean(scene);
+        EXPECT_EQ(run.shaders,
+                  (Names{"world_grow", "primary_beam", "primary_march", "ao_trace", "shade_resolve",
+                         "film_add", "film_square", "aov_surface", "aov_position"}));
+        EXPECT_EQ(run.pipelines, run.shaders.size()) << scene;
+        EXPECT_FALSE(any_starts_with(run.buffers, "sun")) << scene;
+        EXPECT_FALSE(any_starts_with(run.buffers, "film.sun")) << scene;
+    }
+}
+
+// The twin: the same scene with the sun up costs one more shader, pipeline, buffer and film plane.
+TEST(LeanRender, sun_above_the_horizon_adds_its_own_and_no_more) {
+    const LeanRun night = run_lean("night");
+    const LeanRun day = run_lean(
+        test::repository_scene("night", {"render.size=[32, 24]", "render.spp=2", "sun.elevation=10"}),
+        test::exr_request());
+    EXPECT_TRUE(day.shaders.contains("sun_trace"));
+    EXPECT_EQ(day.pipelines, night.pipelines + 1);
+    EXPECT_TRUE(day.buffers.contains("sun.lit"));
+    EXPECT_TRUE(day.buffers.contains("film.sun.0"));
+}
+
+TEST(LeanRender, empty_scene_has_no_march_and_no_world) {
+    const LeanRun run = run_lean("empty", PlanRequest{});
+    EXPECT_EQ(run.shaders, (Names{"shade_resolve", "film_add"}));
+    EXPECT_EQ(run.pipelines, 2u);
+    EXPECT_FALSE(any_starts_with(run.buffers, "world"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "primary"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "sphere"));
+    EXPECT_FALSE(run.buffers.contains("materials"));
+}
+
+TEST(LeanRender, colour_only_output_has_no_aov) {
+    const LeanRun run = run_lean("night", PlanRequest{});
+    EXPECT_FALSE(any_starts_with(run.shaders, "aov"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "aov"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "film.albedo"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "film.depth"));
+    EXPECT_TRUE(any_starts_with(run_lean("night").buffers, "film.albedo")) << "the twin";
+}
+
+TEST(LeanRender, black_sky_has_no_ao) {
+    const LeanRun run = run_lean("black_sky");
+    EXPECT_FALSE(run.shaders.contains("ao_trace"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "ao."));
+    EXPECT_FALSE(any_starts_with(run.buffers, "film.ao"));
+}
+
+TEST(LeanRender, spheres_alone_have_no_world) {
+    const LeanRun run = run_lean("spheres");
+    EXPECT_FALSE(run.shaders.contains("primary_march"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "world"));
+    EXPECT_FALSE(any_starts_with(run.buffers, "primary"));
+    EXPECT_TRUE(run.buffers.contains("sphere.records"));
+}
+
+class LeanRenderOf : public testing::TestWithParam<std::string> {};
+
+// The device holds the buffers of the plan and one word for each constant, and one pipeline per shader.
+TEST_P(LeanRenderOf, device_holds_the_plan_and_nothing_else) {
+    const Scene scene = test::repository_scene(GetParam(), {"render.size=[32, 24]", "render.spp=2"});
+    const LeanRun run = run_lean(scene, test::exr_request());
+    Names planned;
+    for (const PlannedBuffer& buffer : test::plan_of(scene).buffers)
+        planned.insert(buffer.buffer);
+    Names held;
+    for (const std::string& name : run.buffers) {
+        if (!name.starts_with("constant.")) held.insert(name);
+    }
+    EXPECT_EQ(held, planned);
+    const std::size_t levels = run.shaders.contains("photon_scan") ? 2 : 0;  // it has three variants
+    EXPECT_EQ(run.pipelines, run.shaders.size() + levels);
+}
+
+INSTANTIATE_TEST_SUITE_P(scenes, LeanRenderOf, testing::ValuesIn(test::scene_names()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace voxilux

@@ -1,0 +1,44 @@
+#pragma once
+
+// The scenes of this repository as the plan rung sees them, and a whole render recorded without a device.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "record/recording.h"
+#include "jobs/render_session.h"
+
+namespace voxilux::test {
+
+// Stems of all files scenes/*.toml, sorted.
+[[nodiscard]] std::vector<std::string> scene_names();
+
+[[nodiscard]] std::filesystem::path scene_path(const std::string& name);
+
+// A scene of ours with overrides as -D gives them. Throws as load_scene.
+[[nodiscard]] Scene repository_scene(const std::string& name, const std::vector<std::string>& overrides = {});
+
+// What `voxilux render -o x.exr` would ask for.
+[[nodiscard]] PlanRequest exr_request();
+
+[[nodiscard]] PlanRequest with_switch(PlanRequest request, Effect effect, Switch choice);
+
+// The plan alone, for the default device.
+[[nodiscard]] RenderPlan plan_of(const Scene& scene, const PlanRequest& request = exr_request());
+
+// All that a whole render records when no slice is cut smaller than the plan's.
+struct RecordedRender {
+    std::vector<Recording> recordings;           // the scene and the cleared film first, then the samples
+    std::map<std::string, BufferProxy> buffers;  // by name
+    std::map<std::string, std::uint64_t> dispatches;  // how many of each label
+    std::set<std::string> shaders;
+};
+
+// Records what the session would run. Throws InternalError when two recordings declare a buffer differently.
+[[nodiscard]] RecordedRender record_render(const Scene& scene, const PreparedScene& prepared);
+
+}  // namespace voxilux::test

@@ -1,0 +1,86 @@
+// Quality presets: what they set, what wins over them, what --help says.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/cli/child_process.h"
+#include "support/source_tree.h"
+
+namespace voxilux::test {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+Json plan_of(const std::string& scene, const Words& more) {
+    Words words = {"plan", scene_file(scene), "--size", "16x16", "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Ending ending = run(words);
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    return Json::parse(ending.out);
+}
+
+// Samples per pixel that the plan would take.
+std::uint64_t samples_of(const Words& more, const std::string& scene = "first_light") {
+    const Json plan = plan_of(scene, more);
+    for (const Json& pass : plan["passes"])
+        if (pass["label"] == "shade.resolve") return pass["count"];
+    return 0;
+}
+
+TEST(Quality, better_presets_take_more_samples) {
+    std::uint64_t before = 0;
+    for (const char* name : {"draft", "normal", "fine", "reference"}) {
+        const std::uint64_t samples = samples_of({"--quality", name});
+        EXPECT_GT(samples, before) << name;
+        before = samples;
+    }
+}
+
+TEST(Quality, replaces_what_the_file_says) {
+    EXPECT_NE(samples_of({"--quality", "draft"}), samples_of({}));
+}
+
+TEST(Quality, explicit_flags_win) {
+    EXPECT_EQ(samples_of({"--quality", "fine", "--spp", "3"}), 3u);
+    EXPECT_EQ(samples_of({"--spp", "3", "--quality", "fine"}), 3u);
+    EXPECT_EQ(samples_of({"--quality", "fine", "-D", "render.spp=5"}), 5u);
+    EXPECT_EQ(samples_of({"--quality", "fine", "--iterations", "7"}), 7u);
+}
+
+TEST(Quality, scenes_with_lamps_have_samples_of_their_own) {
+    const auto iterations = [](const Words& more) { return samples_of(more, "cornell"); };
+    const std::uint64_t preset = iterations({"--quality", "normal"});
+    EXPECT_NE(preset, samples_of({"--quality", "normal"}));
+    EXPECT_EQ(iterations({"--quality", "normal", "--effect", "indirect=off", "--effect", "caustics=off"}),
+              samples_of({"--quality", "normal"}));
+    EXPECT_EQ(iterations({"--quality", "normal", "--iterations", "7"}), 7u);
+    EXPECT_EQ(iterations({"--quality", "normal", "-D", "render.spp=5"}), 5u);
+}
+
+TEST(Quality, unknown_name_is_refused_with_the_known_ones) {
+    for (const char* command : {"plan", "render"}) {
+        const Ending ending = run({command, scene_file("first_light"), "--quality", "best"});
+        EXPECT_EQ(ending.code, 2);
+        EXPECT_NE(ending.err.find("'best' is none of draft, normal, fine, reference"), std::string::npos)
+            << ending.err;
+    }
+}
+
+TEST(Quality, help_names_every_price_and_the_machine) {
+    const Ending ending = run({"render", "--help"});
+    EXPECT_EQ(ending.code, 0);
+    std::string help;  // one space between words: --help breaks lines
+    for (const std::string& line : lines_of(ending.out)) {
+        std::istringstream words(line);
+        for (std::string word; words >> word;)
+            help += word + " ";
+    }
+    const Pattern price("draft sky [0-9]+ samples, [0-9.]+ %, [0-9.]+ s per megapixel lamps [0-9]+");
+    EXPECT_FALSE(price.find(help).empty()) << help;
+    EXPECT_NE(help.find("medians of "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace voxilux::test

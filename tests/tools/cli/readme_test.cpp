@@ -1,0 +1,115 @@
+// What the README says about the command, against the command.
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tools/cli/child_process.h"
+#include "support/source_tree.h"
+
+namespace voxilux::test {
+namespace {
+
+constexpr const char* kIndent = "    ";
+
+std::string readme() {
+    return read_text(VX_SOURCE_DIR "/README.md");
+}
+
+// An indented block "$ voxilux ..." and the output below it.
+struct Example {
+    std::vector<std::string> arguments;
+    std::string output;
+};
+
+std::vector<Example> examples_of(const std::string& text, const std::string& subcommand) {
+    std::vector<Example> examples;
+    bool inside = false;
+    for (const std::string& line : lines_of(text)) {
+        if (line.starts_with(kIndent + ("$ voxilux " + subcommand + " "))) {
+            inside = true;
+            std::istringstream words(line);
+            Example example;
+            for (std::string word; words >> word;)
+                example.arguments.push_back(word);
+            example.arguments.erase(example.arguments.begin(), example.arguments.begin() + 2);
+            examples.push_back(example);
+        } else if (inside && line.starts_with(kIndent)) {
+            examples.back().output += line.substr(std::string(kIndent).size()) + "\n";
+        } else {
+            inside = false;
+        }
+    }
+    return examples;
+}
+
+// The words "--flag" of a text.
+std::set<std::string> flags_in(const std::string& text) {
+    const Pattern flag("(^|[^a-z-])(--[a-z][a-z-]*)");
+    std::set<std::string> flags;
+    for (std::string rest : lines_of(text)) {
+        for (auto found = flag.find(rest); !found.empty(); found = flag.find(rest)) {
+            flags.insert(found[2]);
+            rest = rest.substr(rest.find(found[2]) + found[2].size());
+        }
+    }
+    return flags;
+}
+
+// The part of the README that describes the command.
+std::string usage_of(const std::string& text) {
+    const std::size_t start = text.find("\n## Usage\n");
+    return start == std::string::npos ? "" : text.substr(start, text.find("\n## ", start + 1) - start);
+}
+
+std::set<std::string> real_flags() {
+    std::set<std::string> flags = flags_in(run({"--help"}).out);
+    for (const char* subcommand :
+         {"render", "plan", "info", "devices", "compare", "merge", "voxelize", "tradeoff"})
+        flags.merge(flags_in(run({subcommand, "--help"}).out));
+    for (const char* part : {"march", "ao", "photons"})
+        flags.merge(flags_in(run({"bench", part, "--help"}).out));
+    return flags;
+}
+
+std::vector<std::string> invented_flags(const std::string& usage, const std::set<std::string>& real) {
+    std::vector<std::string> invented;
+    for (const std::string& flag : flags_in(usage)) {
+        if (!real.contains(flag)) invented.push_back(flag);
+    }
+    return invented;
+}
+
+TEST(Readme, plan_is_the_real_one) {
+    const std::vector<Example> examples = examples_of(readme(), "plan");
+    ASSERT_EQ(examples.size(), 1u);
+    const Ending ending = run(examples[0].arguments, {.folder = VX_SOURCE_DIR});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(examples[0].output, ending.out);
+}
+
+TEST(Readme, example_ends_where_its_block_ends) {
+    const std::vector<Example> examples =
+        examples_of("    $ voxilux plan a.toml -o a.exr\n    one\n      two\n\nthree\n    four\n", "plan");
+    ASSERT_EQ(examples.size(), 1u);
+    EXPECT_EQ(examples[0].arguments, (std::vector<std::string>{"plan", "a.toml", "-o", "a.exr"}));
+    EXPECT_EQ(examples[0].output, "one\n  two\n");
+}
+
+TEST(Readme, flags_of_the_usage_exist) {
+    const std::string usage = usage_of(readme());
+    ASSERT_GT(flags_in(usage).size(), 10u);
+    EXPECT_EQ(joined(invented_flags(usage, real_flags())), "");
+}
+
+TEST(Readme, flag_that_does_not_exist_is_found) {
+    const std::string usage = "| `--size WxH`, `--sizes` | and (`--progress=never`) | --no-such-flag\n";
+    EXPECT_EQ(invented_flags(usage, {"--size", "--progress"}),
+              (std::vector<std::string>{"--no-such-flag", "--sizes"}));
+}
+
+}  // namespace
+}  // namespace voxilux::test

@@ -1,0 +1,291 @@
+#include "voxelizer/gltf_document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "voxelizer/gltf_form.h"
+#include "voxelizer/gltf_json.h"
+#include "voxelizer/mesh_notes.h"
+#include "voxelizer/mesh_uri.h"
+
+namespace voxilux {
+namespace {
+
+using nlohmann::json;
+using Bytes = std::span<const std::byte>;
+
+constexpr std::uint32_t kMagic = 0x46546C67;        // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+// What a file may require. Those on materials change looks that a voxel can show, or are read as far as it
+// can.
+constexpr std::array<std::string_view, 8> kReadExtensions = {
+    "KHR_texture_transform",      "KHR_mesh_quantization", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission", "KHR_lights_punctual",
+};
+
+std::uint32_t word_at(Bytes bytes, std::size_t offset) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        word |= std::to_integer<std::uint32_t>(bytes[offset + i]) << (8 * i);
+    return word;
+}
+
+struct GlbChunks {
+    Bytes json;
+    std::optional<Bytes> binary;
+};
+
+GlbChunks split_glb(Bytes bytes) {
+    if (bytes.size() < kHeaderBytes) throw MeshFault("the GLB header is cut off");
+    if (const std::uint32_t version = word_at(bytes, 4); version != 2)
+        throw MeshFault(fmt::format("GLB version {} is not 2", version));
+    if (const std::uint32_t length = word_at(bytes, 8); length != bytes.size())
+        throw MeshFault(fmt::format("the GLB header says {} bytes, but there are {}", length, bytes.size()));
+    GlbChunks chunks;
+    std::size_t at = kHeaderBytes;
+    for (std::size_t number = 0; at < bytes.size(); ++number) {
+        if (bytes.size() - at < kChunkHeaderBytes)
+            throw MeshFault(fmt::format("the header of GLB chunk {} is cut off", number));
+        const std::size_t size = word_at(bytes, at);
+        const std::uint32_t kind = word_at(bytes, at + 4);
+        at += kChunkHeaderBytes;
+        if (size > bytes.size() - at)
+            throw MeshFault(
+                fmt::format("GLB chunk {} has {} bytes, but {} are left", number, size, bytes.size() - at));
+        if ((number == 0) != (kind == kJsonChunk))
+            throw MeshFault("the first GLB chunk, and only that, is JSON");
+        if (kind == kJsonChunk) chunks.json = bytes.subspan(at, size);
+        if (kind == kBinaryChunk && !chunks.binary) chunks.binary = bytes.subspan(at, size);
+        at += size;
+    }
+    if (chunks.json.empty()) throw MeshFault("the GLB file has no JSON chunk");
+    return chunks;
+}
+
+json parse_json(Bytes bytes) {
+    const auto* first = reinterpret_cast<const char*>(bytes.data());
+    try {
+        return json::parse(first, first + bytes.size());
+    } catch (const json::parse_error& error) {
+        throw MeshFault(fmt::format("not valid JSON at byte {}", error.byte));
+    } catch (const json::exception&) {
+        throw MeshFault("not valid JSON: a number is too large");
+    }
+}
+
+void check_version(const JsonItem& root) {
+    const JsonItem asset = child(root, "asset");
+    const std::string version = has(asset, "version") ? read_text(asset, "version") : "";
+    if (version.starts_with("2.")) return;
+    if (version.empty()) throw MeshFault("asset.version is missing: glTF 2.0 is read");
+    throw MeshFault(fmt::format("glTF {} is not read: export the mesh as glTF 2.0", quoted_name(version)));
+}
+
+void check_required_extensions(const JsonItem& root) {
+    if (!has(root, "extensionsRequired")) return;
+    for (const std::string& name : read_texts(root, "extensionsRequired")) {
+        if (std::ranges::find(kReadExtensions, name) == kReadExtensions.end())
+            throw MeshFault(fmt::format(
+                "needs the extension {}, which is not read: export the mesh without it", quoted_name(name)));
+    }
+}
+
+// The form of the document, once it is known to be one that is read.
+json checked_form(Bytes text) {
+    const json document = parse_json(text);
+    if (!document.is_object()) throw MeshFault("the JSON is not an object");
+    check_version({&document, ""});
+    check_required_extensions({&document, ""});
+    return gltf_form(document);
+}
+
+const json& list_of(const json& form, const char* key) {
+    static const json kNone = json::array();
+    const auto found = form.find(key);
+    return found == form.end() ? kNone : *found;
+}
+
+// tinygltf refuses indices without a view, and does not say why there is none.
+void check_index_views(const json& form) {
+    const json& accessors = list_of(form, "accessors");
+    for (const json& mesh : list_of(form, "meshes")) {
+        for (const json& primitive : list_of(mesh, "primitives")) {
+            const int index = primitive.value("indices", -1);
+            if (index < 0 || static_cast<std::size_t>(index) >= accessors.size()) continue;
+            if (accessors[static_cast<std::size_t>(index)].contains("bufferView")) continue;
+            const bool is_draco = primitive.contains("/extensions/KHR_draco_mesh_compression"_json_pointer);
+            throw MeshFault(
+                fmt::format("accessors[{}] holds indices, but has no bufferView{}", index,
+                            is_draco ? " but that of KHR_draco_mesh_compression, which is not read" : ""));
+        }
+    }
+}
+
+// tinygltf takes the place of a picture in its buffer without a look at the size of either.
+void check_image_views(const json& form) {
+    const json &images = list_of(form, "images"), &views = list_of(form, "bufferViews"),
+               &buffers = list_of(form, "buffers");
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const auto view = checked_index(images[i].value("bufferView", -1), views.size(),
+                                        fmt::format("images[{}].bufferView", i), "bufferViews");
+        if (!view) continue;
+        const auto buffer = checked_index(views[*view]["buffer"], buffers.size(),
+                                          fmt::format("bufferViews[{}].buffer", *view), "buffers");
+        const std::uint64_t size = buffers[buffer.value()]["byteLength"];
+        const std::uint64_t offset = views[*view].value("byteOffset", std::uint64_t{0});
+        const std::uint64_t length = views[*view]["byteLength"];
+        if (length == 0)
+            throw MeshFault(fmt::format("bufferViews[{}], which images[{}] reads, is empty", *view, i));
+        if (offset > size || length > size - offset)
+            throw MeshFault(fmt::format("bufferViews[{}] reaches byte {} of a buffer of {}", *view,
+                                        offset + length, size));
+    }
+}
+
+// The distances between elements, by their view, which tinygltf would refuse a whole file for: some writers
+// use others than multiples of 4 up to 252. They are held against their elements when those are read.
+std::map<std::size_t, std::uint64_t> take_strides(json& form) {
+    std::map<std::size_t, std::uint64_t> strides;
+    for (std::size_t i = 0; i < list_of(form, "bufferViews").size(); ++i) {
+        json& view = form["bufferViews"][i];
+        const std::uint64_t stride = view.value("byteStride", std::uint64_t{0});
+        if (stride <= 252 && stride % 4 == 0) continue;
+        strides[i] = stride;
+        view.erase("byteStride");
+    }
+    return strides;
+}
+
+// tinygltf refuses a file for one camera that lacks what is not read here. A camera that is not a perspective
+// one becomes one without an angle.
+void complete_cameras(json& form) {
+    if (!form.contains("cameras")) return;
+    for (json& camera : form["cameras"]) {
+        const double angle = camera.value("/perspective/yfov"_json_pointer, 0.0);
+        camera["type"] = "perspective";
+        camera["perspective"] = {{"yfov", angle}, {"znear", 1.0}};
+    }
+}
+
+// The URIs of a list, in whose place its items get their own number. Only that is given to tinygltf: its
+// decoding of URIs takes a + for a space, and lets broken base64 pass.
+std::vector<std::optional<std::string>> take_uris(json& form, const char* key) {
+    std::vector<std::optional<std::string>> uris;
+    if (!form.contains(key)) return uris;
+    for (json& item : form[key]) {
+        std::optional<std::string>& uri = uris.emplace_back();
+        if (item.contains("uri")) uri = std::move(item["uri"].get_ref<std::string&>());
+        item["uri"] = std::to_string(uris.size() - 1);
+    }
+    return uris;
+}
+
+// Images have a uri or a bufferView, or lack both: then they stay without a picture.
+std::vector<std::optional<std::string>> take_image_uris(json& form) {
+    auto uris = take_uris(form, "images");
+    for (std::size_t i = 0; i < uris.size(); ++i) {
+        json& image = form["images"][i];
+        if (uris[i] && !uris[i]->empty())
+            image.erase("bufferView");
+        else if (image.contains("bufferView"))
+            image.erase("uri");
+    }
+    return uris;
+}
+
+// What a buffer is read from.
+struct BufferSources {
+    std::vector<std::optional<std::string>> uris;
+    std::vector<std::uint64_t> lengths;
+    std::optional<Bytes> binary;  // the BIN chunk of a .glb file
+};
+
+BufferSources take_buffers(json& form, const MeshLimits& limits) {
+    BufferSources sources{.uris = take_uris(form, "buffers"), .lengths = {}, .binary = {}};
+    std::uint64_t left = limits.file_bytes;
+    for (std::size_t i = 0; i < sources.uris.size(); ++i) {
+        const std::uint64_t length = form["buffers"][i]["byteLength"];
+        if (length == 0) throw MeshFault(fmt::format("buffers[{}].byteLength is 0", i));
+        if (length > left) throw MeshFault(fmt::format("the buffers have over {} bytes", limits.file_bytes));
+        left -= length;
+        sources.lengths.push_back(length);
+    }
+    return sources;
+}
+
+std::vector<unsigned char> cut_to(Bytes bytes, std::size_t index, std::uint64_t length) {
+    if (bytes.size() < length)
+        throw MeshFault(
+            fmt::format("buffers[{}] should have {} bytes, but has {}", index, length, bytes.size()));
+    const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
+    return {first, first + length};
+}
+
+std::vector<unsigned char> buffer_bytes(const GltfDocument& document, const BufferSources& sources,
+                                        std::size_t index) {
+    const auto& uri = sources.uris.at(index);
+    const std::uint64_t length = sources.lengths.at(index);
+    if (uri) return cut_to(uri_bytes(document, *uri), index, length);
+    if (index != 0 || !sources.binary)
+        throw MeshFault(fmt::format("buffers[{}] has neither a uri nor a GLB chunk", index));
+    return cut_to(*sources.binary, index, length);
+}
+
+}  // namespace
+
+GltfDocument parse_gltf(Bytes bytes, const std::filesystem::path& folder, const MeshLimits& limits) {
+    GltfDocument document{.folder = folder, .limits = limits, .model = {}};
+    GlbChunks chunks{.json = bytes, .binary = {}};
+    if (bytes.size() >= 4 && word_at(bytes, 0) == kMagic) chunks = split_glb(bytes);
+    json form = checked_form(chunks.json);
+    check_index_views(form);
+    complete_cameras(form);
+    const auto strides = take_strides(form);
+    auto image_uris = take_image_uris(form);
+    BufferSources sources = take_buffers(form, limits);
+    check_image_views(form);
+    sources.binary = chunks.binary;
+    document.model = parse_model(std::move(form),
+                                 [&](std::size_t index) { return buffer_bytes(document, sources, index); });
+    for (std::size_t i = 0; i < document.model.images.size(); ++i)
+        document.model.images[i].uri = std::move(image_uris.at(i)).value_or("");
+    for (const auto& [view, stride] : strides)
+        document.model.bufferViews.at(view).byteStride = stride;
+    return document;
+}
+
+Bytes view_bytes(const GltfDocument& document, std::size_t index) {
+    const tinygltf::BufferView& view = document.model.bufferViews.at(index);
+    const auto buffer = checked_index(view.buffer, document.model.buffers.size(),
+                                      fmt::format("bufferViews[{}].buffer", index), "buffers");
+    if (!buffer) throw MeshFault(fmt::format("bufferViews[{}].buffer is missing", index));
+    const Bytes bytes = std::as_bytes(std::span(document.model.buffers[*buffer].data));
+    const std::uint64_t offset = view.byteOffset, length = view.byteLength;
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        throw MeshFault(fmt::format("bufferViews[{}] reaches byte {} of a buffer of {}", index,
+                                    offset + length, bytes.size()));
+    return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+}
+
+std::vector<std::byte> uri_bytes(const GltfDocument& document, const std::string& uri) {
+    if (is_data_uri(uri)) return decode_data_uri(uri);
+    try {
+        return read_file(path_inside(document.folder, percent_decoded(uri)), document.limits.file_bytes);
+    } catch (const Error& error) {
+        throw MeshFault(fmt::format("needs {}", error.what()));
+    }
+}
+
+}  // namespace voxilux

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "voxelizer/gltf_model.h"
+#include "voxelizer/mesh.h"
+#include "voxelizer/mesh_notes.h"
+
+namespace voxilux {
+
+// A mesh of the file and where it stands: world = matrix * local.
+struct PlacedMesh {
+    std::size_t mesh = 0;
+    glm::dmat4 matrix{1.0};
+};
+
+struct PlacedNodes {
+    std::vector<PlacedMesh> meshes;
+    std::vector<MeshCamera> cameras;
+};
+
+// What stands in one scene: `scene`, else the file's own choice, else its first; in a file without scenes,
+// every node. Orthographic cameras and skins are noted and left out. Throws MeshFault for a scene that is not
+// there, and for a node that is reached twice: a cycle, or two parents. Source: glTF 2.0, section 3.5.
+[[nodiscard]] PlacedNodes place_nodes(const tinygltf::Model& model, std::optional<std::size_t> scene,
+                                      MeshNotes& notes);
+
+}  // namespace voxilux

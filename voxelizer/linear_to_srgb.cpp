@@ -1,0 +1,51 @@
+#include "voxelizer/linear_to_srgb.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace voxilux {
+namespace {
+
+constexpr int kBuckets = 4096;
+
+double linear_of(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+struct Table {
+    std::array<float, 257> from;                   // the least linear value that rounds to each byte
+    std::array<std::uint8_t, kBuckets + 1> start;  // the byte of a bucket's low end
+};
+
+Table make_table() {
+    Table table;
+    for (int byte = 0; byte < 256; ++byte)
+        table.from[static_cast<std::size_t>(byte)] = static_cast<float>(linear_of((byte - 0.5) / 255.0));
+    table.from[256] = std::numeric_limits<float>::infinity();
+    std::uint8_t byte = 0;
+    for (int bucket = 0; bucket <= kBuckets; ++bucket) {
+        const float low = static_cast<float>(bucket) / kBuckets;
+        while (byte < 255 && table.from[byte + std::size_t{1}] <= low)
+            ++byte;
+        table.start[static_cast<std::size_t>(bucket)] = byte;
+    }
+    return table;
+}
+
+const Table kTable = make_table();
+
+std::uint8_t srgb_byte(float linear) {
+    const float inside = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // a NaN gives 0, too
+    const std::uint8_t byte = kTable.start[static_cast<std::size_t>(inside * kBuckets)];
+    // A bucket holds at most one step: bytes are 1 / (12.92 * 255) apart at least.
+    return static_cast<std::uint8_t>(byte + (kTable.from[byte + std::size_t{1}] <= inside ? 1 : 0));
+}
+
+}  // namespace
+
+glm::u8vec3 srgb_bytes(glm::vec3 linear) {
+    return {srgb_byte(linear.r), srgb_byte(linear.g), srgb_byte(linear.b)};
+}
+
+}  // namespace voxilux

@@ -1,0 +1,112 @@
+#include "voxelizer/mesh_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/checked_cast.h"
+#include "base/error.h"
+
+namespace voxilux {
+namespace {
+
+// Rounding of an extent that is a whole number of cells must not add a layer: voxels.
+constexpr double kExtentSlack = 1e-6;
+
+bool is_finite(glm::dvec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+bool is_finite(const Mesh& mesh, const MeshTriangle& triangle) {
+    for (int corner = 0; corner < 3; ++corner) {
+        if (!is_finite(mesh.positions[triangle.vertices[corner]])) return false;
+    }
+    return true;
+}
+
+// Rows are the axes of the grid in terms of the mesh.
+glm::dmat3 rows(glm::dvec3 x, glm::dvec3 y, glm::dvec3 z) {
+    return glm::transpose(glm::dmat3(x, y, z));
+}
+
+glm::dmat3 axes_of(const GridRequest& request) {
+    const glm::dvec3 x{1, 0, 0};
+    const glm::dvec3 y{0, 1, 0};
+    const glm::dvec3 z{0, 0, 1};
+    const std::array<glm::dmat3, 6> upright = {rows(y, z, x),  rows(x, -z, y), rows(x, y, z),
+                                               rows(z, y, -x), rows(x, z, -y), rows(x, -y, -z)};
+    glm::dmat3 axes = upright[static_cast<std::size_t>(request.up)];
+    const glm::dmat3 quarter = rows(-y, x, z);
+    for (int turn = 0; turn < (request.quarter_turns % 4 + 4) % 4; ++turn)
+        axes = quarter * axes;
+    return axes;
+}
+
+int cells_along(double extent) {
+    const double cells = std::ceil(extent - kExtentSlack);
+    if (!(cells <= kMaxCells)) {
+        throw Error(
+            ExitCode::usage,
+            fmt::format("a grid of {:.0f} cells on an axis, over {}: voxelize coarser", cells, kMaxCells));
+    }
+    return std::max(1, static_cast<int>(cells));
+}
+
+}  // namespace
+
+std::optional<UpAxis> parse_up(std::string_view word) {
+    constexpr std::array<std::string_view, 6> kWords = {"x", "y", "z", "-x", "-y", "-z"};
+    const auto found = std::ranges::find(kWords, word);
+    if (found == kWords.end()) return std::nullopt;
+    return static_cast<UpAxis>(found - kWords.begin());
+}
+
+std::vector<std::uint32_t> finite_triangles(const Mesh& mesh) {
+    std::vector<std::uint32_t> kept;
+    kept.reserve(mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (is_finite(mesh, mesh.triangles[i])) kept.push_back(checked_cast<std::uint32_t>(i, "triangle"));
+    }
+    return kept;
+}
+
+MeshGrid grid_of(const Mesh& mesh, const GridRequest& request) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    MeshGrid grid{.axes = axes_of(request), .low = glm::dvec3(kInfinity)};
+    glm::dvec3 high(-kInfinity);
+    for (const std::uint32_t index : finite_triangles(mesh)) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 p = grid.axes * mesh.positions[mesh.triangles[index].vertices[corner]];
+            grid.low = glm::min(grid.low, p);
+            high = glm::max(high, p);
+        }
+    }
+    if (grid.low.x > high.x) throw Error(ExitCode::input_refused, "the mesh has no triangle to voxelize");
+    const glm::dvec3 extent = high - grid.low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!std::isfinite(longest))
+        throw Error(ExitCode::input_refused, "the mesh is larger than numbers can say");
+    // A mesh that is one point fills one cell at any scale.
+    grid.scale = request.metres_per_voxel ? 1.0 / *request.metres_per_voxel
+                                          : request.resolution / (longest > 0.0 ? longest : 1.0);
+    if (!std::isfinite(grid.scale) || grid.scale <= 0.0)
+        throw Error(ExitCode::input_refused, "the mesh is too large or too small to be scaled to the grid");
+    for (int axis = 0; axis < 3; ++axis)
+        grid.cells[axis] = cells_along(extent[axis] * grid.scale);
+    return grid;
+}
+
+std::vector<glm::ivec3> lattice_positions(const Mesh& mesh, const MeshGrid& grid) {
+    std::vector<glm::ivec3> lattice;
+    lattice.reserve(mesh.positions.size());
+    const glm::dvec3 last = glm::dvec3(grid.cells) * double{kUnit} - 1.0;
+    for (const glm::dvec3& p : mesh.positions) {
+        const glm::dvec3 at = grid.to_grid(p) * double{kUnit};
+        lattice.push_back(is_finite(at) ? glm::ivec3(glm::clamp(glm::round(at), glm::dvec3(0.0), last))
+                                        : glm::ivec3(0));
+    }
+    return lattice;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "voxelizer/mesh.h"
+
+namespace voxilux {
+
+// Vertices lie on a lattice of 2^-12 voxel, so that every test of coverage is exact in integers. Snapping
+// moves a point by at most 0.00022 voxel, a face on the top of the grid by 0.0004: below the 0.001 that
+// separates the cells which a right voxelizer must have from those which it may have.
+inline constexpr int kUnitBits = 12;
+inline constexpr std::int32_t kUnit = 1 << kUnitBits;
+
+// Cells on an axis: lattice coordinates then fit 28 bits, and what is computed from them 63.
+inline constexpr int kMaxCells = 1 << 16;
+
+// Which axis of the mesh points up in the grid, where z is up.
+enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
+
+// x, y, z, -x, -y or -z; nothing for another word.
+[[nodiscard]] std::optional<UpAxis> parse_up(std::string_view word);
+
+struct GridRequest {
+    int resolution = 256;                    // cells along the longest side, unless metres_per_voxel is given
+    std::optional<double> metres_per_voxel;  // > 0
+    UpAxis up = UpAxis::y;
+    int quarter_turns = 0;  // about the vertical, counter-clockwise seen from above
+};
+
+// Cell c of the grid covers [c, c + 1) of (axes * p - low) * scale, p in the mesh's space.
+struct MeshGrid {
+    glm::dmat3 axes{1.0};  // a rotation that permutes the axes
+    glm::dvec3 low{0.0};   // of the turned mesh
+    double scale = 1.0;    // voxels per metre
+    glm::ivec3 cells{1};
+
+    [[nodiscard]] glm::dvec3 to_grid(glm::dvec3 p) const { return (axes * p - low) * scale; }
+};
+
+// The grid around all triangles whose vertices are finite. Rule: scale = resolution / longest side; the low
+// corner of the box is the grid's; cells = ceil(extent * scale), at least 1. A mesh y up turns by (x, -z, y).
+// Throws Error(input_refused) without a triangle or with a box that doubles cannot span, Error(usage) for a
+// grid of more than kMaxCells on an axis.
+[[nodiscard]] MeshGrid grid_of(const Mesh& mesh, const GridRequest& request);
+
+// Every position on the grid's lattice, in [0, cells * kUnit - 1]; positions that are not finite give zero.
+[[nodiscard]] std::vector<glm::ivec3> lattice_positions(const Mesh& mesh, const MeshGrid& grid);
+
+// Triangles whose three vertices are finite, in order.
+[[nodiscard]] std::vector<std::uint32_t> finite_triangles(const Mesh& mesh);
+
+}  // namespace voxilux

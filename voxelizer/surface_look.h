@@ -1,0 +1,42 @@
+#pragma once
+
+// What a voxel is made of besides its colour, in 16 bits, so that a voxel with colour and look fits 8 bytes.
+// Properties are rounded to a few steps: each look needs a colour of its own in the palette of 255.
+
+#include <compare>
+#include <cstdint>
+
+#include "scene/vox_file.h"
+#include "voxelizer/mesh.h"
+#include "voxelizer/texture_sample.h"
+
+namespace voxilux {
+
+enum class LookKind : std::uint8_t { diffuse, metal, glass, emit };
+
+struct Look {
+    LookKind kind = LookKind::diffuse;
+    std::uint8_t rough = 0;  // 0..7: roughness in sevenths (metal, glass)
+    std::uint8_t level = 0;  // 0..15: glass: transparency in fifteenths; emit: see emission_of
+    std::uint8_t ior = 0;    // 0..15: glass: 1 + ior / 10
+
+    auto operator<=>(const Look&) const = default;
+};
+
+// The look of a material where it has this value: emitting before glass (BLEND, transmission) before metal.
+[[nodiscard]] Look look_of(const MeshMaterial& material, const SurfaceColor& value);
+
+[[nodiscard]] std::uint16_t packed(const Look& look);
+[[nodiscard]] Look unpacked(std::uint16_t bits);
+
+// Fewer steps: roughness, transparency and emission rounded to every 2nd, 4th, ... step. The refractive index
+// stays: a mesh has few.
+[[nodiscard]] Look coarser(const Look& look, int halvings);
+
+// The attributes of a MATL chunk; ours and MagicaVoxel's readers take the colour from the palette.
+[[nodiscard]] VoxDict material_attributes(const Look& look);
+
+// Radiance over colour that an emitting look stands for: 2^((level - 8) / 2).
+[[nodiscard]] float emission_of(const Look& look);
+
+}  // namespace voxilux

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "voxelizer/mesh_grid.h"
+#include "voxelizer/solid_fill.h"
+#include "voxelizer/voxelize_block.h"
+
+namespace voxilux {
+
+struct VoxelizeRequest {
+    GridRequest grid;
+    Coverage coverage = Coverage::conservative;
+    bool is_solid = false;
+    unsigned threads = 0;  // 0: as many as the machine has; the result is the same for any number
+    std::function<void(double done)> progress;  // share in [0, 1], from any thread, one at a time; may throw
+};
+
+// The voxels of a block of 64^3 cells.
+struct VoxelBlock {
+    glm::ivec3 low{0};
+    std::uint32_t model = 0;  // see Block
+    std::vector<ColouredVoxel> surface;
+    std::vector<InteriorRow> interior;
+};
+
+struct VoxelSet {
+    MeshGrid grid;
+    std::vector<VoxelBlock> blocks;  // by model, then z, y, x; none is empty
+    std::uint64_t surface = 0;       // voxels
+    std::uint64_t interior = 0;
+    std::uint64_t masked = 0;   // cells that alpha masks leave empty
+    std::uint64_t dropped = 0;  // triangles with a vertex that is not finite
+    SolidReport solid;          // with is_solid
+};
+
+// Cells, colours and looks of a mesh. Memory follows the surface: 8 bytes per voxel, and scratch per thread.
+// Throws what grid_of throws, and Error(input_refused) when nothing is left to be seen.
+[[nodiscard]] VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request);
+
+}  // namespace voxilux
