@@ -21,7 +21,7 @@ test_newer_mesa() (
 )
 
 check_format() {
-    find engine shaders tools tests fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format-14 --dry-run --Werror
+    find engine shaders voxelizer tools tests fuzz -name '*.h' -o -name '*.cpp' | xargs clang-format-14 --dry-run --Werror
 }
 
 # check NAME COMMAND...: a failure is remembered, so that one run shows all of them.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "bench/bench.h"
 #include "compare/compare.h"
 #include "devices/devices.h"
@@ -11,7 +12,6 @@
 #include "merge/merge.h"
 #include "plan/plan.h"
 #include "render/render.h"
-#include "base/nearest_name.h"
 #include "tradeoff/tradeoff.h"
 #include "voxelize/voxelize.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "parse_box.h"
 #include "base/nearest_name.h"
+#include "parse_box.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {

@@ -5,12 +5,12 @@
 
 #include "base/checked_cast.h"
 #include "base/error.h"
+#include "formats/scene_toml.h"
 #include "parse_values.h"
 #include "quality.h"
 #include "scene/animation.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
-#include "formats/scene_toml.h"
 
 namespace voxilux {
 namespace {

@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "base/assert.h"
-#include "estimators/metrics.h"
 #include "base/student_quantile.h"
 #include "base/sum.h"
+#include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {

@@ -30,8 +30,8 @@
 #include <limits>
 
 #include "base/assert.h"
-#include "estimators/metrics.h"
 #include "base/sum.h"
+#include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {

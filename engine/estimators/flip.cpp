@@ -14,9 +14,9 @@
 #include <numbers>
 
 #include "base/assert.h"
+#include "base/sum.h"
 #include "estimators/flip_colour.h"
 #include "estimators/flip_filter.h"
-#include "base/sum.h"
 
 namespace voxilux {
 namespace {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
-#include "formats/exr.h"
 #include "film/film.h"
+#include "formats/exr.h"
 
 namespace voxilux {
 namespace {

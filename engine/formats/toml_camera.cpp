@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "formats/toml_scene.h"
+#include "formats/toml_section.h"
 #include "scene/animation.h"
 #include "scene/scene_bounds.h"
 #include "scene/scene_camera.h"
-#include "formats/toml_scene.h"
-#include "formats/toml_section.h"
 
 namespace voxilux {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "scene/shapes.h"
 #include "formats/toml_materials.h"
 #include "formats/toml_scene.h"
 #include "formats/toml_section.h"
+#include "scene/shapes.h"
 
 namespace voxilux {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/render_plan.h"
 #include "jobs/render_session.h"
+#include "plan/render_plan.h"
 
 namespace voxilux {
 

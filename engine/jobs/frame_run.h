@@ -7,11 +7,11 @@
 #include "film/film_sums.h"
 #include "frame/frame_state.h"
 #include "jobs/error_rounds.h"
-#include "renderer/film_readback.h"
 #include "jobs/next_minute.h"
-#include "renderer/prepared_scene.h"
 #include "jobs/progress_estimate.h"
 #include "jobs/render_session.h"
+#include "renderer/film_readback.h"
+#include "renderer/prepared_scene.h"
 #include "renderer/slices.h"
 
 namespace voxilux {

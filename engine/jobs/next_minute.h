@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "plan/effects.h"
 #include "estimators/error_curve.h"
+#include "plan/effects.h"
 
 namespace voxilux {
 

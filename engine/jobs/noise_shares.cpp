@@ -10,9 +10,9 @@
 #include <span>
 
 #include "base/assert.h"
-#include "film/film.h"
-#include "estimators/metrics.h"
 #include "base/sum.h"
+#include "estimators/metrics.h"
+#include "film/film.h"
 #include "plan/plan_lists.h"
 #include "renderer/pilot_film.h"
 

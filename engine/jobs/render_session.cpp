@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "frame/frame.h"
-#include "passes/upload.h"
-#include "scene/scene_camera.h"
 #include "jobs/error_pilot.h"
 #include "jobs/frame_run.h"
 #include "jobs/noise_shares.h"
+#include "passes/upload.h"
 #include "renderer/radius_pilot.h"
+#include "scene/scene_camera.h"
 #include "world/world_view.h"
 
 namespace voxilux {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/clock.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "renderer/film_readback.h"
-#include "base/clock.h"
 #include "shared/hash.h"
 
 namespace voxilux {

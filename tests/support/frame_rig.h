@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "frame/frame_state.h"
-#include "plan/render_plan.h"
 #include "jobs/render_session.h"
+#include "plan/render_plan.h"
 #include "shared/gpu_types.h"
 #include "shared/tally.h"
 #include "support/device_fixture.h"

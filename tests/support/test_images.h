@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
-#include "formats/image.h"
 #include "base/srgb.h"
+#include "formats/image.h"
 
 namespace voxilux::test {
 

@@ -1,7 +1,7 @@
 // Colours, the palette, and the file that comes out.
 
-#include "formats/vox_read.h"
 #include "voxelizer/voxel_palette.h"
+#include "formats/vox_read.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 #include "base/file.h"
 #include "base/srgb.h"
+#include "formats/vox_write.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_material.h"
-#include "formats/vox_write.h"
 #include "support/mesh_shapes.h"
 #include "support/scratch_folder.h"
 #include "voxelizer/colour_spaces.h"

@@ -5,13 +5,13 @@
 #include "base/error.h"
 #include "bench/bench_scene.h"
 #include "embedded.h"
+#include "formats/scene_toml.h"
 #include "frame/frame.h"
 #include "passes/ao.h"
 #include "passes/primary.h"
 #include "passes/sphere.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
-#include "formats/scene_toml.h"
 #include "shared/sequence.h"
 
 namespace voxilux {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "scene/scene_camera.h"
 #include "formats/scene_toml.h"
+#include "scene/scene_camera.h"
 #include "scene/terrain.h"
 #include "shared/rng.h"
 

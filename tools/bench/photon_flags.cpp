@@ -6,13 +6,13 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "bench/bench_flags.h"
 #include "formats/image_file.h"
+#include "formats/scene_toml.h"
 #include "output_files.h"
 #include "parse_box.h"
 #include "parse_values.h"
-#include "base/nearest_name.h"
-#include "formats/scene_toml.h"
 
 namespace voxilux {
 namespace {

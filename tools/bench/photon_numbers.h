@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "formats/image.h"
 #include "estimators/metrics.h"
+#include "formats/image.h"
 
 namespace voxilux {
 

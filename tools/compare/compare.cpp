@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "estimators/flip.h"
-#include "formats/image_file.h"
 #include "estimators/metrics.h"
+#include "formats/image_file.h"
 #include "parse_box.h"
 
 namespace voxilux {

@@ -1,5 +1,5 @@
-#include "formats/vox_read.h"
 #include "info/file_facts.h"
+#include "formats/vox_read.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "base/error.h"
-#include "formats/image_file.h"
 #include "base/sum.h"
-#include "scene/facts.h"
-#include "scene/scene_camera.h"
+#include "formats/image_file.h"
 #include "formats/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "formats/vox_info.h"
+#include "scene/facts.h"
+#include "scene/scene_camera.h"
 
 namespace voxilux {
 namespace {

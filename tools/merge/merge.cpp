@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "formats/png.h"
+#include "jobs/merge_parts.h"
 #include "output_files.h"
 #include "render/render_output.h"
-#include "jobs/merge_parts.h"
 
 namespace voxilux {
 namespace {

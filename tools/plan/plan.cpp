@@ -4,12 +4,12 @@
 
 #include "base/error.h"
 #include "frame/frame.h"
+#include "jobs/forecast_history.h"
+#include "jobs/report.h"
 #include "output_files.h"
 #include "plan/plan_forecast.h"
 #include "render/render_output.h"
 #include "render/render_part.h"
-#include "jobs/forecast_history.h"
-#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

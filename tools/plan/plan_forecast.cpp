@@ -4,12 +4,12 @@
 #include <array>
 #include <utility>
 
-#include "output_files.h"
 #include "jobs/effect_price.h"
 #include "jobs/forecast_report.h"
 #include "jobs/frame_run.h"
 #include "jobs/memory_forecast.h"
 #include "jobs/report.h"
+#include "output_files.h"
 
 namespace voxilux {
 namespace {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "render/render.h"
 #include "jobs/render_session.h"
+#include "render/render.h"
 
 namespace voxilux {
 

@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "base/error.h"
+#include "formats/scene_hash.h"
+#include "jobs/memory_forecast.h"
+#include "jobs/report.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
 #include "render/render_frames.h"
 #include "render/render_output.h"
 #include "render/render_part.h"
-#include "formats/scene_hash.h"
-#include "jobs/memory_forecast.h"
-#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

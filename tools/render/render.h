@@ -1,8 +1,8 @@
 #pragma once
 
 #include "device_options.h"
-#include "scene_options.h"
 #include "jobs/render_session.h"
+#include "scene_options.h"
 
 namespace voxilux {
 

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "base/error.h"
+#include "jobs/report.h"
 #include "output_files.h"
 #include "render/render_output.h"
-#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "formats/png.h"
+#include "jobs/forecast_history.h"
+#include "jobs/report.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/render_part.h"
-#include "jobs/forecast_history.h"
-#include "jobs/report.h"
 
 namespace voxilux {
 namespace {

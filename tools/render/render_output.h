@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "formats/exr.h"
 #include "film/tonemap.h"
-#include "render/render.h"
+#include "formats/exr.h"
 #include "jobs/render_session.h"
+#include "render/render.h"
 
 namespace voxilux {
 

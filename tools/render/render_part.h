@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "render/render.h"
 #include "jobs/film_part.h"
+#include "render/render.h"
 
 namespace voxilux {
 

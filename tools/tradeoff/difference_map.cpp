@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/assert.h"
-#include "estimators/metrics.h"
 #include "base/srgb.h"
+#include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "base/file.h"
-#include "formats/png.h"
 #include "film/tonemap.h"
+#include "formats/png.h"
 #include "tradeoff/difference_map.h"
 #include "tradeoff/price_list_json.h"
 

@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "output_files.h"
-#include "voxelizer/load_mesh.h"
-#include "voxelizer/vox_output.h"
 #include "voxelize/voxelize_progress.h"
 #include "voxelize/voxelize_report.h"
+#include "voxelizer/load_mesh.h"
+#include "voxelizer/vox_output.h"
 
 namespace voxilux {
 namespace {

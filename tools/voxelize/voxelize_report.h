@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "voxelizer/vox_output.h"
 #include "voxelize/voxelize.h"
+#include "voxelizer/vox_output.h"
 
 namespace voxilux {
 

@@ -11,10 +11,10 @@
 
 #include "estimators/flip.h"
 #include "estimators/metrics.h"
-#include "formats/png.h"
 #include "film/tonemap.h"
-#include "scene/scene_camera.h"
+#include "formats/png.h"
 #include "formats/scene_toml.h"
+#include "scene/scene_camera.h"
 #include "support/frame_rig.h"
 
 namespace voxilux {

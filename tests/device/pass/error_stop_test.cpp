@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "passes/upload.h"
 #include "jobs/error_pilot.h"
 #include "jobs/noise_shares.h"
-#include "renderer/pilot_film.h"
 #include "jobs/render_session.h"
+#include "passes/upload.h"
+#include "renderer/pilot_film.h"
 #include "support/device_fixture.h"
 #include "support/frame_rig.h"
 #include "support/test_scenes.h"

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "formats/vox_read.h"
 #include "base/error.h"
-#include "scene/vox_scene.h"
+#include "formats/vox_read.h"
 #include "jobs/render_session.h"
+#include "scene/vox_scene.h"
 #include "support/frame_rig.h"
 #include "support/test_scenes.h"
 #include "support/vox_builder.h"

@@ -5,9 +5,9 @@
 #include <random>
 #include <string>
 
+#include "base/student_quantile.h"
 #include "estimators/difference_estimate.h"
 #include "estimators/metrics.h"
-#include "base/student_quantile.h"
 #include "support/test_images.h"
 
 namespace voxilux {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "estimators/error_estimate.h"
-#include "film/film_sums.h"
 #include "estimators/metrics.h"
+#include "film/film_sums.h"
 #include "support/interval_coverage.h"
 
 namespace voxilux {

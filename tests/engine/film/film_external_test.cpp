@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "formats/exr.h"
 #include "estimators/flip.h"
 #include "estimators/metrics.h"
+#include "formats/exr.h"
 #include "support/shared_data.h"
 
 using namespace voxilux;

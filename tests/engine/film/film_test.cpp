@@ -6,8 +6,8 @@
 #include <cstring>
 #include <random>
 
-#include "film/film.h"
 #include "estimators/metrics.h"
+#include "film/film.h"
 #include "shared/film_sum.h"
 #include "support/interval_coverage.h"
 #include "support/test_images.h"

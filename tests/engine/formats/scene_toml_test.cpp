@@ -6,12 +6,12 @@
 #include <string>
 
 #include "base/error.h"
-#include "scene/colour.h"
-#include "scene/facts.h"
 #include "base/nearest_name.h"
-#include "scene/scene_camera.h"
 #include "formats/scene_hash.h"
 #include "formats/scene_toml.h"
+#include "scene/colour.h"
+#include "scene/facts.h"
+#include "scene/scene_camera.h"
 
 namespace voxilux {
 namespace {

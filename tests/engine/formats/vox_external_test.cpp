@@ -10,12 +10,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/vox_read.h"
 #include "base/file.h"
 #include "formats/vox_info.h"
+#include "formats/vox_read.h"
+#include "formats/vox_write.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_scene.h"
-#include "formats/vox_write.h"
 #include "support/allocation_counter.h"
 #include "support/sha256.h"
 #include "support/shared_data.h"

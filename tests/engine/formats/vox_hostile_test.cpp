@@ -7,11 +7,11 @@
 #include <chrono>
 #include <random>
 
-#include "formats/vox_read.h"
 #include "formats/vox_info.h"
+#include "formats/vox_read.h"
+#include "formats/vox_write.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_scene.h"
-#include "formats/vox_write.h"
 #include "support/allocation_counter.h"
 #include "support/vox_builder.h"
 

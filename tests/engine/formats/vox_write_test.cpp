@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/vox_read.h"
-#include "scene/vox_file.h"
 #include "formats/vox_write.h"
+#include "scene/vox_file.h"
 #include "support/vox_builder.h"
 
 namespace voxilux {

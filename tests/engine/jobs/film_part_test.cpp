@@ -8,10 +8,10 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "plan/shard.h"
 #include "jobs/merge_parts.h"
-#include "renderer/prepared_scene.h"
 #include "jobs/report.h"
+#include "plan/shard.h"
+#include "renderer/prepared_scene.h"
 #include "support/scratch_folder.h"
 #include "support/test_images.h"
 #include "support/test_scenes.h"

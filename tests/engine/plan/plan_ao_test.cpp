@@ -7,9 +7,9 @@
 #include <bit>
 
 #include "base/error.h"
-#include "frame/frame.h"
 #include "engine/plan/plan_scenes.h"
 #include "formats/scene_toml.h"
+#include "frame/frame.h"
 
 namespace voxilux {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "formats/scene_toml.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
-#include "formats/scene_toml.h"
 
 namespace voxilux::test {
 namespace fs = std::filesystem;

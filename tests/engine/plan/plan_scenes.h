@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "record/recording.h"
 #include "jobs/render_session.h"
+#include "record/recording.h"
 
 namespace voxilux::test {
 

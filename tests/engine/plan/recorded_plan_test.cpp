@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "passes/plane.h"
 #include "engine/plan/plan_scenes.h"
+#include "passes/plane.h"
 
 namespace voxilux {
 namespace {

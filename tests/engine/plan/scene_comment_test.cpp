@@ -4,9 +4,9 @@
 #include <fstream>
 #include <string>
 
+#include "formats/scene_toml.h"
 #include "plan/effects.h"
 #include "scene/facts.h"
-#include "formats/scene_toml.h"
 
 namespace voxilux {
 namespace {

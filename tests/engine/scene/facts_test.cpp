@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "formats/scene_hash.h"
 #include "scene/facts.h"
 #include "scene/scene_bounds.h"
-#include "formats/scene_hash.h"
 
 namespace voxilux {
 namespace {

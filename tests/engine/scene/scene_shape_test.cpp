@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "scene/scene_bounds.h"
 #include "formats/scene_toml.h"
+#include "scene/scene_bounds.h"
 #include "scene/shapes.h"
 
 namespace voxilux {

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/vox_read.h"
 #include "formats/vox_info.h"
+#include "formats/vox_read.h"
 #include "scene/vox_material.h"
 #include "scene/vox_scene.h"
 #include "support/vox_builder.h"

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "tools/cli/child_process.h"
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

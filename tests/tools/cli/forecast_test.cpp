@@ -5,9 +5,9 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "tools/cli/child_process.h"
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tools/cli/child_process.h"
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

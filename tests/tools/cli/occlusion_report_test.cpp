@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tools/cli/child_process.h"
 #include "support/scratch_folder.h"
 #include "support/vox_builder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/cli/child_process.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <chrono>
 #include <set>
 
-#include "tools/cli/child_process.h"
+#include "film/tonemap.h"
 #include "formats/exr.h"
 #include "formats/png.h"
-#include "film/tonemap.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

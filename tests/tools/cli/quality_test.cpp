@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/cli/child_process.h"
 #include "support/source_tree.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

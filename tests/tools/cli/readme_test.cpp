@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/cli/child_process.h"
 #include "support/source_tree.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "tools/cli/child_process.h"
 #include "formats/png.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <set>
 #include <sstream>
 
-#include "tools/cli/child_process.h"
 #include "formats/exr.h"
 #include "formats/png.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

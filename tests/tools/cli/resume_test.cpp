@@ -8,9 +8,9 @@
 #include <random>
 
 #include "base/file.h"
-#include "tools/cli/child_process.h"
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

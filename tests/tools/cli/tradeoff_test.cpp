@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tools/cli/child_process.h"
 #include "support/scratch_folder.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "tools/cli/child_process.h"
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"
+#include "tools/cli/child_process.h"
 
 namespace voxilux::test {
 namespace {

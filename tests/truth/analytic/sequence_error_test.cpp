@@ -6,8 +6,8 @@
 
 #include <map>
 
-#include "film/film.h"
 #include "estimators/metrics.h"
+#include "film/film.h"
 #include "formats/scene_toml.h"
 #include "support/frame_rig.h"
 #include "support/shared_data.h"

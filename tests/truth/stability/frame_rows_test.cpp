@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "film/film.h"
+#include "formats/scene_toml.h"
 #include "frame/frame.h"
 #include "plan/film_planes.h"
-#include "formats/scene_toml.h"
 #include "shared/film_sum.h"
 #include "support/frame_rig.h"
 #include "support/test_scenes.h"

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "shared/hash.h"
-#include "truth/stability/march_judges.h"
 #include "support/march_oracle.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

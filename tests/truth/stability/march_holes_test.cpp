@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "shared/sampling.h"
-#include "truth/stability/march_judges.h"
 #include "support/interval_walk.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

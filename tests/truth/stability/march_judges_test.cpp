@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "truth/stability/march_judges.h"
 #include "support/exact_walk.h"
 #include "support/interval_walk.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "shared/sampling.h"
-#include "truth/stability/march_judges.h"
 #include "support/exact_walk.h"
 #include "support/march_oracle.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

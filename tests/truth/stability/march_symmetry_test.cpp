@@ -14,9 +14,9 @@
 #include <array>
 
 #include "scene/scene.h"
-#include "truth/stability/march_judges.h"
 #include "support/exact_walk.h"
 #include "support/march_oracle.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "shared/hash.h"
-#include "truth/stability/march_judges.h"
 #include "support/interval_walk.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "shared/hash.h"
-#include "truth/stability/march_judges.h"
 #include "support/march_oracle.h"
 #include "support/test_scenes.h"
+#include "truth/stability/march_judges.h"
 
 namespace voxilux {
 namespace {
