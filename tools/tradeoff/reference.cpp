@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "estimators/film_error.h"
 #include "film/film_sums.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "tradeoff/measure.h"
 #include "tradeoff/reference_cache.h"
 
