@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "jobs/forecast_report.h"
 #include "jobs/occlusion_report.h"
 #include "jobs/photon_report.h"

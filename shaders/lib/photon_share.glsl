@@ -5,10 +5,11 @@
 
 #include "lib/spheres.glsl"
 
+#include "lib/constants.glsl"
 #include "shared/sampling.h"
 #include "shared/photon_area.h"
 
-layout(constant_id = 31) const uint clips_discs = 1u;
+VX_SPECIALIZED(uint, clips_discs, 1u);
 
 vec3 disc_normal(Hit hit) {
     if (hit.face < kFaceSphere) return face_normal(hit.face);

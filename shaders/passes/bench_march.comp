@@ -8,6 +8,7 @@
 #include "lib/invocation.glsl"
 
 #define VX_PUSH BenchMarchPush push;
+#include "lib/constants.glsl"
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 
@@ -18,7 +19,7 @@ layout(scalar) writeonly buffer BenchHits {
     BenchHit hits[];
 };
 
-layout(constant_id = 0) const bool starts_outside = true;
+VX_SPECIALIZED(bool, starts_outside, true);
 
 void main() {
     open_world();

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "estimators/difference_estimate.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "jobs/effect_price.h"
 #include "jobs/price_list/price_files.h"
 #include "jobs/price_list/price_list.h"

@@ -6,9 +6,9 @@
 #include "base/error.h"
 #include "estimators/film_error.h"
 #include "film/film_sums.h"
-#include "formats/scene_hash.h"
 #include "jobs/price_list/measure.h"
 #include "jobs/price_list/reference_cache.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

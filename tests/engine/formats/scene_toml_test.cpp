@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "scene/colour.h"
 #include "scene/facts.h"
