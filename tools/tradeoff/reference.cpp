@@ -7,6 +7,7 @@
 #include "estimators/film_error.h"
 #include "film/film_sums.h"
 #include "formats/scene_hash.h"
+#include "frame/footprint.h"
 #include "tradeoff/measure.h"
 #include "tradeoff/reference_cache.h"
 
