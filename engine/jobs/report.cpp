@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "scene/scene_hash.h"
 #include "jobs/forecast_report.h"
 #include "jobs/occlusion_report.h"
 #include "jobs/photon_report.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

@@ -43,13 +43,14 @@ constexpr Range between(double low, double high) {
 }
 
 inline constexpr Range kWhole{0, 4294967295};
-inline constexpr Range kLight{0,
-                              1e6};  // radiance, irradiance: far above any sun, and its square fits a float
-inline constexpr Range kTurn{-3600, 3600};  // degrees: ten turns, for the sake of animations
-inline constexpr Range kPitch{-90, 90};     // degrees
+// Radiance and irradiance: far above any sun, and the square still fits a float.
+inline constexpr Range kLight{0, 1e6};
+// Degrees: ten turns, for the sake of animations.
+inline constexpr Range kTurn{-3600, 3600};
+inline constexpr Range kPitch{-90, 90};  // degrees
 inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
-inline constexpr Range kReach{-kMaxCoordinate / 2,
-                              kMaxCoordinate / 2};  // so that the sum of two is in kPlace
+// Centre and radius of a sphere: their sum is a place, too.
+inline constexpr Range kReach{-kMaxCoordinate / 2, kMaxCoordinate / 2};
 
 // One row. A number is in `range`; what has `choices` is written as one of these names, in the order of the
 // values.
@@ -101,8 +102,7 @@ void visit_settings(AoSettings& settings, auto&& visit) {
 
 void visit_settings(PhotonSettings& settings, auto&& visit) {
     auto& [count, radius, alpha, scatter, classic, roulette, depth] = settings;
-    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one per pixel, but at least 16384"},
-          count);
+    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one for each pixel"}, count);
     visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
     visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
     visit({"scatter", {}, "photons look for points: the same sums, slower"}, scatter);
@@ -138,7 +138,7 @@ void visit_settings(CameraPlacement& placement, auto&& visit) {
 void visit_settings(CameraSettings& settings, auto&& visit) {
     auto& [placement, preset, path] = settings;
     visit_settings(placement, visit);
-    visit({"preset", {}, "instead of a position: frames the whole scene", kViewNames}, preset);
+    visit({"preset", {}, "frames the whole scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
 }
 

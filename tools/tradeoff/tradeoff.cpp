@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "estimators/difference_estimate.h"
-#include "scene/scene_hash.h"
 #include "jobs/effect_price.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
+#include "scene/scene_hash.h"
 #include "tradeoff/page_maker.h"
 #include "tradeoff/price_files.h"
 #include "tradeoff/price_list.h"
