@@ -5,6 +5,7 @@
 // rows. Each list of rows starts by naming every member of its struct, so that one without a row does not
 // compile unnoticed.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,9 +13,9 @@
 #include <string_view>
 
 #include "base/assert.h"
-#include "scene/camera_settings.h"
 #include "scene/scene.h"
 #include "scene/scene_bounds.h"
+#include "scene/scene_camera.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {
@@ -72,6 +73,31 @@ struct Setting {
 struct HexColour {
     glm::vec3& linear;
     std::string_view linear_key;
+};
+
+// What a scene file says of where the camera stands. A direction is a point to look at, or yaw and pitch.
+struct CameraPlacement {
+    std::optional<glm::dvec3> position;
+    std::optional<glm::dvec3> look_at;
+    std::optional<double> yaw_deg;
+    std::optional<double> pitch_deg;
+    double fov_y_deg = kDefaultFovYDeg;
+};
+
+inline constexpr std::array<std::string_view, 7> kViewNames{
+    "three_quarter", "front", "back", "left", "right", "top", "iso"};  // in the order of View
+
+// [camera], less its keys and its turntable.
+struct CameraSettings {
+    CameraPlacement placement;
+    std::optional<View> preset;
+    CameraPath path = CameraPath::smooth;
+};
+
+// [[camera.key]]
+struct CameraKeySettings {
+    std::int64_t frame = 0;
+    CameraPlacement placement;
 };
 
 // visit_settings(settings, visit) calls visit(const Setting&, member) for each row of a section.
