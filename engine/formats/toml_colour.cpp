@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/colour.h"
+#include "base/colour.h"
 
 namespace voxilux {
 
