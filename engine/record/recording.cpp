@@ -29,13 +29,6 @@ const BufferProxy& Recording::require(std::string_view name) const {
     return *proxy;
 }
 
-std::uint64_t Recording::total_bytes() const {
-    std::uint64_t total = 0;
-    for (const BufferProxy& proxy : buffers_)
-        total += proxy.size_bytes;
-    return total;
-}
-
 void Recording::upload(std::string buffer, std::span<const std::byte> data, std::uint64_t offset_bytes) {
     VX_ASSERT(offset_bytes + data.size() <= require(buffer).size_bytes);
     VX_ASSERT_EQ(offset_bytes % 4, 0u);

@@ -120,9 +120,6 @@ class Recording {
     // Null when the recording declares no buffer of that name.
     [[nodiscard]] const BufferProxy* find(std::string_view name) const;
 
-    // Sum of the declared sizes.
-    [[nodiscard]] std::uint64_t total_bytes() const;
-
   private:
     const BufferProxy& require(std::string_view name) const;
     void require_buffers_of(const Dispatch& dispatch) const;
