@@ -17,7 +17,8 @@ namespace {
 ImageComparison compare(const CompareOptions& options) {
     std::optional<Image> mask;
     if (!options.mask.empty()) mask = read_image(options.mask);
-    return compare_images(read_image(options.ref), read_image(options.test),
+    const Image reference = read_image(options.ref);  // named first where both are broken
+    return compare_images(reference, read_image(options.test),
                           {.box = options.box, .mask = mask ? &*mask : nullptr});
 }
 

@@ -111,7 +111,7 @@ TEST(Report, plan_promises_what_the_render_does) {
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan),
               (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes", "memory",
-                    "forecast", "rays", "notes", "traversal", "occlusion", "photons"}));
+                    "forecast", "rays", "notes", "traversal", "occlusion", "photons", "techniques"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
     EXPECT_EQ(keys_of(plan["occlusion"]), (Keys{"method", "reason", "slots"}));

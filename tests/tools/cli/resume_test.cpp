@@ -93,8 +93,8 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
 // the first sample.
 TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
     const ScratchFolder scratch;
-    const Words job = {"render", scene_file("mixed"), "--size", "32x64", "--spp", "3", "--ao-rays",
-                       "150000", "--reproducible",    "-o",     "a.exr"};
+    const Words job = {"render", scene_file("mixed"), "--size", "64x64", "--spp", "3", "--ao-rays",
+                       "65535",  "--reproducible",    "-o",     "a.exr"};
     const auto with = [&](const Words& more) {
         Words words = job;
         words.insert(words.end(), more.begin(), more.end());
