@@ -20,6 +20,8 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
     plan.settings.size = plan.image_size = {4, 3};
     plan.band_rows = plan.slice_rows = 3;
     plan.band_count = 1;
+    plan.world.root_bytes = plan.world.node_bytes = plan.world.leaf_bytes = 4;
+    plan.material_count = 1;
     return plan;
 }
 
