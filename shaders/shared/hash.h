@@ -6,13 +6,14 @@
 
 VX_BEGIN
 
-// One round of a 32-bit linear congruential step and the RXS-M-XS output permutation: a bijection of 32-bit
-// words. Source: O'Neill 2014, "PCG", section 6.3.4, used as a hash as in Jarzynski and Olano 2020, "Hash
-// Functions for GPU Rendering", JCGT 9(3), listing of pcg.
+// The output permutation RXS-M-XS of 32 bits, a bijection. Source: O'Neill 2014, "PCG", section 6.3.4.
 VX_FN uint pcg_output(uint state) {
     uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return (word >> 22u) ^ word;
 }
+
+// One round of a linear congruential step and that permutation, as a hash: a bijection of 32-bit words.
+// Source: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT 9(3), listing of pcg.
 VX_FN uint pcg_hash(uint v) {
     return pcg_output(v * 747796405u + 2891336453u);
 }

@@ -65,5 +65,35 @@ TEST(Rng, a_density_tilted_by_three_percent_is_caught) {
     EXPECT_GT(pair_chi_square(draw), test::chi_square_critical_99(kBins * kBins - 1));
 }
 
+double stream_chi_square(gpu::NoiseStream stream) {
+    return pair_chi_square([&](std::uint32_t) {
+        const float u = gpu::stream_float(stream);
+        stream = gpu::stream_after(stream);
+        return u;
+    });
+}
+
+// As photons draw: one stream after the other, a few numbers of each.
+double short_streams_chi_square(std::uint32_t length) {
+    gpu::NoiseStream stream{};
+    return pair_chi_square([&](std::uint32_t i) {
+        if (i % length == 0)
+            stream = {gpu::rng_uint(1, 2, i / length, 96), 2 * (i / length) + 1};
+        else
+            stream = gpu::stream_after(stream);
+        return gpu::stream_float(stream);
+    });
+}
+
+TEST(Rng, streams_are_uniform_in_pairs) {
+    const double limit = test::chi_square_critical_99(kBins * kBins - 1);
+    for (const std::uint32_t increment : {1u, 2891336453u, 131071u})
+        EXPECT_LT(stream_chi_square({12345u, increment}), limit) << increment;
+    for (const std::uint32_t length : {1u, 5u, 130u})
+        EXPECT_LT(short_streams_chi_square(length), limit) << length;
+    // The twin: with an even increment an even state loses its low bits.
+    EXPECT_GT(stream_chi_square({0u, 0x80000000u}), limit);
+}
+
 }  // namespace
 }  // namespace voxilux

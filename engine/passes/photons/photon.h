@@ -26,7 +26,7 @@ struct PhotonSetup {
 // Puts the parameters on the device and empties the store, before the pass that traces photons.
 void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
 
-// Finds where photons are wanted, before the pass that traces them: the buckets that a disc about a hit
+// Finds where photons are wanted, before the pass that traces them: the cells that a disc about a hit
 // touches.
 void record_photon_mark(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording);
 
