@@ -1,5 +1,5 @@
-// Who may include whom. The rooms and their order are the table of engine/README.md; above them stand the voxelizer
-// and the tools.
+// Who may include whom. The rooms and their order are the table of engine/README.md; above them stand the
+// voxelizer and the tools.
 
 #include <gtest/gtest.h>
 
