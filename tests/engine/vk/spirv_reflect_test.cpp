@@ -9,13 +9,13 @@
 #include <initializer_list>
 #include <map>
 #include <random>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <string_view>
 
 #include "base/assert.h"
 #include "embedded.h"
+#include "support/source_tree.h"
 
 namespace voxilux {
 namespace {
@@ -134,8 +134,11 @@ TEST(Reflect, constants_that_share_a_number_are_refused) {
 
 // The build numbers constants by their names, so that no shader picks a number that another has.
 std::vector<std::string> numbers_by_hand(const std::string& shader) {
-    static const std::regex by_hand("constant_id *= *[0-9]+");
-    return {std::sregex_token_iterator(shader.begin(), shader.end(), by_hand), std::sregex_token_iterator()};
+    static const test::Pattern by_hand("constant_id *= *[0-9]+");
+    std::vector<std::string> found;
+    for (const std::string& line : test::lines_of(shader))
+        if (!by_hand.find(line).empty()) found.push_back(line);
+    return found;
 }
 
 TEST(ConstantNumbers, no_shader_picks_one) {
