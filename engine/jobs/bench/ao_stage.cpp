@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "embedded.h"
 #include "formats/scene_toml.h"
+#include "frame/footprint.h"
 #include "frame/frame.h"
 #include "jobs/bench/bench_scene.h"
 #include "passes/ao.h"
@@ -68,7 +69,7 @@ TracedStrip record_strip(const RenderPlan& plan, const Slice& slice, gpu::FrameP
     params.first_row = slice.first_row;
     params.row_count = slice.row_count;
     params.band_first_row = slice.band_first_row;
-    record_frame_upload(plan, params, recording);
+    record_frame_upload(params, recording);
     Plane hits = record_primary_march(plan, slice, record_primary_beam(plan, slice, recording), recording);
     if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, slice, hits, recording);
     RenderPlan traced = plan;
@@ -123,7 +124,8 @@ RenderPlan AoStage::plan_of(const AoVariant& variant, std::uint32_t rays, int fr
     settings.sequence = variant.sequence;
     settings.ao_rays = rays;
     settings.spp = 1;
-    return plan_render(scene_, prepared_.facts, prepared_.plan.world, occlusion_request(frames), limits_);
+    return plan_within_memory(scene_, prepared_.facts, prepared_.plan.world, occlusion_request(frames),
+                              limits_);
 }
 
 gpu::FrameParams AoStage::params_at(const RenderPlan& plan, Motion motion, int frame) {

@@ -36,7 +36,7 @@ void build_on_device(const MarchWorld& skeleton, Executor& executor) {
     WorldBuffers buffers = declare_structure(skeleton.traversal, bytes_of(skeleton), recording);
     buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
     buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
-    record_world_build(skeleton, buffers, recording);
+    record_world_build(skeleton, needs, buffers, recording);
     executor.run(recording);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/footprint.h"
+
 namespace voxilux {
 namespace {
 
@@ -131,8 +133,8 @@ std::string to_csv(const PriceList& list) {
                 "{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.4g}\n", knob,
                 setting, &way == &list.ways.front() ? 1 : 0, level.samples, middle_of(level.times_s),
                 std::ranges::min(level.times_s), std::ranges::max(level.times_s), error.total, error.noise,
-                error.bias, error.bias_low, error.bias_high, error.is_limited ? 1 : 0, way.plan.total_bytes(),
-                way.load_s);
+                error.bias, error.bias_low, error.bias_high, error.is_limited ? 1 : 0,
+                footprint(way.plan).total_bytes(), way.load_s);
         }
     };
     for (const Knob& knob : list.design.knobs) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "frame/footprint.h"
 #include "jobs/price_list/difference_map.h"
 #include "jobs/report.h"
 
@@ -62,7 +63,7 @@ Json run_json(const PriceList& list, const PricedRun& run) {
                  {"settings", settings_json(way.way, way.plan, level.samples)},
                  {"time_s", times_json(level.times_s)},
                  {"load_s", way.load_s},
-                 {"memory_bytes", way.plan.total_bytes()},
+                 {"memory_bytes", footprint(way.plan).total_bytes()},
                  {"error", to_json(level.error)},
                  {"claimed", claimed_json(level.claimed)},
                  {"picture", has_picture ? Json(picture) : Json(nullptr)},

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "estimators/film_error.h"
 #include "film/film_sums.h"
+#include "frame/footprint.h"
 #include "jobs/price_list/measure.h"
 #include "jobs/price_list/reference_cache.h"
 #include "scene/scene_hash.h"

@@ -35,7 +35,7 @@ MarchWorld grown_on_device(MarchWorld skeleton) {
                                declare(recording, "test.leaves", skeleton.leaves.size()),
                                declare(recording, "test.homes", needs.home_bytes / 4),
                                declare(recording, "test.grown", needs.grown_bytes / 4)};
-    record_world_build(skeleton, buffers, recording);
+    record_world_build(skeleton, needs, buffers, recording);
     for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
         recording.readback(name);
     const RunResult result = test_executor().run(recording);
