@@ -54,7 +54,8 @@ TEST(ExternalSkip, rule_is_for_external_tests_alone) {
 
 TEST(ReadableParameters, bytes_and_addresses_are_refused) {
     EXPECT_EQ(run_sample("Sample", "false", "4-byte object <0A-00 00-00>"), 1);
-    EXPECT_EQ(run_sample("Sample", "false", "(\"night\", 0x55e0)"), 1);
+    EXPECT_EQ(run_sample("Sample", "false", "(\"night\", 0x55e0c0ffee10)"), 1);
+    EXPECT_EQ(run_sample("Sample", "false", "640x360"), 0);
 }
 
 }  // namespace

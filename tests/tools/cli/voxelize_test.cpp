@@ -70,7 +70,7 @@ void expect_exact(const Json& json) {
     EXPECT_EQ(json["holes"], 0) << json;
 }
 
-class VoxelizeExternal : public testing::TestWithParam<const char*> {};
+class VoxelizeExternal : public testing::TestWithParam<std::string> {};
 
 TEST_P(VoxelizeExternal, voxels_are_those_of_the_oracle_at_32_and_64) {
     SKIP_WITHOUT_ORACLE();
@@ -99,7 +99,7 @@ TEST(VoxelizeOracleExternal, another_resolution_is_seen) {
     EXPECT_GT(json["missing"].get<int>() + json["outside"].get<int>(), 100);
 }
 
-class VoxelizeExternalNightly : public testing::TestWithParam<const char*> {};
+class VoxelizeExternalNightly : public testing::TestWithParam<std::string> {};
 
 TEST_P(VoxelizeExternalNightly, voxels_are_those_of_the_oracle_at_32_64_and_256) {
     SKIP_WITHOUT_ORACLE();
