@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "in_range.h"
 
 namespace voxilux {
 
@@ -26,19 +27,11 @@ void add_photon_flags(CLI::App& command, PhotonOptions& options) {
 }
 
 PhotonSettings with_photons(PhotonSettings settings, const PhotonOptions& options) {
-    if (options.count) {
-        if (*options.count < 0 || *options.count > PhotonSettings::kMostCount)
-            throw Error(ExitCode::usage, fmt::format("--photons: {} is not from 0 to {}", *options.count,
-                                                     PhotonSettings::kMostCount));
-        settings.count = static_cast<std::uint32_t>(*options.count);
-    }
+    if (options.count)
+        settings.count =
+            static_cast<std::uint32_t>(in_range<PhotonSettings>("--photons", "count", *options.count));
     if (options.radius) settings.radius = parse_photon_radius(*options.radius);
-    if (options.alpha) {
-        if (!(*options.alpha > 0.0 && *options.alpha <= 1.0))
-            throw Error(ExitCode::usage,
-                        fmt::format("--alpha: {} is not above 0 and up to 1", *options.alpha));
-        settings.alpha = *options.alpha;
-    }
+    if (options.alpha) settings.alpha = in_range<PhotonSettings>("--alpha", "alpha", *options.alpha);
     return settings;
 }
 
@@ -47,11 +40,10 @@ std::optional<double> parse_photon_radius(const std::string& text) {
     double radius = 0.0;
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, radius);
-    if (error == std::errc() && rest == end && radius > 0.0 && radius <= PhotonSettings::kLargestRadius)
-        return radius;
-    throw Error(ExitCode::usage,
-                fmt::format("--radius: '{}' is neither auto nor a number of voxels above 0 and up to {}",
-                            text, PhotonSettings::kLargestRadius));
+    const Range range = setting_of<PhotonSettings>("radius").range;
+    if (error == std::errc() && rest == end && range.holds(radius)) return radius;
+    throw Error(ExitCode::usage, fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}",
+                                             text, to_string(range)));
 }
 
 }  // namespace voxilux

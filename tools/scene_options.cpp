@@ -6,6 +6,7 @@
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "formats/scene_toml.h"
+#include "in_range.h"
 #include "parse_values.h"
 #include "quality.h"
 #include "scene/animation.h"
@@ -127,6 +128,13 @@ Scene load_scene_with(const SceneOptions& options) {
     std::optional<AoMethod> ao;
     if (options.ao) ao = parse_ao_method(*options.ao);
     (void)with_photons({}, options.photons);
+    const auto check = [](std::string_view flag, std::string_view key, const auto& value) {
+        if (value) (void)in_range<RenderSettings>(flag, key, *value);
+    };
+    check("--spp", "spp", options.spp);
+    check("--iterations", "spp", options.iterations);
+    check("--ao-rays", "ao_rays", options.ao_rays);
+    check("--ao-radius", "ao_radius", options.ao_radius);
 
     Scene scene = load_scene(options.input, {.overrides = overrides_with_quality(options)});
     set_iterations_of_quality(options, scene);

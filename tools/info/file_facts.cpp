@@ -10,11 +10,11 @@
 #include "base/error.h"
 #include "base/sum.h"
 #include "formats/image_file.h"
-#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "formats/vox_info.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

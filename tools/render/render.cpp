@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/scene_hash.h"
 #include "jobs/memory_forecast.h"
 #include "jobs/report.h"
 #include "output_files.h"
@@ -14,6 +13,7 @@
 #include "render/render_frames.h"
 #include "render/render_output.h"
 #include "render/render_part.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

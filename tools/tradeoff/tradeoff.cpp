@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "estimators/difference_estimate.h"
-#include "scene/scene_hash.h"
 #include "jobs/effect_price.h"
 #include "jobs/price_list/price_files.h"
 #include "jobs/price_list/price_list.h"
@@ -15,6 +14,7 @@
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
+#include "scene/scene_hash.h"
 #include "tradeoff/page_maker.h"
 
 namespace voxilux {
