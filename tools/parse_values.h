@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "frame_list.h"
+#include "jobs/frame_list.h"
 #include "plan/effects.h"
 #include "plan/render_plan.h"
 #include "scene/scene.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frame_list.h"
+#include "jobs/frame_list.h"
 #include "photon_options.h"
 #include "plan/render_plan.h"
 #include "scene/scene.h"

@@ -100,11 +100,10 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         root, "the scene",
         {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
-    read_render(in);
-    read_ao(in);
-    read_photons(in);
-    read_sun(in);
-    read_sky(in);
+    visit_sections(scene, [&](std::string_view name, auto& settings) {
+        if (const toml::table* table = find_section(in, name))
+            (void)read_settings(*table, fmt::format("[{}]", name), settings);
+    });
     read_materials(in);
     read_models(in);
     read_shapes(in);

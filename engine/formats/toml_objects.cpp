@@ -1,7 +1,6 @@
 // The named and repeated sections: [material.NAME], [[model]], [[sphere]].
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -11,13 +10,10 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "formats/toml_colour.h"
 #include "formats/toml_materials.h"
 #include "formats/toml_scene.h"
 #include "formats/toml_section.h"
 #include "formats/vox_read.h"
-#include "scene/scene_bounds.h"
-#include "scene/vox_animation.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"
 #include "scene/voxel_grid.h"
@@ -25,38 +21,18 @@
 namespace voxilux {
 namespace {
 
-constexpr int kMaxTranslation = static_cast<int>(kVoxMaxTranslation);
+constexpr Range kTranslation{-kVoxMaxTranslation, kVoxMaxTranslation};
 
-// In the order of kSurfaces.
-constexpr std::array<std::string_view, 4> kSurfaceNames{"diffuse", "metal", "glass", "emit"};
-constexpr std::array<Surface, 4> kSurfaces{Surface::diffuse, Surface::metal, Surface::glass, Surface::emit};
-
-void read_surface(const TomlSection& section, Material& material) {
-    const auto surface = section.choice("surface", kSurfaceNames);
+// What follows from the surface, once every row has been read.
+void settle_surface(const TomlSection& section, Material& material) {
     const bool glows = material.emission != glm::vec3(0.0f);
-    if (surface) material.surface = kSurfaces[*surface];
-    if (!surface && glows) material.surface = Surface::emit;
+    if (!section.has("surface") && glows) material.surface = Surface::emit;
     if (material.surface == Surface::emit && !glows)
         section.refuse("surface", "is \"emit\", which needs 'emission' above zero");
-    const bool polished = material.surface == Surface::metal || material.surface == Surface::glass;
-    material.roughness =
-        static_cast<float>(section.number("roughness", {0.0, 1.0}).value_or(polished ? 0.0 : 1.0));
     material.metallic = material.surface == Surface::metal ? 1.0f : 0.0f;
     material.transmission = material.surface == Surface::glass ? 1.0f : 0.0f;
-}
-
-Material read_material(const TomlSection& section, const std::string& name) {
-    // Nothing that is transparent bends light more than germanium in the infrared does, 4.
-    constexpr Range kIorRange{1.0, 4.0};
-    Material material{.name = name};
-    if (section.has("color") && section.has("albedo")) section.refuse("color", "excludes 'albedo'");
-    if (const auto colour = read_colour(section, "color")) material.albedo = *colour;
-    if (const auto albedo = section.numbers3("albedo", {0.0, 1.0})) material.albedo = glm::vec3(*albedo);
-    if (const auto emission = section.numbers3("emission", kLightRange))
-        material.emission = glm::vec3(*emission);
-    if (const auto ior = section.number("ior", kIorRange)) material.ior = static_cast<float>(*ior);
-    read_surface(section, material);
-    return material;
+    const bool is_polished = material.metallic + material.transmission > 0.0f;
+    if (is_polished && !section.has("roughness")) material.roughness = 0.0f;
 }
 
 // The signed permutation of one word of `rotate`: the right-handed turn of axis "x", "y", "z" by 90, 180 or
@@ -109,10 +85,10 @@ AddedVox add_file(TomlScene& in, const std::filesystem::path& path, std::optiona
 
 void read_model(TomlScene& in, const toml::table& table, AddedFiles& added) {
     const TomlSection section(table, "[[model]]", {"file", "translate", "rotate", "mirror", "frame"});
-    const std::filesystem::path path = in.folder / section.require(section.text("file"), "file");
-    const auto translate = section.integers3("translate", -kMaxTranslation, kMaxTranslation);
+    const std::filesystem::path path = in.folder / section.require(section.get<std::string>("file"), "file");
+    const auto translate = section.get<glm::ivec3>("translate", kTranslation);
     const Rotation rotation = read_rotation(section);
-    const auto frame = section.integer("frame", 0, kMaxFrame);
+    const auto frame = section.get<std::int64_t>("frame", {0, kMaxFrame});
     try {
         auto known = added.find({path, frame});
         if (known == added.end())
@@ -134,13 +110,15 @@ void read_materials(TomlScene& in) {
         if (!value.is_table())
             refuse_at(value.source(),
                       fmt::format("'{}' in [material] must be a section [material.{}]", name, name));
-        const TomlSection section(*value.as_table(), fmt::format("[material.{}]", name),
-                                  {"color", "albedo", "surface", "emission", "roughness", "ior"});
+        Material material{.name = name};
+        const TomlSection section =
+            read_settings(*value.as_table(), fmt::format("[material.{}]", name), material);
         if (name == kAir) section.refuse("takes the name of what carves: choose another");
         if (in.scene.materials.size() > kMaxGridMaterial)
             section.refuse("is one material too many: at most 65535");
         in.materials[name] = static_cast<std::uint32_t>(in.scene.materials.size());
-        in.scene.materials.push_back(read_material(section, name));
+        settle_surface(section, material);
+        in.scene.materials.push_back(std::move(material));
     }
 }
 
@@ -163,13 +141,9 @@ void read_models(TomlScene& in) {
 
 void read_spheres(TomlScene& in) {
     for (const toml::table* table : find_sections(in, "sphere")) {
-        const TomlSection section(*table, "[[sphere]]", {"center", "radius", "material"});
         Sphere sphere;
-        constexpr double kReach =
-            kMaxCoordinate / 2;  // so that centre and radius together stay within the limit
-        sphere.centre = section.require(section.numbers3("center", {-kReach, kReach}), "center");
-        sphere.radius = section.require(section.number("radius", {0.0, kReach, true}), "radius");
-        const std::string name = section.require(section.text("material"), "material");
+        const TomlSection section = read_settings(*table, "[[sphere]]", sphere, {"material"});
+        const std::string name = section.require(section.get<std::string>("material"), "material");
         sphere.material = find_material(in, section, "material", name);
         in.scene.spheres.push_back(sphere);
     }

@@ -11,9 +11,6 @@
 
 namespace voxilux {
 
-// Degrees of an angle: ten turns, for the sake of animations.
-inline constexpr double kMaxTurn = 3600.0;
-
 // What the sections of a scene file share while they are read.
 struct TomlScene {
     const toml::table& root;
@@ -25,11 +22,6 @@ struct TomlScene {
 
 // Each reads one kind of section into the scene, in this order, and refuses what is wrong with
 // Error(input_refused).
-void read_render(TomlScene& in);
-void read_ao(TomlScene& in);
-void read_photons(TomlScene& in);
-void read_sun(TomlScene& in);
-void read_sky(TomlScene& in);
 void read_materials(TomlScene& in);
 void read_models(TomlScene& in);
 void read_shapes(TomlScene& in);

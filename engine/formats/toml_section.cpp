@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <sstream>
+#include <charconv>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 
 namespace voxilux {
 namespace {
-
-// "(0, 180)": round where the end itself is not allowed.
-std::string written(Range range) {
-    return fmt::format("{}{}, {}{}", range.open_low ? '(' : '[', range.low, range.high,
-                       range.open_high ? ')' : ']');
-}
 
 // What a person reads as the value: scalars as written, the rest by its kind.
 std::string shown(const toml::node& node) {
@@ -31,12 +25,40 @@ std::string shown(const toml::node& node) {
     return "a date or time";
 }
 
-}  // namespace
+template <class T>
+constexpr bool kIsVector = false;
+template <glm::length_t N, class T>
+constexpr bool kIsVector<glm::vec<N, T>> = true;
 
-bool Range::holds(double value) const {
-    return std::isfinite(value) && (open_low ? value > low : value >= low) &&
-           (open_high ? value < high : value <= high);
+// What messages allow a value of type T to be.
+template <class T>
+std::string expected_of(Range range) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return "true or false";
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return "a text in quotes";
+    } else if constexpr (kIsVector<T>) {
+        return fmt::format("{} {}numbers in {}", T::length() == 3 ? "[x, y, z] with" : "two",
+                           std::is_integral_v<typename T::value_type> ? "whole " : "", to_string(range));
+    } else {
+        return fmt::format("a {}number in {}", std::is_integral_v<T> ? "whole " : "", to_string(range));
+    }
 }
+
+// The value of the node, nothing when it has another type or is out of range.
+template <class T>
+std::optional<T> value_of(const toml::node& node, Range range) {
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
+        return node.value_exact<T>();
+    } else {
+        // Every range of integers is far inside the 2^53 that a double holds exactly.
+        const bool fits = std::is_integral_v<T> ? node.is_integer() : node.is_number();
+        const auto value = fits ? node.value<double>() : std::nullopt;
+        return value && range.holds(*value) ? std::optional(static_cast<T>(*value)) : std::nullopt;
+    }
+}
+
+}  // namespace
 
 std::string place_of(const toml::source_region& source) {
     const std::string path = source.path ? *source.path : "scene";
@@ -52,8 +74,8 @@ void refuse_at(const toml::source_region& source, const std::string& what) {
     throw Error(ExitCode::input_refused, message);
 }
 
-TomlSection::TomlSection(const toml::table& table, std::string name, std::span<const std::string_view> keys)
-    : table_(table), name_(std::move(name)), keys_(keys.begin(), keys.end()) {
+TomlSection::TomlSection(const toml::table& table, std::string name, std::vector<std::string_view> keys)
+    : table_(table), name_(std::move(name)), keys_(std::move(keys)) {
     for (const auto& [key, value] : table_) {
         if (std::ranges::find(keys_, key.str()) != keys_.end()) continue;
         // The value's place is the same line and survives -D, which keeps the key object of the file.
@@ -84,63 +106,57 @@ void TomlSection::refuse_value(std::string_view key, const toml::node& node,
     refuse_at(node.source(), fmt::format("'{}' in {} must be {}, not {}", key, name_, expected, shown(node)));
 }
 
-double TomlSection::checked_number(std::string_view key, const toml::node& node, Range range,
-                                   const std::string& expected) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !range.holds(*value)) refuse_value(key, node, expected);
-    return *value;
-}
-
-std::int64_t TomlSection::checked_integer(std::string_view key, const toml::node& node, Range range,
-                                          const std::string& expected) const {
-    // Every integer range of a scene is far inside the 2^53 that a double holds exactly.
-    const auto* value = node.as_integer();
-    if (value == nullptr || !range.holds(static_cast<double>(value->get())))
-        refuse_value(key, node, expected);
-    return value->get();
-}
-
-const toml::array* TomlSection::list(std::string_view key, std::size_t count,
-                                     const std::string& expected) const {
-    const toml::node* node = find(key);
-    if (node == nullptr) return nullptr;
-    const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() != count) refuse_value(key, *node, expected);
-    return array;
-}
-
-std::optional<double> TomlSection::number(std::string_view key, Range range) const {
+template <class T>
+std::optional<T> TomlSection::get(std::string_view key, Range range) const {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    return checked_number(key, *node, range, "a number in " + written(range));
+    const auto checked = [&]<class Part>(const toml::node& part, Part& value) {
+        const auto found = value_of<Part>(part, range);
+        if (!found) refuse_value(key, part, expected_of<T>(range));
+        value = *found;
+    };
+    T result;
+    if constexpr (kIsVector<T>) {
+        const toml::array* list = node->as_array();
+        if (list == nullptr || list->size() != std::size_t{T::length()})
+            refuse_value(key, *node, expected_of<T>(range));
+        for (glm::length_t i = 0; i < T::length(); ++i)
+            checked((*list)[static_cast<std::size_t>(i)], result[i]);
+    } else {
+        checked(*node, result);
+    }
+    return result;
 }
+template std::optional<bool> TomlSection::get(std::string_view, Range) const;
+template std::optional<std::string> TomlSection::get(std::string_view, Range) const;
+template std::optional<int> TomlSection::get(std::string_view, Range) const;
+template std::optional<std::int64_t> TomlSection::get(std::string_view, Range) const;
+template std::optional<std::uint32_t> TomlSection::get(std::string_view, Range) const;
+template std::optional<float> TomlSection::get(std::string_view, Range) const;
+template std::optional<double> TomlSection::get(std::string_view, Range) const;
+template std::optional<glm::ivec2> TomlSection::get(std::string_view, Range) const;
+template std::optional<glm::ivec3> TomlSection::get(std::string_view, Range) const;
+template std::optional<glm::vec3> TomlSection::get(std::string_view, Range) const;
+template std::optional<glm::dvec3> TomlSection::get(std::string_view, Range) const;
 
-std::optional<std::int64_t> TomlSection::integer(std::string_view key, std::int64_t low,
-                                                 std::int64_t high) const {
-    const toml::node* node = find(key);
-    if (node == nullptr) return std::nullopt;
-    return checked_integer(key, *node, {static_cast<double>(low), static_cast<double>(high)},
-                           fmt::format("a whole number in [{}, {}]", low, high));
-}
-
-std::optional<bool> TomlSection::boolean(std::string_view key) const {
-    const toml::node* node = find(key);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_boolean()) refuse_value(key, *node, "true or false");
-    return node->as_boolean()->get();
-}
-
-std::optional<std::string> TomlSection::text(std::string_view key) const {
-    const toml::node* node = find(key);
-    if (node == nullptr) return std::nullopt;
-    if (!node->is_string()) refuse_value(key, *node, "a text in quotes");
-    return node->as_string()->get();
+void TomlSection::read(const Setting& row, HexColour colour) const {
+    const auto text = get<std::string>(row.name);
+    if (!text) return;
+    if (has(colour.linear_key)) refuse(row.name, fmt::format("excludes '{}'", colour.linear_key));
+    std::uint32_t rrggbb = 0;
+    const char* end = text->data() + text->size();
+    const bool shaped = text->size() == 7 && text->front() == '#';
+    const auto parsed =
+        shaped ? std::from_chars(text->data() + 1, end, rrggbb, 16) : std::from_chars_result{};
+    if (!shaped || parsed.ec != std::errc() || parsed.ptr != end)
+        refuse(row.name, fmt::format("must be \"#rrggbb\" (sRGB), not \"{}\"", text->substr(0, 40)));
+    colour.linear = linear_from_srgb_hex(rrggbb);
 }
 
 std::optional<std::vector<std::string>> TomlSection::texts(std::string_view key) const {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;
-    if (!node->is_array()) return std::vector{*text(key)};
+    if (!node->is_array()) return std::vector{*get<std::string>(key)};
     std::vector<std::string> result;
     for (const toml::node& element : *node->as_array()) {
         if (!element.is_string()) refuse_value(key, element, "a text in quotes or a list of them");
@@ -151,45 +167,13 @@ std::optional<std::vector<std::string>> TomlSection::texts(std::string_view key)
 
 std::optional<std::size_t> TomlSection::choice(std::string_view key,
                                                std::span<const std::string_view> names) const {
-    const auto value = text(key);
+    const auto value = get<std::string>(key);
     if (!value) return std::nullopt;
     const auto found = std::ranges::find(names, *value);
     if (found == names.end())
         refuse(key,
                fmt::format("must be one of '{}', not '{}'", fmt::join(names, "', '"), value->substr(0, 40)));
     return static_cast<std::size_t>(found - names.begin());
-}
-
-std::optional<glm::dvec3> TomlSection::numbers3(std::string_view key, Range range) const {
-    const std::string expected = "[x, y, z] with numbers in " + written(range);
-    const toml::array* array = list(key, 3, expected);
-    if (array == nullptr) return std::nullopt;
-    glm::dvec3 result;
-    for (std::size_t i = 0; i < 3; ++i)
-        result[static_cast<int>(i)] = checked_number(key, (*array)[i], range, expected);
-    return result;
-}
-
-std::optional<glm::ivec3> TomlSection::integers3(std::string_view key, int low, int high) const {
-    const std::string expected = fmt::format("[x, y, z] with whole numbers in [{}, {}]", low, high);
-    const toml::array* array = list(key, 3, expected);
-    if (array == nullptr) return std::nullopt;
-    glm::ivec3 result;
-    for (std::size_t i = 0; i < 3; ++i)
-        result[static_cast<int>(i)] =
-            static_cast<int>(checked_integer(key, (*array)[i], {double(low), double(high)}, expected));
-    return result;
-}
-
-std::optional<glm::ivec2> TomlSection::integers2(std::string_view key, int low, int high) const {
-    const std::string expected = fmt::format("two whole numbers in [{}, {}]", low, high);
-    const toml::array* array = list(key, 2, expected);
-    if (array == nullptr) return std::nullopt;
-    glm::ivec2 result;
-    for (std::size_t i = 0; i < 2; ++i)
-        result[static_cast<int>(i)] =
-            static_cast<int>(checked_integer(key, (*array)[i], {double(low), double(high)}, expected));
-    return result;
 }
 
 }  // namespace voxilux

@@ -2,27 +2,19 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <toml++/toml.h>
 #include <glm/glm.hpp>
 
+#include "scene/settings.h"
+
 namespace voxilux {
-
-// Allowed values of a number; infinities and NaN never are.
-struct Range {
-    double low = 0.0;
-    double high = 0.0;
-    bool open_low = false;
-    bool open_high = false;
-
-    [[nodiscard]] bool holds(double value) const;
-};
 
 // "FILE:LINE:COLUMN", or the -D option that the value came from.
 [[nodiscard]] std::string place_of(const toml::source_region& source);
@@ -37,26 +29,19 @@ struct Range {
 class TomlSection {
   public:
     // `name` is how messages call it: "[sun]". The table must outlive the section.
-    TomlSection(const toml::table& table, std::string name, std::span<const std::string_view> keys);
-    TomlSection(const toml::table& table, std::string name, std::initializer_list<std::string_view> keys)
-        : TomlSection(table, std::move(name), std::span(keys.begin(), keys.size())) {}
+    TomlSection(const toml::table& table, std::string name, std::vector<std::string_view> keys);
 
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
     [[nodiscard]] const toml::node* find(std::string_view key) const;
 
-    [[nodiscard]] std::optional<double> number(std::string_view key, Range range) const;
-    [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, std::int64_t low,
-                                                      std::int64_t high) const;
-    [[nodiscard]] std::optional<bool> boolean(std::string_view key) const;
-    [[nodiscard]] std::optional<std::string> text(std::string_view key) const;
+    // T: bool, std::string; or in `range` an integer, a floating-point number, a glm vector of them.
+    template <class T>
+    [[nodiscard]] std::optional<T> get(std::string_view key, Range range = {}) const;
     // One string, or a list of strings.
     [[nodiscard]] std::optional<std::vector<std::string>> texts(std::string_view key) const;
     // The position in `names` of the string.
     [[nodiscard]] std::optional<std::size_t> choice(std::string_view key,
                                                     std::span<const std::string_view> names) const;
-    [[nodiscard]] std::optional<glm::dvec3> numbers3(std::string_view key, Range range) const;
-    [[nodiscard]] std::optional<glm::ivec3> integers3(std::string_view key, int low, int high) const;
-    [[nodiscard]] std::optional<glm::ivec2> integers2(std::string_view key, int low, int high) const;
 
     // The value, or a refusal that names the missing key.
     template <class T>
@@ -64,6 +49,25 @@ class TomlSection {
         if (!value) refuse("needs '" + std::string(key) + "'");
         return *std::move(value);
     }
+
+    // What a row says of its key; an absent key leaves the member as it is.
+    template <class T>
+    void read(const Setting& row, T& value) const {
+        if (!has(row.name)) {
+            if (row.is_required) refuse("needs '" + std::string(row.name) + "'");
+        } else if constexpr (std::is_enum_v<T>) {
+            value = static_cast<T>(*choice(row.name, row.choices));
+        } else if constexpr (std::is_same_v<T, bool>) {
+            value = row.choices.empty() ? *get<bool>(row.name) : *choice(row.name, row.choices) == 1;
+        } else {
+            value = *get<T>(row.name, row.range);
+        }
+    }
+    template <class T>
+    void read(const Setting& row, std::optional<T>& value) const {
+        if (has(row.name)) read(row, value.emplace());
+    }
+    void read(const Setting& row, HexColour colour) const;
 
     // At the section: "[sun] WHAT".
     [[noreturn]] void refuse(const std::string& what) const;
@@ -73,16 +77,22 @@ class TomlSection {
   private:
     [[noreturn]] void refuse_value(std::string_view key, const toml::node& node,
                                    const std::string& expected) const;
-    [[nodiscard]] const toml::array* list(std::string_view key, std::size_t count,
-                                          const std::string& expected) const;
-    [[nodiscard]] double checked_number(std::string_view key, const toml::node& node, Range range,
-                                        const std::string& expected) const;
-    [[nodiscard]] std::int64_t checked_integer(std::string_view key, const toml::node& node, Range range,
-                                               const std::string& expected) const;
 
     const toml::table& table_;
     std::string name_;
     std::vector<std::string_view> keys_;
 };
+
+// The section that has a key for each row of the settings, and `others`; what it says goes to the settings.
+template <class Settings>
+TomlSection read_settings(const toml::table& table, std::string name, Settings& settings,
+                          std::initializer_list<std::string_view> others = {}) {
+    std::vector<std::string_view> keys;
+    visit_settings(settings, [&](const Setting& row, auto&&) { keys.push_back(row.name); });
+    keys.insert(keys.end(), others);
+    TomlSection section(table, std::move(name), std::move(keys));
+    visit_settings(settings, [&](const Setting& row, auto&& value) { section.read(row, value); });
+    return section;
+}
 
 }  // namespace voxilux

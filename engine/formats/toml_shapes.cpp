@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,20 +16,19 @@ namespace {
 
 // All shapes of a file together: half a GiB of blocks, two GiB of voxels, seconds of time.
 constexpr double kMaxShapeCells = 268435456.0;  // 2^28
-constexpr std::int64_t kMaxSeed = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMaxRadius = 1 << 20;
 constexpr int kMaxFeature = 1 << 16;
 constexpr int kMaxTreeHeight = 4096;
 constexpr Range kAnywhere{-kMaxGridCoordinate, kMaxGridCoordinate};
 
 Filling read_filling(const TomlScene& in, const TomlSection& section, std::string_view key) {
-    const std::string name = section.require(section.text(key), key);
+    const std::string name = section.require(section.get<std::string>(key), key);
     if (name == kAir) return std::nullopt;
     return static_cast<std::uint16_t>(find_material(in, section, key, name));
 }
 
 glm::ivec3 read_corner(const TomlSection& section, std::string_view key) {
-    return section.require(section.integers3(key, -kMaxGridCoordinate, kMaxGridCoordinate), key);
+    return section.require(section.get<glm::ivec3>(key, kAnywhere), key);
 }
 
 Box read_box(const TomlSection& section) {
@@ -43,16 +41,16 @@ Box read_box(const TomlSection& section) {
 Shape read_box_shape(const TomlScene& in, const toml::table& table) {
     const TomlSection section(table, "[[shape]] \"box\"", {"shape", "from", "to", "material", "hollow"});
     const Box box = read_box(section);
-    return BoxShape{box.lo, box.hi, section.boolean("hollow").value_or(false),
+    return BoxShape{box.lo, box.hi, section.get<bool>("hollow").value_or(false),
                     read_filling(in, section, "material")};
 }
 
 Shape read_ball_shape(const TomlScene& in, const toml::table& table) {
     const TomlSection section(table, "[[shape]] \"ball\"",
                               {"shape", "center", "radius", "material", "hollow"});
-    const glm::dvec3 centre = section.require(section.numbers3("center", kAnywhere), "center");
-    const double radius = section.require(section.number("radius", {0.0, kMaxRadius, true}), "radius");
-    return BallShape{centre, radius, section.boolean("hollow").value_or(false),
+    const glm::dvec3 centre = section.require(section.get<glm::dvec3>("center", kAnywhere), "center");
+    const double radius = section.require(section.get<double>("radius", above(0, kMaxRadius)), "radius");
+    return BallShape{centre, radius, section.get<bool>("hollow").value_or(false),
                      read_filling(in, section, "material")};
 }
 
@@ -61,10 +59,9 @@ Shape read_terrain_shape(const TomlScene& in, const toml::table& table) {
                               {"shape", "from", "to", "seed", "feature", "island", "layers"});
     const Box box = read_box(section);
     GroundShape ground{.terrain = {.from = box.lo, .to = box.hi}};
-    ground.terrain.seed = static_cast<std::uint32_t>(section.integer("seed", 0, kMaxSeed).value_or(0));
-    ground.terrain.feature =
-        static_cast<int>(section.integer("feature", 1, kMaxFeature).value_or(ground.terrain.feature));
-    ground.terrain.island = section.boolean("island").value_or(false);
+    ground.terrain.seed = section.get<std::uint32_t>("seed", kWhole).value_or(0);
+    ground.terrain.feature = section.get<int>("feature", {1, kMaxFeature}).value_or(ground.terrain.feature);
+    ground.terrain.island = section.get<bool>("island").value_or(false);
     for (const std::string& name : section.require(section.texts("layers"), "layers"))
         ground.layers.push_back(name == kAir ? Filling()
                                              : Filling(find_material(in, section, "layers", name)));
@@ -77,7 +74,7 @@ glm::ivec3 read_base(const TomlSection& section, const VoxelGrid& grid) {
     const toml::node* node = section.find("base");
     const bool on_ground = node != nullptr && node->is_array() && node->as_array()->size() == 2;
     if (!on_ground) return read_corner(section, "base");
-    const glm::ivec2 column = *section.integers2("base", -kMaxGridCoordinate, kMaxGridCoordinate - 1);
+    const glm::ivec2 column = *section.get<glm::ivec2>("base", {-kMaxGridCoordinate, kMaxGridCoordinate - 1});
     const auto top = grid.top_of_column(column.x, column.y);
     if (!top) section.refuse("base", "has no ground: no earlier shape fills this column; give [x, y, z]");
     return {column, *top + 1};
@@ -87,9 +84,9 @@ Shape read_tree_shape(const TomlScene& in, const toml::table& table, const Voxel
     const TomlSection section(table, "[[shape]] \"tree\"",
                               {"shape", "base", "height", "crown", "seed", "trunk", "leaves"});
     TreeShape tree{.base = read_base(section, grid)};
-    tree.height = static_cast<int>(section.integer("height", 1, kMaxTreeHeight).value_or(tree.height));
-    tree.crown = section.number("crown", {0.0, kMaxTreeHeight, true}).value_or(tree.crown);
-    tree.seed = static_cast<std::uint32_t>(section.integer("seed", 0, kMaxSeed).value_or(0));
+    tree.height = section.get<int>("height", {1, kMaxTreeHeight}).value_or(tree.height);
+    tree.crown = section.get<double>("crown", above(0, kMaxTreeHeight)).value_or(tree.crown);
+    tree.seed = section.get<std::uint32_t>("seed", kWhole).value_or(0);
     tree.trunk = read_filling(in, section, "trunk");
     tree.leaves = read_filling(in, section, "leaves");
     return tree;

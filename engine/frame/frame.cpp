@@ -106,7 +106,7 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     params.row_count = slice.row_count;
     params.band_first_row = picture_row + slice.band_first_row;
     number_sample(plan, sample, params);
-    record_frame_upload(plan, params, rec);
+    record_frame_upload(params, rec);
 
     const Plane voxels = plan.has(Effect::voxels)
                              ? record_primary_march(plan, slice, record_primary_beam(plan, slice, rec), rec)

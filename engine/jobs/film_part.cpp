@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

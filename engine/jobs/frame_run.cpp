@@ -130,8 +130,8 @@ RenderOutcome FrameRun::strip_of(RowRange rows) {
     FilmSums film = read_film_rows(plan_, rows, executor_);
     std::ranges::fill(film.even, 1u);
     std::ranges::fill(film.odd, 1u);
-    RenderOutcome strip{.image = picture_of(film), .plan = plan_, .statistics = statistics_};
-    strip.plan.settings.size.y = static_cast<int>(rows.count);
+    RenderOutcome strip{
+        .image = picture_of(film), .plan = plan_of_rows(plan_, rows.count), .statistics = statistics_};
     strip.statistics.error = error_of(film);
     if (inputs_.options.keeps_film) strip.film = std::move(film);
     return strip;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "frame/footprint.h"
 #include "plan/film_planes.h"
 
 namespace voxilux {
@@ -71,7 +72,7 @@ ResidentBytes resident_bytes() {
 
 MemoryForecast forecast_memory(const RenderPlan& plan, const PictureUse& use) {
     const ResidentBytes resident = resident_bytes();
-    return {.device_bytes = plan.total_bytes(),
+    return {.device_bytes = footprint(plan).total_bytes(),
             .peak_rss_bytes = std::max(resident.peak, resident.now + end_bytes(plan, use))};
 }
 

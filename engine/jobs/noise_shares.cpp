@@ -13,7 +13,6 @@
 #include "base/statistics.h"
 #include "estimators/metrics.h"
 #include "film/film.h"
-#include "plan/plan_lists.h"
 #include "renderer/pilot_film.h"
 
 namespace voxilux {
@@ -35,17 +34,6 @@ std::string reason_without_share(Effect effect) {
         default:
             return {};
     }
-}
-
-RenderPlan plan_without(const RenderPlan& plan, Effect effect) {
-    RenderPlan without = plan;
-    without.effects[static_cast<std::size_t>(effect)].on = false;
-    without.effects[static_cast<std::size_t>(Effect::aov)].on = false;
-    without.sums_squares = false;
-    without.sums_bias = false;
-    without.buffers.clear();
-    list_buffers(without);
-    return without;
 }
 
 FilmSums render_film(const ShareJob& job, const RenderPlan& plan, Executor& executor) {

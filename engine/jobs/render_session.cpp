@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "frame/frame.h"
+#include "frame/footprint.h"
 #include "jobs/error_pilot.h"
 #include "jobs/frame_run.h"
 #include "jobs/noise_shares.h"
@@ -79,7 +79,7 @@ void RenderSession::change(const RenderSettings& settings, const PlanRequest& re
 void RenderSession::replan(const Scene& scene, Recording& upload) {
     const bool had_voxels = prepared_->plan.has(Effect::voxels);
     const WorldFacts world = prepared_->plan.world;
-    prepared_->plan = plan_render(scene, prepared_->facts, world, options_.plan, device_.limits());
+    prepared_->plan = plan_within_memory(scene, prepared_->facts, world, options_.plan, device_.limits());
     state_ = {};
     if (!had_voxels)
         record_scene_upload(prepared_->plan, scene, prepared_->march_world, prepared_->lights, upload);
@@ -106,7 +106,7 @@ Recording RenderSession::prepare(const Scene& scene) {
 void RenderSession::choose_radius(const Recording& upload) {
     (void)executor_->run(upload);
     if (!first_radius_) first_radius_ = pilot_radius(*prepared_, *scene_, *executor_);
-    prepared_->plan.photons.radius = *first_radius_;
+    prepared_->plan = plan_with_radius(prepared_->plan, *first_radius_);
 }
 
 std::optional<ErrorPilot> RenderSession::run_pilot(Recording& upload, const std::function<bool()>& stops) {

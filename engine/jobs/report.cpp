@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "formats/scene_hash.h"
+#include "frame/footprint.h"
 #include "jobs/forecast_report.h"
 #include "jobs/occlusion_report.h"
 #include "jobs/photon_report.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {
@@ -77,16 +78,16 @@ std::string_view name_of(StopReason reason) {
     VX_ASSERT(false);
 }
 
-Json planned_passes_json(const RenderPlan& plan) {
+Json planned_passes_json(const Footprint& needs) {
     Json rows = Json::array();
-    for (const PlannedPass& pass : plan.passes)
+    for (const PlannedPass& pass : needs.passes)
         rows.push_back({{"label", pass.label}, {"count", pass.count}});
     return rows;
 }
 
-Json planned_memory_json(const RenderPlan& plan) {
+Json planned_memory_json(const Footprint& needs) {
     Json rows = Json::array();
-    for (const PlannedBuffer& planned : plan.buffers)
+    for (const PlannedBuffer& planned : needs.buffers)
         rows.push_back({{"buffer", planned.buffer}, {"bytes", planned.bytes}});
     return rows;
 }
@@ -251,8 +252,9 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["occlusion"] = planned_occlusion_json(plan);
     json["photons"] = photons_json(plan);
     json["effects"] = effects_json(plan, nullptr);
-    json["passes"] = planned_passes_json(plan);
-    json["memory"] = planned_memory_json(plan);
+    const Footprint needs = footprint(plan);
+    json["passes"] = planned_passes_json(needs);
+    json["memory"] = planned_memory_json(needs);
     json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
     json["forecast"] = forecast_json(std::nullopt);  // without an error there is no pilot
     json["notes"] = plan.notes;

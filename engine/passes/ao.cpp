@@ -18,6 +18,21 @@ std::uint32_t flag(bool on) {
     return on ? 1u : 0u;
 }
 
+// An array of the table: 64 bits for each slot.
+std::string table_array(const RenderPlan& plan, const char* name, Recording& recording) {
+    return declare<std::uint64_t>(recording, name, plan.ao.slots, Lifetime::persistent);
+}
+
+std::string touched_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<gpu::uint>(recording, "ao.touched", plan.ao.slots, Lifetime::persistent);
+}
+
+// The list of hits that reprojection misses, after its length.
+std::string missed_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<std::byte>(recording, "ao.missed",
+                              sizeof(gpu::AoMissed) + plan.slice_pixels() * sizeof(gpu::uint));
+}
+
 // The slots of the pixels of this sample, and of the one before where it is reprojected: they take turns.
 struct SlotPlanes {
     std::string now;
@@ -26,9 +41,10 @@ struct SlotPlanes {
 
 SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Recording& recording) {
     if (!plan.ao.reprojects)
-        return {use_buffer(plan, "ao.slots_even", recording), placeholder_buffer(recording)};
-    SlotPlanes planes{use_buffer(plan, "ao.slots_even", recording),
-                      use_buffer(plan, "ao.slots_odd", recording)};
+        return {declare_plane<gpu::uint>(plan, "ao.slots_even", recording, Lifetime::persistent),
+                placeholder_buffer(recording)};
+    SlotPlanes planes{declare_plane<gpu::uint>(plan, "ao.slots_even", recording, Lifetime::persistent),
+                      declare_plane<gpu::uint>(plan, "ao.slots_odd", recording, Lifetime::persistent)};
     if (params.pass_number % 2 == 1) std::swap(planes.now, planes.last);
     return planes;
 }
@@ -36,12 +52,12 @@ SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Reco
 // Of every pass that finds cells.
 std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, const std::string& slots,
                                     Recording& recording) {
-    return {{"Frame", use_buffer(plan, "frame", recording)},
-            {"Tally", use_buffer(plan, "tally", recording)},
-            {"AoFrame", use_buffer(plan, "ao.frame", recording)},
-            {"Keys", use_buffer(plan, "ao.keys", recording)},
-            {"Samples", use_buffer(plan, "ao.samples", recording)},
-            {"Touched", use_buffer(plan, "ao.touched", recording)},
+    return {{"Frame", frame_buffer(recording)},
+            {"Tally", tally_buffer(recording)},
+            {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
+            {"Keys", table_array(plan, "ao.keys", recording)},
+            {"Samples", table_array(plan, "ao.samples", recording)},
+            {"Touched", touched_buffer(plan, recording)},
             {"Hits", hits.buffer},
             {"Slots", slots}};
 }
@@ -59,12 +75,12 @@ void record_ao_age(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "ao.age",
                         .shader = "ao_age",
                         .extent = {plan.ao.slots, 1, 1},
-                        .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
-                                     {"AoFrame", use_buffer(plan, "ao.frame", recording)},
-                                     {"Keys", use_buffer(plan, "ao.keys", recording)},
-                                     {"Samples", use_buffer(plan, "ao.samples", recording)},
-                                     {"Opens", use_buffer(plan, "ao.opens", recording)},
-                                     {"Touched", use_buffer(plan, "ao.touched", recording)}}});
+                        .bindings = {{"Tally", tally_buffer(recording)},
+                                     {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
+                                     {"Keys", table_array(plan, "ao.keys", recording)},
+                                     {"Samples", table_array(plan, "ao.samples", recording)},
+                                     {"Opens", table_array(plan, "ao.opens", recording)},
+                                     {"Touched", touched_buffer(plan, recording)}}});
 }
 
 void record_ao_lookup(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
@@ -78,7 +94,7 @@ void record_ao_lookup(const RenderPlan& plan, const Slice& slice, const Plane& h
 
 void record_ao_reproject(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                          const SlotPlanes& planes, Recording& recording) {
-    const std::string missed = use_buffer(plan, "ao.missed", recording);
+    const std::string missed = missed_buffer(plan, recording);
     recording.upload(missed, to_bytes(gpu::AoMissed{.groups_y = 1, .groups_z = 1}));
     Dispatch dispatch{.label = "ao.reproject",
                       .shader = "ao_reproject",
@@ -91,7 +107,7 @@ void record_ao_reproject(const RenderPlan& plan, const Slice& slice, const Plane
 
 void record_ao_search(const RenderPlan& plan, const Plane& hits, const SlotPlanes& planes,
                       Recording& recording) {
-    const std::string missed = use_buffer(plan, "ao.missed", recording);
+    const std::string missed = missed_buffer(plan, recording);
     Dispatch dispatch{.label = "ao.search",
                       .shader = "ao_search",
                       .bindings = table_bindings(plan, hits, planes.now, recording),
@@ -119,12 +135,13 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
                       .extent = pixel_extent(plan, slice),
                       .bindings = table_bindings(plan, hits, merged ? planes.now : unused, recording),
                       .constants = surface_constants(plan)};
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"LastSlots", planes.last},
-                                                       {"Spheres", spheres_buffer(plan, recording)},
-                                                       {"SphereTable", sphere_table_buffer(plan, recording)},
-                                                       {"Opens", use_buffer(plan, "ao.opens", recording)},
-                                                       {"Located", merged ? unused : planes.now},
-                                                       {"Own", use_buffer(plan, "ao.own", recording)}});
+    dispatch.bindings.insert(dispatch.bindings.end(),
+                             {{"LastSlots", planes.last},
+                              {"Spheres", spheres_buffer(plan, recording)},
+                              {"SphereTable", sphere_table_buffer(plan, recording)},
+                              {"Opens", table_array(plan, "ao.opens", recording)},
+                              {"Located", merged ? unused : planes.now},
+                              {"Own", declare_plane<float>(plan, "ao.own", recording)}});
     dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.ao.reprojects)},
                                                          {"merged", flag(merged)},
                                                          {"by_pixel", flag(plan.settings.ao.by_pixel)},
@@ -142,16 +159,17 @@ struct Resolved {
 Resolved record_ao_resolve(const RenderPlan& plan, const Slice& slice, const SlotPlanes& planes,
                            Recording& recording) {
     const bool filters = plan.settings.ao.filter > 0;
-    Resolved resolved{use_buffer(plan, "ao.open", recording),
-                      filters ? use_buffer(plan, "ao.variance", recording) : placeholder_buffer(recording)};
+    Resolved resolved{
+        declare_plane<float>(plan, "ao.open", recording),
+        filters ? declare_plane<float>(plan, "ao.variance", recording) : placeholder_buffer(recording)};
     recording.dispatch({.label = "ao.resolve",
                         .shader = "ao_resolve",
                         .extent = pixel_extent(plan, slice),
-                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                        .bindings = {{"Frame", frame_buffer(recording)},
                                      {"Slots", planes.now},
-                                     {"Samples", use_buffer(plan, "ao.samples", recording)},
-                                     {"Opens", use_buffer(plan, "ao.opens", recording)},
-                                     {"Own", use_buffer(plan, "ao.own", recording)},
+                                     {"Samples", table_array(plan, "ao.samples", recording)},
+                                     {"Opens", table_array(plan, "ao.opens", recording)},
+                                     {"Own", declare_plane<float>(plan, "ao.own", recording)},
                                      {"Ao", resolved.openness},
                                      {"Variance", resolved.variance}},
                         .constants = {{"wants_variance", flag(filters)}, rays_constant(plan)}});
@@ -160,13 +178,13 @@ Resolved record_ao_resolve(const RenderPlan& plan, const Slice& slice, const Slo
 
 Plane record_ao_filter(const RenderPlan& plan, const Slice& slice, const Plane& hits, Resolved resolved,
                        Recording& recording) {
-    Resolved filtered{use_buffer(plan, "ao.filtered", recording),
-                      use_buffer(plan, "ao.filtered_variance", recording)};
+    Resolved filtered{declare_plane<float>(plan, "ao.filtered", recording),
+                      declare_plane<float>(plan, "ao.filtered_variance", recording)};
     for (std::uint32_t i = 0; i < plan.settings.ao.filter; ++i) {
         recording.dispatch({.label = "ao.filter",
                             .shader = "ao_filter",
                             .extent = pixel_extent(plan, slice),
-                            .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                            .bindings = {{"Frame", frame_buffer(recording)},
                                          {"Hits", hits.buffer},
                                          {"Ao", resolved.openness},
                                          {"Variance", resolved.variance},
@@ -180,7 +198,7 @@ Plane record_ao_filter(const RenderPlan& plan, const Slice& slice, const Plane& 
 
 void empty_table(const RenderPlan& plan, Recording& recording) {
     for (const char* array : {"ao.keys", "ao.samples", "ao.opens"})
-        recording.clear(use_buffer(plan, array, recording));
+        recording.clear(table_array(plan, array, recording));
 }
 
 }  // namespace
@@ -204,7 +222,7 @@ bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t l
 Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,
                       Recording& recording) {
     VX_ASSERT_EQ(slice.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
-    recording.upload(use_buffer(plan, "ao.frame", recording), to_bytes(step.params));
+    recording.upload(declare<gpu::AoParams>(recording, "ao.frame", 1), to_bytes(step.params));
     if (step.params.has_last == 0) empty_table(plan, recording);
     if (step.sweeps) record_ao_age(plan, recording);
     const SlotPlanes planes = slot_planes(plan, step.params, recording);

@@ -6,12 +6,12 @@ namespace voxilux {
 
 SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                  Recording& recording) {
-    const SurfacePlanes planes{{use_buffer(plan, "aov.albedo", recording)},
-                               {use_buffer(plan, "aov.normal", recording)}};
+    const SurfacePlanes planes{{declare_plane<gpu::vec3>(plan, "aov.albedo", recording)},
+                               {declare_plane<gpu::vec3>(plan, "aov.normal", recording)}};
     Dispatch dispatch{.label = "aov.surface",
                       .shader = "aov_surface",
                       .extent = pixel_extent(plan, slice),
-                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+                      .bindings = {{"Frame", frame_buffer(recording)},
                                    {"Hits", hits.buffer},
                                    {"Materials", materials_buffer(plan, recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
@@ -29,10 +29,10 @@ void record_aov_position(const RenderPlan& plan, const Slice& slice, const Plane
         {.label = "aov.position",
          .shader = "aov_position",
          .extent = pixel_extent(plan, slice),
-         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+         .bindings = {{"Frame", frame_buffer(recording)},
                       {"Hits", hits.buffer},
-                      {"Position", use_buffer(plan, film_buffer("position", slice.band), recording)},
-                      {"Depth", use_buffer(plan, film_buffer("depth", slice.band), recording)}},
+                      {"Position", film_plane<float>(plan, {"position", 3}, slice.band, recording)},
+                      {"Depth", film_plane<float>(plan, {"depth", 1}, slice.band, recording)}},
          .constants = {{"hits_stride", hits.stride}}});
 }
 

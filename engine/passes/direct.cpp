@@ -6,17 +6,16 @@ namespace voxilux {
 
 Plane record_direct_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                           Recording& recording) {
-    const Plane direct{use_buffer(plan, "direct.light", recording)};
+    const Plane direct{declare_plane<gpu::vec3>(plan, "direct.light", recording)};
     Dispatch dispatch{.label = "direct.trace",
                       .shader = "direct_trace",
                       .extent = pixel_extent(plan, slice),
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
-    dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Lights", use_buffer(plan, "light.records", recording)},
-                              {"LightTable", use_buffer(plan, "light.table", recording)},
-                              {"Hits", hits.buffer},
-                              {"Direct", direct.buffer}});
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", lights_buffer(plan, recording)},
+                                                       {"LightTable", light_table_buffer(plan, recording)},
+                                                       {"Hits", hits.buffer},
+                                                       {"Direct", direct.buffer}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return direct;

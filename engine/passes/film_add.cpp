@@ -20,26 +20,24 @@ gpu::FilmAddPush sums_of_slice(const RenderPlan& plan, const Slice& slice, const
 void record_film_add(const RenderPlan& plan, const Slice& slice, const FilmPlane& film, const Plane& values,
                      Recording& recording) {
     const gpu::FilmAddPush push = sums_of_slice(plan, slice, film, values);
-    recording.dispatch(
-        {.label = "film.add",
-         .shader = "film_add",
-         .extent = {push.count, 1, 1},
-         .bindings = {{"Tally", use_buffer(plan, "tally", recording)},
-                      {"Values", values.buffer},
-                      {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
-         .push = to_bytes(push)});
+    recording.dispatch({.label = "film.add",
+                        .shader = "film_add",
+                        .extent = {push.count, 1, 1},
+                        .bindings = {{"Tally", tally_buffer(recording)},
+                                     {"Values", values.buffer},
+                                     {"Sums", film_plane<std::int64_t>(plan, film, slice.band, recording)}},
+                        .push = to_bytes(push)});
 }
 
 void record_film_square(const RenderPlan& plan, const Slice& slice, const FilmPlane& film,
                         const Plane& values, Recording& recording) {
     const gpu::FilmAddPush push = sums_of_slice(plan, slice, film, values);
-    recording.dispatch(
-        {.label = "film.square",
-         .shader = "film_square",
-         .extent = {push.count, 1, 1},
-         .bindings = {{"Values", values.buffer},
-                      {"Sums", use_buffer(plan, film_buffer(film.name, slice.band), recording)}},
-         .push = to_bytes(push)});
+    recording.dispatch({.label = "film.square",
+                        .shader = "film_square",
+                        .extent = {push.count, 1, 1},
+                        .bindings = {{"Values", values.buffer},
+                                     {"Sums", film_plane<std::int64_t>(plan, film, slice.band, recording)}},
+                        .push = to_bytes(push)});
 }
 
 }  // namespace voxilux

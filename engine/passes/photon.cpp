@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "passes/photon_buffers.h"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 
@@ -16,15 +17,17 @@ constexpr double kLargestFloat = 3.4e38;
 // One of the three dispatches of the prefix sum, over `count` runs.
 void record_scan_level(const RenderPlan& plan, std::uint32_t level, std::uint32_t count,
                        Recording& recording) {
-    recording.dispatch({.label = "photon.scan",
-                        .shader = "photon_scan",
-                        .extent = {count, 1, 1},
-                        .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                                     {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
-                                     {"BucketCounts", use_buffer(plan, "photon.counts", recording)},
-                                     {"BucketRunSums", use_buffer(plan, "photon.runs", recording)},
-                                     {"BucketStarts", use_buffer(plan, "photon.starts", recording)}},
-                        .constants = {{"level", level}}});
+    recording.dispatch(
+        {.label = "photon.scan",
+         .shader = "photon_scan",
+         .extent = {count, 1, 1},
+         .bindings = {{"PhotonFrame", photon_frame_buffer(recording)},
+                      {"PhotonHeads", photon_head_buffer(recording)},
+                      {"BucketCounts", photon_counts_buffer(plan, recording)},
+                      {"BucketRunSums",
+                       declare<gpu::uint>(recording, "photon.runs", gpu::scan_runs(plan.photons.buckets))},
+                      {"BucketStarts", photon_starts_buffer(plan, recording)}},
+         .constants = {{"level", level}}});
 }
 
 void record_photon_scan(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording) {
@@ -35,14 +38,15 @@ void record_photon_scan(const RenderPlan& plan, const gpu::PhotonParams& params,
 }
 
 // Of every pass over visible points.
-std::vector<Binding> point_bindings(const RenderPlan& plan, const Plane& hits, Recording& recording) {
-    return {{"Frame", use_buffer(plan, "frame", recording)},
-            {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
+std::vector<Binding> point_bindings(const Plane& hits, Recording& recording) {
+    return {{"Frame", frame_buffer(recording)},
+            {"PhotonFrame", photon_frame_buffer(recording)},
             {"Hits", hits.buffer}};
 }
 
 PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
-    return {{use_buffer(plan, "photon.light", recording)}, {use_buffer(plan, "photon.narrow", recording)}};
+    return {{declare_plane<gpu::vec3>(plan, "photon.light", recording)},
+            {declare_plane<gpu::vec3>(plan, "photon.narrow", recording)}};
 }
 
 // Adds what a pass needs that turns sums into light.
@@ -59,24 +63,24 @@ void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& d
 // Sorts the visible points into buckets.
 void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
                    const Plane& hits, Recording& recording) {
-    const std::string ranks = use_buffer(plan, "photon.ranks", recording);
+    const std::string ranks = declare_plane<gpu::uint>(plan, "photon.ranks", recording);
     Dispatch point{.label = "photon.point",
                    .shader = "photon_point",
                    .extent = pixel_extent(plan, slice),
-                   .bindings = point_bindings(plan, hits, recording)};
-    point.bindings.insert(
-        point.bindings.end(),
-        {{"BucketCounts", use_buffer(plan, "photon.counts", recording)}, {"PointRanks", ranks}});
+                   .bindings = point_bindings(hits, recording)};
+    point.bindings.insert(point.bindings.end(),
+                          {{"BucketCounts", photon_counts_buffer(plan, recording)}, {"PointRanks", ranks}});
     recording.dispatch(std::move(point));
     record_photon_scan(plan, params, recording);
     Dispatch place{.label = "photon.place",
                    .shader = "photon_place",
                    .extent = pixel_extent(plan, slice),
-                   .bindings = point_bindings(plan, hits, recording)};
-    place.bindings.insert(place.bindings.end(),
-                          {{"PointRanks", ranks},
-                           {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                           {"SortedPoints", use_buffer(plan, "photon.points", recording)}});
+                   .bindings = point_bindings(hits, recording)};
+    place.bindings.insert(
+        place.bindings.end(),
+        {{"PointRanks", ranks},
+         {"BucketStarts", photon_starts_buffer(plan, recording)},
+         {"SortedPoints", declare_plane<gpu::PhotonPoint>(plan, "photon.points", recording)}});
     recording.dispatch(std::move(place));
 }
 
@@ -109,34 +113,33 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
 }
 
 void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording) {
-    recording.upload(use_buffer(plan, "photon.frame", recording), to_bytes(params));
-    recording.clear(use_buffer(plan, "photon.head", recording));
-    recording.clear(use_buffer(plan, "photon.counts", recording));
+    recording.upload(photon_frame_buffer(recording), to_bytes(params));
+    recording.clear(photon_head_buffer(recording));
+    recording.clear(photon_counts_buffer(plan, recording));
 }
 
 void record_photon_mark(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
-    const std::string wanted = use_buffer(plan, "photon.wanted", recording);
+    const std::string wanted = photon_wanted_buffer(plan, recording);
     recording.clear(wanted);
     Dispatch dispatch{.label = "photon.mark",
                       .shader = "photon_mark",
                       .extent = pixel_extent(plan, slice),
-                      .bindings = point_bindings(plan, hits, recording)};
+                      .bindings = point_bindings(hits, recording)};
     dispatch.bindings.push_back({"WantedCells", wanted});
     recording.dispatch(std::move(dispatch));
 }
 
 void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording) {
     record_photon_scan(plan, params, recording);
-    const std::string head = use_buffer(plan, "photon.head", recording);
-    recording.dispatch_indirect(
-        {.label = "photon.sort",
-         .shader = "photon_sort",
-         .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                      {"PhotonHeads", head},
-                      {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
-                      {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                      {"SortedPhotons", use_buffer(plan, "photon.sorted", recording)}}},
-        head);
+    const std::string head = photon_head_buffer(recording);
+    recording.dispatch_indirect({.label = "photon.sort",
+                                 .shader = "photon_sort",
+                                 .bindings = {{"PhotonFrame", photon_frame_buffer(recording)},
+                                              {"PhotonHeads", head},
+                                              {"StoredPhotons", photon_store_buffer(plan, recording)},
+                                              {"BucketStarts", photon_starts_buffer(plan, recording)},
+                                              {"SortedPhotons", photon_sorted_buffer(plan, recording)}}},
+                                head);
 }
 
 PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
@@ -146,13 +149,15 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
     Dispatch dispatch{.label = "photon.gather",
                       .shader = "photon_gather",
                       .extent = tile_extent(plan, slice),
-                      .bindings = point_bindings(plan, hits, recording)};
+                      .bindings = point_bindings(hits, recording)};
     dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Tally", use_buffer(plan, "tally", recording)},
-                              {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                              {"SortedPhotons", use_buffer(plan, "photon.sorted", recording)}});
+                             {{"Tally", tally_buffer(recording)},
+                              {"BucketStarts", photon_starts_buffer(plan, recording)},
+                              {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
     dispatch.bindings.push_back(
-        {"PixelRadii", own ? use_buffer(plan, "photon.radii", recording) : placeholder_buffer(recording)});
+        {"PixelRadii",
+         own ? declare_plane<gpu::PixelRadius>(plan, "photon.radii", recording, Lifetime::persistent)
+             : placeholder_buffer(recording)});
     dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
     dispatch.constants.push_back({"known_lanes", plan.photons.gather_lanes});
     let_resolve(plan, planes, dispatch, recording);
@@ -163,24 +168,25 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
 PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
                                  const Plane& hits, Recording& recording) {
     record_points(plan, params, slice, hits, recording);
-    const std::string totals = use_buffer(plan, "photon.totals", recording);
-    const std::string head = use_buffer(plan, "photon.head", recording);
+    const std::string totals = declare<std::uint64_t>(recording, "photon.totals", 6 * plan.slice_pixels());
+    const std::string head = photon_head_buffer(recording);
     recording.clear(totals);
-    recording.dispatch_indirect({.label = "photon.splat",
-                                 .shader = "photon_splat",
-                                 .bindings = {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                                              {"Tally", use_buffer(plan, "tally", recording)},
-                                              {"PhotonHeads", head},
-                                              {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
-                                              {"BucketStarts", use_buffer(plan, "photon.starts", recording)},
-                                              {"SortedPoints", use_buffer(plan, "photon.points", recording)},
-                                              {"PhotonTotals", totals}}},
-                                head);
+    recording.dispatch_indirect(
+        {.label = "photon.splat",
+         .shader = "photon_splat",
+         .bindings = {{"PhotonFrame", photon_frame_buffer(recording)},
+                      {"Tally", tally_buffer(recording)},
+                      {"PhotonHeads", head},
+                      {"StoredPhotons", photon_store_buffer(plan, recording)},
+                      {"BucketStarts", photon_starts_buffer(plan, recording)},
+                      {"SortedPoints", declare_plane<gpu::PhotonPoint>(plan, "photon.points", recording)},
+                      {"PhotonTotals", totals}}},
+        head);
     const PhotonPlanes planes = photon_planes(plan, recording);
     Dispatch resolve{.label = "photon.resolve",
                      .shader = "photon_resolve",
                      .extent = pixel_extent(plan, slice),
-                     .bindings = point_bindings(plan, hits, recording)};
+                     .bindings = point_bindings(hits, recording)};
     resolve.bindings.push_back({"PhotonTotals", totals});
     let_resolve(plan, planes, resolve, recording);
     recording.dispatch(std::move(resolve));
@@ -189,12 +195,12 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
 
 Plane record_photon_bias(const RenderPlan& plan, const Slice& slice, const SpecularPlanes& seen,
                          const PhotonPlanes& photons, Recording& recording) {
-    const Plane bias{use_buffer(plan, "photon.bias", recording)};
+    const Plane bias{declare_plane<gpu::vec3>(plan, "photon.bias", recording)};
     recording.dispatch(
         {.label = "photon.bias",
          .shader = "photon_bias",
          .extent = pixel_extent(plan, slice),
-         .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
+         .bindings = {{"Frame", frame_buffer(recording)},
                       {"Materials", materials_buffer(plan, recording)},
                       {"Hits", seen.hits.buffer},
                       {"Weights", seen.weights.buffer},

@@ -1,29 +1,31 @@
 #include "passes/photon_trace.h"
 
-#include "passes/photon.h"
+#include "passes/photon_buffers.h"
 #include "passes/specular.h"
 
 namespace voxilux {
 namespace {
 
 // The lamps, or the placeholder where only the sun sends photons.
-std::string lamp_buffer(const RenderPlan& plan, const std::string& name, Recording& recording) {
-    return plan.photons.lamp_photons != 0 ? use_buffer(plan, name, recording) : placeholder_buffer(recording);
+std::string lamp_buffer(const RenderPlan& plan, std::string (*buffer)(const RenderPlan&, Recording&),
+                        Recording& recording) {
+    return plan.photons.lamp_photons != 0 ? buffer(plan, recording) : placeholder_buffer(recording);
 }
 
 }  // namespace
 
 void record_photon_emit(const RenderPlan& plan, Recording& recording) {
-    recording.dispatch({.label = "photon.emit",
-                        .shader = "photon_emit",
-                        .extent = {plan.photons.count(), 1, 1},
-                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
-                                     {"Spheres", spheres_buffer(plan, recording)},
-                                     {"Materials", materials_buffer(plan, recording)},
-                                     {"Lights", lamp_buffer(plan, "light.records", recording)},
-                                     {"LightTable", lamp_buffer(plan, "light.table", recording)},
-                                     {"Starts", use_buffer(plan, "photon.rays", recording)}},
-                        .constants = surface_constants(plan)});
+    recording.dispatch(
+        {.label = "photon.emit",
+         .shader = "photon_emit",
+         .extent = {plan.photons.count(), 1, 1},
+         .bindings = {{"Frame", frame_buffer(recording)},
+                      {"Spheres", spheres_buffer(plan, recording)},
+                      {"Materials", materials_buffer(plan, recording)},
+                      {"Lights", lamp_buffer(plan, lights_buffer, recording)},
+                      {"LightTable", lamp_buffer(plan, light_table_buffer, recording)},
+                      {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.count())}},
+         .constants = surface_constants(plan)});
 }
 
 void record_photon_trace(const RenderPlan& plan, Recording& recording) {
@@ -40,13 +42,14 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                                {"lanes", plan.photons.lanes},
                                {"slots_at_once", plan.photons.slots_at_once},
                                {"depth_limit", settings.roulette ? 0u : settings.depth}});
-    dispatch.bindings.push_back({"Starts", use_buffer(plan, "photon.rays", recording)});
+    dispatch.bindings.push_back(
+        {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.count())});
     dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                              {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
-                              {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
-                              {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
-                              {"BucketCounts", use_buffer(plan, "photon.counts", recording)}});
+                             {{"PhotonFrame", photon_frame_buffer(recording)},
+                              {"PhotonHeads", photon_head_buffer(recording)},
+                              {"StoredPhotons", photon_store_buffer(plan, recording)},
+                              {"WantedCells", photon_wanted_buffer(plan, recording)},
+                              {"BucketCounts", photon_counts_buffer(plan, recording)}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }

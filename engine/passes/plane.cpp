@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <bit>
 
+#include "shared/alias.h"
 #include "shared/gpu_types.h"
 #include "shared/sequence.h"
+#include "shared/tally.h"
 
 namespace voxilux {
-
-std::string use_buffer(const RenderPlan& plan, const std::string& name, Recording& recording) {
-    const auto planned = std::ranges::find(plan.buffers, name, &PlannedBuffer::buffer);
-    if (planned == plan.buffers.end())
-        throw InternalError(fmt::format("internal error: the plan has no buffer '{}'", name));
-    recording.declare({.name = name, .size_bytes = planned->bytes, .persistent = planned->persistent});
-    return name;
-}
 
 namespace {
 
@@ -26,12 +20,6 @@ std::string use_constant(const std::string& name, std::uint64_t size_bytes, std:
         recording.clear(name, word);
     }
     return name;
-}
-
-std::string use_or_placeholder(const RenderPlan& plan, bool on, const std::string& name,
-                               Recording& recording) {
-    if (on) return use_buffer(plan, name, recording);
-    return placeholder_buffer(recording);
 }
 
 }  // namespace
@@ -51,29 +39,51 @@ Plane constant_value(float value, Recording& recording, std::uint32_t components
             0};
 }
 
+std::string frame_buffer(Recording& recording) {
+    return declare<gpu::FrameParams>(recording, "frame", 1);
+}
+
+std::string tally_buffer(Recording& recording) {
+    return declare<gpu::uint>(recording, "tally", gpu::kTallyCount);
+}
+
 Extent pixel_extent(const RenderPlan& plan, const Slice& slice) {
     return {static_cast<std::uint32_t>(plan.settings.size.x), slice.row_count, 1};
 }
 
 std::string materials_buffer(const RenderPlan& plan, Recording& recording) {
-    const bool traced = plan.has(Effect::voxels) || plan.has(Effect::spheres);
-    return use_or_placeholder(plan, traced, "materials", recording);
+    if (!plan.has(Effect::voxels) && !plan.has(Effect::spheres)) return placeholder_buffer(recording);
+    return declare<gpu::SurfaceMaterial>(recording, "materials", plan.material_count, Lifetime::persistent);
 }
 
 std::string spheres_buffer(const RenderPlan& plan, Recording& recording) {
-    return use_or_placeholder(plan, plan.has(Effect::spheres), "sphere.records", recording);
+    if (!plan.has(Effect::spheres)) return placeholder_buffer(recording);
+    return declare<gpu::SphereRecord>(recording, "sphere.records",
+                                      std::max(plan.sphere_count, gpu::kFewSpheres), Lifetime::persistent);
 }
 
 std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording) {
-    if (plan.has(Effect::spheres)) return use_buffer(plan, "sphere.records", recording);
+    if (plan.has(Effect::spheres)) return spheres_buffer(plan, recording);
     return use_constant("constant.spheres", gpu::kFewSpheres * sizeof(gpu::SphereRecord), 0, recording);
 }
 
+std::string lights_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<gpu::LightRecord>(recording, "light.records", plan.world.lights.count,
+                                     Lifetime::persistent);
+}
+
+std::string light_table_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<gpu::AliasEntry>(recording, "light.table", plan.world.lights.count, Lifetime::persistent);
+}
+
 WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
-    const bool on = plan.has(Effect::voxels);
-    return {.roots = use_or_placeholder(plan, on, "world.roots", recording),
-            .nodes = use_or_placeholder(plan, on, "world.nodes", recording),
-            .leaves = use_or_placeholder(plan, on, "world.leaves", recording)};
+    const auto array = [&](const char* name, std::uint64_t bytes) {
+        if (!plan.has(Effect::voxels)) return placeholder_buffer(recording);
+        return declare<std::byte>(recording, name, bytes, Lifetime::persistent);
+    };
+    return {.roots = array("world.roots", plan.world.root_bytes),
+            .nodes = array("world.nodes", plan.world.node_bytes),
+            .leaves = array("world.leaves", plan.world.leaf_bytes)};
 }
 
 gpu::uint sequence_id(Sequence sequence) {
@@ -106,12 +116,12 @@ std::vector<Constant> surface_constants(const RenderPlan& plan) {
 
 Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
                           const Plane& hits, Recording& recording) {
-    const Plane output{use_buffer(plan, pass.output_buffer, recording)};
+    const Plane output{declare_plane<float>(plan, pass.output_buffer, recording)};
     Dispatch dispatch{.label = pass.label,
                       .shader = pass.shader,
                       .extent = pixel_extent(plan, slice),
-                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
-                                   {"Tally", use_buffer(plan, "tally", recording)},
+                      .bindings = {{"Frame", frame_buffer(recording)},
+                                   {"Tally", tally_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Hits", hits.buffer},

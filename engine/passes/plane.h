@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "passes/world.h"
+#include "plan/film_planes.h"
 #include "plan/render_plan.h"
 #include "record/recording.h"
 
@@ -17,9 +19,24 @@ struct Plane {
     std::uint32_t stride = 1;
 };
 
-// Declares a buffer of the plan in the recording and returns its name. A buffer that the plan does not hold
-// is our mistake: absent effects have no buffers.
-std::string use_buffer(const RenderPlan& plan, const std::string& name, Recording& recording);
+// Declares a plane of the current slice: one element for each pixel. Its size is that of the largest slice.
+template <class T>
+std::string declare_plane(const RenderPlan& plan, std::string name, Recording& recording,
+                          Lifetime lifetime = Lifetime::transient) {
+    return declare<T>(recording, std::move(name), plan.slice_pixels(), lifetime);
+}
+
+// A plane of the film in a band: sums, or the positions and depths of one sample.
+template <class T>
+std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint32_t band,
+                       Recording& recording) {
+    return declare<T>(recording, film_buffer(plane.name, band), plan.band_pixels() * plane.components,
+                      Lifetime::persistent);
+}
+
+// The parameters of the slice, and what its passes count.
+[[nodiscard]] std::string frame_buffer(Recording& recording);
+[[nodiscard]] std::string tally_buffer(Recording& recording);
 
 // One hit that is a miss, for a frame that marches nothing.
 [[nodiscard]] Plane constant_miss(Recording& recording);
@@ -60,6 +77,10 @@ struct Slice {
 [[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);
 // The spheres as the uniform block SphereTable.
 [[nodiscard]] std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording);
+
+// The lights, and the table that draws one by its power.
+[[nodiscard]] std::string lights_buffer(const RenderPlan& plan, Recording& recording);
+[[nodiscard]] std::string light_table_buffer(const RenderPlan& plan, Recording& recording);
 
 // A pass that reads hits and writes one float for each.
 struct SurfacePass {

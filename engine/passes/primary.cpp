@@ -5,12 +5,12 @@
 namespace voxilux {
 
 std::string record_primary_beam(const RenderPlan& plan, const Slice& slice, Recording& recording) {
-    const std::string starts = use_buffer(plan, "primary.starts", recording);
+    const std::string starts = declare<float>(recording, "primary.starts", plan.slice_tiles());
     const gpu::uint columns = gpu::beam_count(static_cast<gpu::uint>(plan.settings.size.x));
     Dispatch dispatch{.label = "primary.beam",
                       .shader = "primary_beam",
                       .extent = {columns * gpu::beam_count(slice.row_count), 1, 1},
-                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)}, {"Starts", starts}}};
+                      .bindings = {{"Frame", frame_buffer(recording)}, {"Starts", starts}}};
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return starts;
@@ -18,12 +18,12 @@ std::string record_primary_beam(const RenderPlan& plan, const Slice& slice, Reco
 
 Plane record_primary_march(const RenderPlan& plan, const Slice& slice, const std::string& starts,
                            Recording& recording) {
-    const Plane hits{use_buffer(plan, "primary.hits", recording)};
+    const Plane hits{declare_plane<gpu::Hit>(plan, "primary.hits", recording)};
     Dispatch dispatch{.label = "primary.march",
                       .shader = "primary_march",
                       .extent = pixel_extent(plan, slice),
-                      .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
-                                   {"Tally", use_buffer(plan, "tally", recording)},
+                      .bindings = {{"Frame", frame_buffer(recording)},
+                                   {"Tally", tally_buffer(recording)},
                                    {"Starts", starts},
                                    {"Hits", hits.buffer}},
                       .constants = {sequence_constant(plan)}};

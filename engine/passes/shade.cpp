@@ -4,12 +4,12 @@ namespace voxilux {
 
 Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const ShadeInputs& inputs,
                            Recording& recording) {
-    const Plane color{use_buffer(plan, "shade.color", recording)};
+    const Plane color{declare_plane<gpu::vec3>(plan, "shade.color", recording)};
     recording.dispatch({.label = "shade.resolve",
                         .shader = "shade_resolve",
                         .extent = pixel_extent(plan, slice),
-                        .bindings = {{"Frame", use_buffer(plan, "frame", recording)},
-                                     {"Tally", use_buffer(plan, "tally", recording)},
+                        .bindings = {{"Frame", frame_buffer(recording)},
+                                     {"Tally", tally_buffer(recording)},
                                      {"Hits", inputs.hits.buffer},
                                      {"Materials", materials_buffer(plan, recording)},
                                      {"Ao", inputs.ao.buffer},

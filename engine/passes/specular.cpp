@@ -3,8 +3,8 @@
 namespace voxilux {
 
 std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording) {
-    return {{"Frame", use_buffer(plan, "frame", recording)},
-            {"Tally", use_buffer(plan, "tally", recording)},
+    return {{"Frame", frame_buffer(recording)},
+            {"Tally", tally_buffer(recording)},
             {"Spheres", spheres_buffer(plan, recording)},
             {"SphereTable", sphere_table_buffer(plan, recording)},
             {"Materials", materials_buffer(plan, recording)}};
@@ -19,8 +19,8 @@ std::vector<Constant> path_constants(const RenderPlan& plan) {
 
 SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice, const Plane& first_hits,
                                      Recording& recording) {
-    const SpecularPlanes planes{.hits = {use_buffer(plan, "specular.hits", recording)},
-                                .weights = {use_buffer(plan, "specular.weights", recording)}};
+    const SpecularPlanes planes{.hits = {declare_plane<gpu::Hit>(plan, "specular.hits", recording)},
+                                .weights = {declare_plane<gpu::vec3>(plan, "specular.weights", recording)}};
     Dispatch dispatch{.label = "specular.trace",
                       .shader = "specular_trace",
                       .extent = pixel_extent(plan, slice),

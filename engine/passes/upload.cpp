@@ -10,12 +10,6 @@
 namespace voxilux {
 namespace {
 
-template <class T>
-void upload_all(const RenderPlan& plan, const std::string& name, const std::vector<T>& values,
-                Recording& recording) {
-    recording.upload(use_buffer(plan, name, recording), std::as_bytes(std::span(values)));
-}
-
 std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, const Scene& scene) {
     std::vector<gpu::SurfaceMaterial> materials(plan.material_count);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -42,9 +36,10 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
 
 WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
     WorldBuffers buffers = world_buffers(plan, recording);
-    if (plan.world.growth.steps == 0) return buffers;
-    buffers.homes = use_buffer(plan, "world.homes", recording);
-    buffers.grown = use_buffer(plan, "world.grown", recording);
+    const GrowthNeeds& growth = plan.world.growth;
+    if (growth.levels.empty()) return buffers;
+    buffers.homes = declare<std::byte>(recording, "world.homes", growth.home_bytes);
+    buffers.grown = declare<std::byte>(recording, "world.grown", growth.grown_bytes);
     return buffers;
 }
 
@@ -52,7 +47,8 @@ WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
 
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording) {
-    if (plan.has(Effect::voxels)) record_world_build(march_world, build_buffers(plan, recording), recording);
+    if (plan.has(Effect::voxels))
+        record_world_build(march_world, plan.world.growth, build_buffers(plan, recording), recording);
     record_matter_upload(plan, scene, march_world.origin, lights, recording);
 }
 
@@ -62,27 +58,29 @@ void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3
         std::vector<gpu::SphereRecord> records;
         for (const std::uint32_t number : sphere_order(scene))
             records.push_back(sphere_record(scene.spheres[number], origin));
-        upload_all(plan, "sphere.records", records, recording);
+        recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(records)));
     }
-    if (plan.has(Effect::voxels) || plan.has(Effect::spheres))
-        upload_all(plan, "materials", surface_materials(plan, scene), recording);
+    if (plan.has(Effect::voxels) || plan.has(Effect::spheres)) {
+        const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);
+        recording.upload(materials_buffer(plan, recording), std::as_bytes(std::span(materials)));
+    }
     if (!plan.has(Effect::direct) && plan.photons.lamp_photons == 0) return;
-    upload_all(plan, "light.records", lights.records, recording);
-    upload_all(plan, "light.table", lights.table, recording);
+    recording.upload(lights_buffer(plan, recording), std::as_bytes(std::span(lights.records)));
+    recording.upload(light_table_buffer(plan, recording), std::as_bytes(std::span(lights.table)));
 }
 
-void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording) {
-    recording.upload(use_buffer(plan, "frame", recording), to_bytes(params));
-    recording.clear(use_buffer(plan, "tally", recording));
+void record_frame_upload(const gpu::FrameParams& params, Recording& recording) {
+    recording.upload(frame_buffer(recording), to_bytes(params));
+    recording.clear(tally_buffer(recording));
 }
 
 void record_film_clear(const RenderPlan& plan, Recording& recording) {
     for (std::uint32_t band = 0; band < plan.band_count; ++band) {
         for (const FilmPlane& plane : film_planes(plan))
-            recording.clear(use_buffer(plan, film_buffer(plane.name, band), recording));
+            recording.clear(film_plane<std::int64_t>(plan, plane, band, recording));
         if (!plan.has(Effect::aov)) continue;
-        recording.clear(use_buffer(plan, film_buffer("position", band), recording));
-        recording.clear(use_buffer(plan, film_buffer("depth", band), recording));
+        recording.clear(film_plane<float>(plan, {"position", 3}, band, recording));
+        recording.clear(film_plane<float>(plan, {"depth", 1}, band, recording));
     }
 }
 

@@ -15,7 +15,7 @@ void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3
                           const LightList& lights, Recording& recording);
 
 // Puts the parameters of one slice on the device and sets the tally to zero.
-void record_frame_upload(const RenderPlan& plan, const gpu::FrameParams& params, Recording& recording);
+void record_frame_upload(const gpu::FrameParams& params, Recording& recording);
 
 // Sets every film plane to zero.
 void record_film_clear(const RenderPlan& plan, Recording& recording);

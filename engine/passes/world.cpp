@@ -4,14 +4,13 @@
 
 #include "base/checked_cast.h"
 #include "shared/gpu_types.h"
-#include "world/build_fields.h"
 #include "world/world_view.h"
 
 namespace voxilux {
 namespace {
 
 void upload_words(const std::string& buffer, const std::vector<std::uint32_t>& words, Recording& recording) {
-    if (!words.empty()) recording.upload(buffer, std::as_bytes(std::span(words)));
+    recording.upload(buffer, std::as_bytes(std::span(words)));
 }
 
 std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int log2) {
@@ -22,8 +21,10 @@ std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int lo
 // the scratch ends in its own buffer.
 static_assert(gpu::kGrowthSteps % 2 == 1);
 
-void record_growth(const MarchWorld& skeleton, int log2, const WorldBuffers& buffers, Recording& recording) {
-    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level_words(skeleton, log2).size(), "cells"),
+void record_growth(const MarchWorld& skeleton, const GrowingLevel& level, const WorldBuffers& buffers,
+                   Recording& recording) {
+    const int log2 = level.log2;
+    gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level.cells, "cells"),
                             .chunks = skeleton.chunks_size};
     WorldBuffers read = buffers;
     std::string& source = level_buffer(read, skeleton, log2);
@@ -56,19 +57,20 @@ void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& 
     dispatch.constants.push_back({"traversal", static_cast<std::uint32_t>(traversal)});
 }
 
-void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording) {
-    const std::vector<int> levels = growing_levels(skeleton.traversal);
+void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, const WorldBuffers& buffers,
+                        Recording& recording) {
     const int root = gpu::root_log2(static_cast<gpu::uint>(skeleton.traversal));
-    const auto grows = [&](int log2) { return std::ranges::find(levels, log2) != levels.end(); };
+    const auto grows = [&](int log2) {
+        return std::ranges::find(growth.levels, log2, &GrowingLevel::log2) != growth.levels.end();
+    };
     if (!grows(root)) upload_words(buffers.roots, skeleton.roots, recording);
     if (root == gpu::kBrickLog2 || !grows(gpu::kBrickLog2))
         upload_words(buffers.nodes, skeleton.nodes, recording);
     upload_words(buffers.leaves, skeleton.leaves, recording);
-    for (const int log2 : levels) {
-        if (level_words(skeleton, log2).empty()) continue;
-        const std::vector<glm::ivec3> homes = level_homes(skeleton, log2);
-        if (!homes.empty()) recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
-        record_growth(skeleton, log2, buffers, recording);
+    for (const GrowingLevel& level : growth.levels) {
+        const std::vector<glm::ivec3> homes = level_homes(skeleton, level.log2);
+        recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
+        record_growth(skeleton, level, buffers, recording);
     }
 }
 

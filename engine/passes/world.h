@@ -3,6 +3,7 @@
 #include <string>
 
 #include "record/recording.h"
+#include "world/build_fields.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -21,8 +22,10 @@ struct WorldBuffers {
 // shaders/lib/world_access.glsl asks for.
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch);
 
-// Puts a skeleton (build_march_skeleton) on the device and grows its boxes there. The result has the bits of
-// build_march_world.
-void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording);
+// Puts a skeleton (build_march_skeleton) on the device and grows its boxes there; `growth` is its
+// growth_needs. The result has the bits of build_march_world. Of a skeleton without words nothing is
+// uploaded, but the same passes are recorded.
+void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, const WorldBuffers& buffers,
+                        Recording& recording);
 
 }  // namespace voxilux

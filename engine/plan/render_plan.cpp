@@ -1,17 +1,13 @@
 #include "plan/render_plan.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "plan/film_planes.h"
-#include "plan/plan_lists.h"
 #include "scene/surface_shares.h"
 #include "shared/gpu_types.h"
-#include "shared/tally.h"
-#include "shared/world_cell.h"
 
 namespace voxilux {
 namespace {
@@ -78,7 +74,15 @@ void check_shard(const RenderPlan& plan) {
     }
 }
 
-void split_image(RenderPlan& plan, const DeviceLimits& limits) {
+// What the film sums for errors beside the picture.
+void decide_sums(RenderPlan& plan, bool wants_error) {
+    const bool decides = wants_error && plan.has_independent_samples();
+    plan.sums_squares = !plan.has_ao_cells() && (plan.has(Effect::aov) || decides);
+    plan.sums_bias = plan.has_photons() && (plan.has(Effect::aov) || wants_error);
+}
+
+// One dispatch takes at most so many rows.
+void split_image(RenderPlan& plan, std::uint32_t most_rows) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint64_t rows =
@@ -86,7 +90,7 @@ void split_image(RenderPlan& plan, const DeviceLimits& limits) {
     plan.band_rows =
         plan.has_ao_cells() ? height : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
     plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
-    plan.slice_rows = std::min(plan.band_rows, limits.max_groups[1]);  // groups may be one row high
+    plan.slice_rows = std::min(plan.band_rows, most_rows);  // groups may be one row high
 }
 
 void count_rays(RenderPlan& plan) {
@@ -96,29 +100,6 @@ void count_rays(RenderPlan& plan) {
     const std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max() / plan.settings.ao_rays;
     plan.rays.ao = plan.has(Effect::ao) ? std::min(samples, most_samples) * plan.settings.ao_rays : 0;
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
-}
-
-void check_memory(const RenderPlan& plan, std::uint64_t budget_bytes, const DeviceLimits& limits) {
-    for (const PlannedBuffer& planned : plan.buffers) {
-        const std::uint64_t limit = planned.by_address
-                                        ? max_world_array_bytes(limits)
-                                        : std::min(limits.max_binding_bytes, limits.max_allocation_bytes);
-        if (planned.bytes > limit) {
-            throw Error(ExitCode::out_of_memory,
-                        fmt::format("buffer '{}' needs {} bytes but {} takes {} at most; make the {} smaller",
-                                    planned.buffer, planned.bytes, limits.name, limit,
-                                    planned.buffer.starts_with("world") ? "scene" : "picture"));
-        }
-    }
-    if (budget_bytes != 0 && plan.total_bytes() > budget_bytes) {
-        const auto largest = std::ranges::max_element(plan.buffers, {}, &PlannedBuffer::bytes);
-        throw Error(
-            ExitCode::out_of_memory,
-            fmt::format(
-                "the render needs {} MiB on the device, over the budget of {} MiB; the largest buffer "
-                "is '{}' with {} MiB",
-                plan.total_bytes() >> 20, budget_bytes >> 20, largest->buffer, largest->bytes >> 20));
-    }
 }
 
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
@@ -139,13 +120,6 @@ WorldFacts measure_world(const MarchWorld& march_world) {
             .node_bytes = bytes(march_world.nodes),
             .leaf_bytes = bytes(march_world.leaves),
             .growth = growth_needs(march_world)};
-}
-
-std::uint64_t RenderPlan::total_bytes() const {
-    std::uint64_t total = 0;
-    for (const PlannedBuffer& planned : buffers)
-        total += planned.bytes;
-    return total;
 }
 
 std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
@@ -199,59 +173,37 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     check_shard(plan);
-    const bool decides = request.wants_error && plan.has_independent_samples();
-    plan.sums_squares = !plan.has_ao_cells() && (plan.has(Effect::aov) || decides);
-    plan.sums_bias = plan.has_photons() && (plan.has(Effect::aov) || request.wants_error);
-    split_image(plan, limits);
+    decide_sums(plan, request.wants_error);
+    split_image(plan, limits.max_groups[1]);
     count_rays(plan);
-    list_passes(plan);
-    list_buffers(plan);
     add_notes(plan, facts);
-    check_memory(plan, request.memory_budget_bytes, limits);
     return plan;
 }
 
-std::string describe(const RenderPlan& plan) {
-    const RenderSettings& s = plan.settings;
-    std::string text =
-        fmt::format("picture   {}x{}, {} samples per pixel, {} occlusion rays of {} voxels each\n", s.size.x,
-                    s.size.y, s.spp, s.ao_rays, s.ao_radius);
-    if (plan.image_size != s.size) {
-        text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
-                            plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
-    }
-    if (!plan.shard.is_whole()) {
-        text += fmt::format("shard     {} of {}: {} of the samples\n", plan.shard.index + 1, plan.shard.count,
-                            plan.samples());
-    }
-    text += fmt::format("split     {} film band(s) of {} rows\n", plan.band_count, plan.band_rows);
-    if (plan.has(Effect::voxels)) {
-        text +=
-            fmt::format("traversal {:<10} {}, {} x {} x {} cells\n", name_of(plan.world.traversal),
-                        plan.world.traversal_reason, plan.world.size.x, plan.world.size.y, plan.world.size.z);
-    }
-    for (const EffectState& state : plan.effects)
-        text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off",
-                            state.reason);
-    if (plan.has(Effect::ao)) {
-        text += fmt::format("occlusion {:<10} {}\n", plan.ao.uses_cells() ? "hash" : "brute", plan.ao.reason);
-    }
-    if (plan.has_photons())
-        text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
-                            plan.photons.count(), plan.photons.capacity,
-                            plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
-                            plan.settings.photons.alpha);
-    for (const PlannedPass& pass : plan.passes)
-        text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);
-    for (const PlannedBuffer& planned : plan.buffers)
-        text += fmt::format("buffer    {:<22} {} bytes\n", planned.buffer, planned.bytes);
-    text += fmt::format("memory    {:.1f} MiB on the device\n",
-                        static_cast<double>(plan.total_bytes()) / 1048576.0);
-    text += fmt::format("rays      primary {}, ao at most {}, sun at most {}\n", plan.rays.primary,
-                        plan.rays.ao, plan.rays.sun);
-    for (const std::string& note : plan.notes)
-        text += fmt::format("note      {}\n", note);
-    return text;
+RenderPlan plan_without(RenderPlan plan, Effect effect) {
+    plan.effects[static_cast<std::size_t>(effect)].on = false;
+    plan.effects[static_cast<std::size_t>(Effect::aov)].on = false;
+    decide_sums(plan, false);
+    return plan;
+}
+
+RenderPlan plan_counting(RenderPlan plan, double radius) {
+    plan.settings.spp = 1;
+    plan.settings.photons.classic = true;
+    plan.settings.photons.scatter = false;
+    plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
+    return plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
+}
+
+RenderPlan plan_with_radius(RenderPlan plan, double radius) {
+    plan.photons.radius = radius;
+    return plan;
+}
+
+RenderPlan plan_of_rows(RenderPlan plan, std::uint32_t rows) {
+    plan.settings.size.y = static_cast<int>(rows);
+    split_image(plan, plan.slice_rows);
+    return plan;
 }
 
 }  // namespace voxilux

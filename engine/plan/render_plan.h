@@ -34,22 +34,6 @@ struct WorldFacts {
 
 [[nodiscard]] WorldFacts measure_world(const MarchWorld& march_world);
 
-struct PlannedPass {
-    std::string label;
-    std::uint64_t count = 0;  // dispatches over the whole render, when no slice is cut smaller
-
-    bool operator==(const PlannedPass&) const = default;
-};
-
-struct PlannedBuffer {
-    std::string buffer;
-    std::uint64_t bytes = 0;
-    bool persistent = false;  // its contents outlive a recording
-    bool by_address = false;  // shaders reach it by its address alone: it may be larger than a binding
-
-    bool operator==(const PlannedBuffer&) const = default;
-};
-
 // Most rays that the whole render can march.
 struct PlannedRays {
     std::uint64_t primary = 0;
@@ -67,7 +51,8 @@ struct PixelWindow {
     bool operator==(const PixelWindow&) const = default;
 };
 
-// Everything that is decided before the first command: pure data, printable, comparable, made with no device.
+// Everything that is decided before the first command: pure data, printable, comparable, made with no device,
+// and never changed afterwards.
 struct RenderPlan {
     RenderSettings settings;    // `size` is that of the picture: of the window, when there is one
     Shard shard;                // of the samples
@@ -87,8 +72,6 @@ struct RenderPlan {
     std::uint32_t band_count = 0;
     std::uint32_t slice_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
-    std::vector<PlannedPass> passes;
-    std::vector<PlannedBuffer> buffers;
     std::vector<std::string> notes;  // what the picture will lack, one line each
 
     bool operator==(const RenderPlan&) const = default;
@@ -108,7 +91,6 @@ struct RenderPlan {
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const { return has_photons() && !settings.photons.radius; }
-    [[nodiscard]] std::uint64_t total_bytes() const;
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
     }
@@ -132,12 +114,21 @@ struct PlanRequest {
     bool wants_error = false;               // an error target decides when to stop
 };
 
-// Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming
-// the largest, and Error(input_refused) for settings out of range, a crop outside the image included.
+// Throws Error(input_refused) for settings out of range, a crop outside the image included. What it takes on
+// the device is another question: see footprint().
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
 
-// The plan as text, stable between runs: what `voxilux plan` prints.
-[[nodiscard]] std::string describe(const RenderPlan& plan);
+// Variants of a plan, by the rules that made it. Of the first two no picture is made: they have neither AOVs
+// nor sums of squares or bias.
+
+// The same samples without an effect.
+[[nodiscard]] RenderPlan plan_without(RenderPlan plan, Effect effect);
+// One iteration with discs of this radius, voxels, in which each pixel counts the photons of its own.
+[[nodiscard]] RenderPlan plan_counting(RenderPlan plan, double radius);
+// The radius of the first iteration, voxels, where a pilot has found it.
+[[nodiscard]] RenderPlan plan_with_radius(RenderPlan plan, double radius);
+// A strip of the picture.
+[[nodiscard]] RenderPlan plan_of_rows(RenderPlan plan, std::uint32_t rows);
 
 }  // namespace voxilux

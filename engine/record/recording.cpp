@@ -1,6 +1,5 @@
 #include "record/recording.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace voxilux {
@@ -9,17 +8,17 @@ void Recording::declare(const BufferProxy& proxy) {
     VX_ASSERT(!proxy.name.empty());
     VX_ASSERT(proxy.size_bytes > 0);
     if (const BufferProxy* known = find(proxy.name)) {
-        VX_ASSERT_EQ(known->name, proxy.name);
         VX_ASSERT_EQ(known->size_bytes, proxy.size_bytes);
         VX_ASSERT_EQ(known->persistent, proxy.persistent);
         return;
     }
+    places_.emplace(proxy.name, buffers_.size());
     buffers_.push_back(proxy);
 }
 
 const BufferProxy* Recording::find(std::string_view name) const {
-    const auto found = std::ranges::find(buffers_, name, &BufferProxy::name);
-    return found == buffers_.end() ? nullptr : &*found;
+    const auto found = places_.find(name);
+    return found == places_.end() ? nullptr : &buffers_[found->second];
 }
 
 const BufferProxy& Recording::require(std::string_view name) const {

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -125,8 +127,21 @@ class Recording {
     void require_buffers_of(const Dispatch& dispatch) const;
 
     std::vector<BufferProxy> buffers_;
+    std::map<std::string, std::size_t, std::less<>> places_;  // in buffers_, by name
     std::vector<Command> commands_;
 };
+
+// Whether the contents of a buffer outlive a recording.
+enum class Lifetime : bool { transient, persistent };
+
+// Declares a buffer of `count` elements and returns its name.
+template <class T>
+std::string declare(Recording& recording, std::string name, std::uint64_t count,
+                    Lifetime lifetime = Lifetime::transient) {
+    recording.declare(
+        {.name = name, .size_bytes = count * sizeof(T), .persistent = lifetime == Lifetime::persistent});
+    return name;
+}
 
 // One line per buffer and command, stable between runs: what golden tests and `plan -v` show.
 [[nodiscard]] std::string describe(const Recording& recording);

@@ -11,9 +11,8 @@ namespace {
 
 // Rows of one film quantity, bands joined.
 template <class T>
-std::vector<T> read_plane(const RenderPlan& plan, const std::string& name, std::size_t components,
-                          RowRange rows, Executor& executor) {
-    const std::size_t row_values = static_cast<std::size_t>(plan.settings.size.x) * components;
+std::vector<T> read_plane(const RenderPlan& plan, const FilmPlane& plane, RowRange rows, Executor& executor) {
+    const std::size_t row_values = static_cast<std::size_t>(plan.settings.size.x) * plane.components;
     std::vector<T> values;
     values.reserve(row_values * rows.count);
     const std::uint32_t end = rows.first + rows.count;
@@ -21,7 +20,7 @@ std::vector<T> read_plane(const RenderPlan& plan, const std::string& name, std::
         const std::uint32_t band = row / plan.band_rows;
         const std::uint32_t count = std::min((band + 1) * plan.band_rows, end) - row;
         Recording recording;
-        const std::string buffer = use_buffer(plan, film_buffer(name, band), recording);
+        const std::string buffer = film_plane<T>(plan, plane, band, recording);
         recording.readback(buffer, row_values * (row - band * plan.band_rows) * sizeof(T),
                            row_values * count * sizeof(T));
         const RunResult result = executor.run(recording);
@@ -52,12 +51,12 @@ FilmSums read_error_film(const RenderPlan& plan, Executor& executor) {
     const RowRange rows = all_rows(plan);
     FilmSums film = empty_film(plan, rows);
     for (const char* half : {"beauty_a", "beauty_b"})
-        film.sums[half] = read_plane<std::int64_t>(plan, half, 3, rows, executor);
+        film.sums[half] = read_plane<std::int64_t>(plan, {half, 3}, rows, executor);
     if (plan.sums_squares)
-        film.sums["squares"] = read_plane<std::int64_t>(plan, "squares", 3, rows, executor);
+        film.sums["squares"] = read_plane<std::int64_t>(plan, {"squares", 3}, rows, executor);
     if (!plan.sums_bias) return film;
     for (const char* half : {"bias_a", "bias_b"})
-        film.sums[half] = read_plane<std::int64_t>(plan, half, 3, rows, executor);
+        film.sums[half] = read_plane<std::int64_t>(plan, {half, 3}, rows, executor);
     return film;
 }
 
@@ -78,10 +77,10 @@ FilmSums read_film(const RenderPlan& plan, Executor& executor) {
 FilmSums read_film_rows(const RenderPlan& plan, RowRange rows, Executor& executor) {
     FilmSums film = empty_film(plan, rows);
     for (const FilmPlane& plane : film_planes(plan))
-        film.sums[plane.name] = read_plane<std::int64_t>(plan, plane.name, plane.components, rows, executor);
+        film.sums[plane.name] = read_plane<std::int64_t>(plan, plane, rows, executor);
     if (!plan.has(Effect::aov)) return film;
-    film.firsts["position"] = read_plane<float>(plan, "position", 3, rows, executor);
-    film.firsts["depth"] = read_plane<float>(plan, "depth", 1, rows, executor);
+    film.firsts["position"] = read_plane<float>(plan, {"position", 3}, rows, executor);
+    film.firsts["depth"] = read_plane<float>(plan, {"depth", 1}, rows, executor);
     return film;
 }
 

@@ -1,5 +1,6 @@
 #include "renderer/prepared_scene.h"
 
+#include "frame/footprint.h"
 #include "plan/choose_traversal.h"
 #include "scene/scene_camera.h"
 
@@ -34,7 +35,7 @@ PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, cons
     world_facts.traversal_reason = choice.reason;
     world_facts.lights =
         measure_lights(scene, prepared.lights, prepared.march_world.size(), prepared.march_world.origin);
-    prepared.plan = plan_render(scene, prepared.facts, world_facts, request, limits);
+    prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
     return prepared;
 }
 

@@ -6,7 +6,6 @@
 
 #include "frame/frame.h"
 #include "passes/upload.h"
-#include "plan/plan_lists.h"
 #include "shared/photon_types.h"
 
 namespace voxilux {
@@ -24,22 +23,6 @@ constexpr double kEnoughPhotons = 3.0;
 // noise is better than a smear.
 constexpr double kFinestParts = 128.0;
 constexpr double kUnlitRadius = 1.0;  // voxels, where no photon reaches what is seen
-
-// One iteration in which each pixel counts the photons of its disc.
-RenderPlan counting_plan(const RenderPlan& plan, double radius) {
-    RenderPlan pilot = plan;
-    pilot.settings.spp = 1;
-    pilot.settings.photons.classic = true;
-    pilot.settings.photons.scatter = false;
-    pilot.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
-    pilot.photons.radius = radius;
-    pilot.effects[static_cast<std::size_t>(Effect::aov)].on = false;
-    pilot.sums_squares = false;
-    pilot.sums_bias = false;
-    pilot.buffers.clear();
-    list_buffers(pilot);
-    return pilot;
-}
 
 std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams& params,
                                  Executor& executor) {
@@ -77,7 +60,7 @@ double pilot_radius(const PreparedScene& prepared, const Scene& scene, Executor&
     double met = 0.0;
     const double most = largest_radius(prepared);
     for (int i = 0; i < kMostPilots; ++i) {
-        const RenderPlan pilot = counting_plan(prepared.plan, radius);
+        const RenderPlan pilot = plan_counting(prepared.plan, radius);
         met = median_of_met(count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor));
         if (met >= kEnoughPhotons || radius >= most || i + 1 == kMostPilots) break;
         radius *= kPilotGrowth;

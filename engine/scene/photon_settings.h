@@ -8,16 +8,14 @@ namespace voxilux {
 // How photons find indirect light and caustics; one sample of a pixel is one iteration.
 struct PhotonSettings {
     static constexpr std::int64_t kMostCount = std::int64_t{1} << 24;
-    static constexpr double kLargestRadius = 65536.0;  // voxels
-    static constexpr std::int64_t kDeepest = 4096;
 
     std::uint32_t count = 0;       // per iteration; 0: as many as the picture has pixels
     std::optional<double> radius;  // of the first iteration, voxels; absent: from a pilot
-    double alpha = 2.0 / 3.0;      // exponent of the radius' decline, in (0, 1]; 1: it stays
+    double alpha = 2.0 / 3.0;      // exponent of the radius' decline; 1: it stays
     bool scatter = false;          // photons look for visible points instead of the other way round
     bool classic = false;          // a radius for each pixel, which declines as photons arrive
     bool roulette = true;          // ends paths by chance, without bias; false: after `depth` surfaces
-    std::uint32_t depth = 24;      // >= 1
+    std::uint32_t depth = 24;      // surfaces on a path without roulette
 
     bool operator==(const PhotonSettings&) const = default;
 };

@@ -20,6 +20,8 @@ namespace voxilux {
 
 // How light leaves a surface; surface_shares() says what the passes make of it.
 enum class Surface : std::uint8_t { diffuse, metal, glass, emit, blend, media };
+// Those that scene files name.
+inline constexpr std::array<std::string_view, 4> kSurfaceNames{"diffuse", "metal", "glass", "emit"};
 
 struct Material {
     std::string name;
@@ -145,6 +147,7 @@ struct CameraKey {
 
 // How the camera goes from key to key, see camera_on_path.
 enum class CameraPath : std::uint8_t { smooth, linear };
+inline constexpr std::array<std::string_view, 2> kCameraPathNames{"smooth", "linear"};
 
 // The camera goes round the vertical line through the middle of the scene's box, counter-clockwise seen from
 // above; sun and sky stay. Frame 1 shows the angle `start_deg`, frame `frames` + 1 is frame 1 again.

@@ -25,11 +25,19 @@ void build_skeleton(const VoxelWorld& world, MarchWorld& built);
 // Grows the boxes of such a level; those of all larger cells must have grown before.
 void grow_level(MarchWorld& built, int log2);
 
-// What growing a skeleton on the device takes: bytes of scratch, and dispatches.
+// A level with cells whose boxes grow.
+struct GrowingLevel {
+    int log2 = 0;
+    std::uint64_t cells = 0;
+
+    bool operator==(const GrowingLevel&) const = default;
+};
+
+// What growing a skeleton on the device takes: bytes of scratch, and the levels, in the order they grow in.
 struct GrowthNeeds {
     std::uint64_t home_bytes = 0;
     std::uint64_t grown_bytes = 0;
-    std::uint64_t steps = 0;
+    std::vector<GrowingLevel> levels;
 
     bool operator==(const GrowthNeeds&) const = default;
 };

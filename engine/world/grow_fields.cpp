@@ -67,7 +67,7 @@ GrowthNeeds growth_needs(const MarchWorld& skeleton) {
         const std::uint64_t homes = log2 == gpu::kChunkLog2 ? 1 : cells / 64;
         needs.home_bytes = std::max(needs.home_bytes, homes * sizeof(glm::ivec3));
         needs.grown_bytes = std::max(needs.grown_bytes, cells * sizeof(std::uint32_t));
-        needs.steps += gpu::kGrowthSteps;
+        needs.levels.push_back({.log2 = log2, .cells = cells});
     }
     return needs;
 }

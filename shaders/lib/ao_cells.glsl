@@ -4,10 +4,11 @@
 
 #extension GL_EXT_shader_atomic_int64 : require
 
+#include "lib/constants.glsl"
 #include "shared/ao_cell.h"
 
-layout(constant_id = 21) const uint checkerboard = 0u;
-layout(constant_id = 22) const uint has_limit = 0u;
+VX_SPECIALIZED(uint, checkerboard, 0u);
+VX_SPECIALIZED(uint, has_limit, 0u);
 
 layout(scalar) uniform AoFrame {
     AoParams ao_frame;

@@ -2,9 +2,10 @@
 #ifndef VX_OCCLUSION_GLSL
 #define VX_OCCLUSION_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/surface.glsl"
 
-layout(constant_id = 51) const uint ao_rays = 1u;  // of a pixel and sample
+VX_SPECIALIZED(uint, ao_rays, 1u);  // of a pixel and sample
 
 // Number of a ray, 64 bits, when each of `takes` samples before took `rays`.
 uvec2 first_ray(uint takes, uint rays) {

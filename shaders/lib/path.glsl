@@ -7,11 +7,12 @@
 #ifndef VX_PATH_GLSL
 #define VX_PATH_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/surface.glsl"
 #include "shared/dielectric.h"
 #include "shared/sppm.h"
 
-layout(constant_id = 40) const uint has_glass_voxels = 0u;
+VX_SPECIALIZED(uint, has_glass_voxels, 0u);
 
 layout(scalar) readonly buffer Materials {
     SurfaceMaterial materials[];

@@ -9,16 +9,17 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
+#include "lib/constants.glsl"
 #include "lib/loops.glsl"
 #include "lib/photon_light.glsl"
 #include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
 
-layout(constant_id = 32) const uint own_radii = 0u;
+VX_SPECIALIZED(uint, own_radii, 0u);
 
 // Invocations of a subgroup that fetch, where the host knows how many it has, a power of two; 0 where it does
 // not. Loops over them are unrolled then, which makes gathering a seventh faster on lavapipe.
-layout(constant_id = 33) const uint known_lanes = 0u;
+VX_SPECIALIZED(uint, known_lanes, 0u);
 
 const uint kSpan = 2048u;  // photons of less than 2^21 quanta that a sum of 32 bits holds, a multiple of the lanes
 const uint kLaneBits = 5u;  // of 32 invocations, the most that fetch

@@ -5,6 +5,7 @@
 
 #include "lib/spheres.glsl"
 
+#include "lib/constants.glsl"
 #include "shared/sampling.h"
 #include "shared/photon_area.h"
 

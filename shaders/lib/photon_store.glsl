@@ -2,15 +2,16 @@
 #ifndef VX_PHOTON_STORE_GLSL
 #define VX_PHOTON_STORE_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/photon_frame.glsl"
 #include "lib/photon_words.glsl"
 #include "lib/tally_access.glsl"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 
-layout(constant_id = 30) const uint sorts_photons = 1u;  // 0: whoever reads them needs no order
+VX_SPECIALIZED(uint, sorts_photons, 1u);  // 0: whoever reads them needs no order
 // Places that an invocation takes together. One that stores many photons so spares atomics that all invocations share.
-layout(constant_id = 34) const uint slots_at_once = 1u;
+VX_SPECIALIZED(uint, slots_at_once, 1u);
 
 layout(scalar) buffer PhotonHeads {
     PhotonHead head;

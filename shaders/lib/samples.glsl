@@ -3,11 +3,12 @@
 #ifndef VX_SAMPLES_GLSL
 #define VX_SAMPLES_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 
-layout(constant_id = 50) const uint sequence = 0u;  // a kSequence* id
+VX_SPECIALIZED(uint, sequence, 0u);  // a kSequence* id
 
 vec2 draw_2d(SampleKey key, uint dimension_pair) {
     return sample_2d(sequence, key, dimension_pair);

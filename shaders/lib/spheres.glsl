@@ -3,11 +3,12 @@
 #ifndef VX_SPHERES_GLSL
 #define VX_SPHERES_GLSL
 
+#include "lib/constants.glsl"
 #include "shared/gpu_types.h"
 #include "shared/limits.h"
 
-layout(constant_id = 1) const uint sphere_count = 0u;
-layout(constant_id = 12) const uint glass_spheres = 0u;  // the first so many spheres have glass
+VX_SPECIALIZED(uint, sphere_count, 0u);
+VX_SPECIALIZED(uint, glass_spheres, 0u);  // the first so many spheres have glass
 
 layout(scalar) readonly buffer Spheres {
     SphereRecord spheres[];

@@ -2,6 +2,7 @@
 #ifndef VX_SURFACE_GLSL
 #define VX_SURFACE_GLSL
 
+#include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "lib/samples.glsl"
 #include "lib/spheres.glsl"
@@ -9,7 +10,7 @@
 #include "lib/world_access.glsl"
 #include "shared/sampling.h"
 
-layout(constant_id = 0) const uint has_voxels = 1u;
+VX_SPECIALIZED(uint, has_voxels, 1u);
 
 const uint kNoSphere = 0xFFFFFFFFu;
 

@@ -4,13 +4,14 @@
 #ifndef VX_WORLD_ACCESS_GLSL
 #define VX_WORLD_ACCESS_GLSL
 
+#include "lib/constants.glsl"
 #include "shared/gpu_types.h"
 
 #ifndef VX_PUSH
 #define VX_PUSH
 #endif
 
-layout(constant_id = 10) const uint traversal = 0u;
+VX_SPECIALIZED(uint, traversal, 0u);
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WorldWords {
     uint words[];

@@ -11,11 +11,12 @@
 
 #include "lib/frame_access.glsl"
 
+#include "lib/constants.glsl"
 #include "shared/ao_filter.h"
 #include "shared/cell_age.h"
 
-layout(constant_id = 25) const uint wants_variance = 0u;
-layout(constant_id = 51) const uint ao_rays = 1u;  // of a pixel and sample
+VX_SPECIALIZED(uint, wants_variance, 0u);
+VX_SPECIALIZED(uint, ao_rays, 1u);  // of a pixel and sample
 
 layout(scalar) readonly buffer Slots {
     uint slots[];

@@ -16,10 +16,11 @@
 
 #include "lib/ao_cells.glsl"
 #include "lib/ao_reproject.glsl"
+#include "lib/constants.glsl"
 
-layout(constant_id = 20) const uint reprojects = 1u;  // of the look-up, when it happens here
-layout(constant_id = 23) const uint merged = 0u;      // the look-up happens here
-layout(constant_id = 24) const uint by_pixel = 0u;    // samples start at the hit, in the pixel's sequence
+VX_SPECIALIZED(uint, reprojects, 1u);  // of the look-up, when it happens here
+VX_SPECIALIZED(uint, merged, 0u);      // the look-up happens here
+VX_SPECIALIZED(uint, by_pixel, 0u);    // samples start at the hit, in the pixel's sequence
 
 layout(scalar) buffer Opens {
     uint64_t opens[];

@@ -9,9 +9,10 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/constants.glsl"
 #include "lib/surface.glsl"
 
-layout(constant_id = 2) const uint hits_stride = 1u;
+VX_SPECIALIZED(uint, hits_stride, 1u);
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];

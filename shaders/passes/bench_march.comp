@@ -8,6 +8,7 @@
 #include "lib/invocation.glsl"
 
 #define VX_PUSH BenchMarchPush push;
+#include "lib/constants.glsl"
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 

@@ -10,11 +10,12 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "shared/limits.h"
 
-layout(constant_id = 2) const uint hits_stride = 1u;
-layout(constant_id = 7) const uint weights_stride = 1u;
+VX_SPECIALIZED(uint, hits_stride, 1u);
+VX_SPECIALIZED(uint, weights_stride, 1u);
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];

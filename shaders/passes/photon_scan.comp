@@ -7,9 +7,10 @@
 
 #include "lib/invocation.glsl"
 
+#include "lib/constants.glsl"
 #include "lib/photon_frame.glsl"
 
-layout(constant_id = 0) const uint level = 0u;
+VX_SPECIALIZED(uint, level, 0u);
 
 layout(scalar) buffer PhotonHeads {
     PhotonHead head;

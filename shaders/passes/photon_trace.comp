@@ -12,14 +12,15 @@
 
 #include "lib/path.glsl"
 
+#include "lib/constants.glsl"
 #include "lib/loops.glsl"
 #include "lib/photon_start.glsl"
 #include "lib/photon_store.glsl"
 
-layout(constant_id = 42) const uint keeps_caustics = 1u;  // light that mirrors and glass alone have sent
-layout(constant_id = 43) const uint keeps_indirect = 1u;  // light that a diffuse surface has sent
-layout(constant_id = 44) const uint lanes = 1u;           // invocations
-layout(constant_id = 45) const uint depth_limit = 0u;     // surfaces that a photon meets; 0: roulette ends its path
+VX_SPECIALIZED(uint, keeps_caustics, 1u);  // light that mirrors and glass alone have sent
+VX_SPECIALIZED(uint, keeps_indirect, 1u);  // light that a diffuse surface has sent
+VX_SPECIALIZED(uint, lanes, 1u);           // invocations
+VX_SPECIALIZED(uint, depth_limit, 0u);     // surfaces that a photon meets; 0: roulette ends its path
 
 struct Photon {
     PathRay path;

@@ -8,16 +8,17 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "lib/tally_access.glsl"
 #include "shared/limits.h"
 
-layout(constant_id = 2) const uint hits_stride = 1u;
-layout(constant_id = 3) const uint ao_stride = 1u;
-layout(constant_id = 4) const uint sun_stride = 1u;
-layout(constant_id = 5) const uint direct_stride = 1u;
-layout(constant_id = 6) const uint photons_stride = 1u;
-layout(constant_id = 7) const uint weights_stride = 1u;
+VX_SPECIALIZED(uint, hits_stride, 1u);
+VX_SPECIALIZED(uint, ao_stride, 1u);
+VX_SPECIALIZED(uint, sun_stride, 1u);
+VX_SPECIALIZED(uint, direct_stride, 1u);
+VX_SPECIALIZED(uint, photons_stride, 1u);
+VX_SPECIALIZED(uint, weights_stride, 1u);
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];

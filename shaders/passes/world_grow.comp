@@ -13,12 +13,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Gr
 };
 
 #define VX_PUSH GrownWords grown; WorldGrowPush push;
+#include "lib/constants.glsl"
 #include "lib/world_access.glsl"
 #include "shared/grow_distances.h"
 
 // Edge of the level's cells in voxels, as a power of two. A constant, so that no way to a level that is not asked for is
 // compiled: software devices run through branches that no invocation takes.
-layout(constant_id = 11) const uint level = 0u;
+VX_SPECIALIZED(uint, level, 0u);
 
 layout(scalar) readonly buffer Homes {
     ivec3 homes[];

@@ -2,10 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "lib/constants.glsl"
 #include "lib/invocation.glsl"
 
-layout(constant_id = 0) const uint step = 1u;
-layout(constant_id = 1) const bool is_negative = false;
+VX_SPECIALIZED(uint, step, 1u);
+VX_SPECIALIZED(bool, is_negative, false);
 
 layout(scalar) readonly buffer In { uint inputs[]; };
 layout(scalar) writeonly buffer Out { uint outputs[]; };

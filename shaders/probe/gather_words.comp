@@ -3,9 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "lib/address.glsl"
+#include "lib/constants.glsl"
 #include "lib/invocation.glsl"
 
-layout(constant_id = 0) const bool is_by_address = true;
+VX_SPECIALIZED(bool, is_by_address, true);
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Words { uint words[]; };
 layout(scalar) readonly buffer Bound { uint bound[]; };

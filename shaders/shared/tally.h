@@ -1,50 +1,68 @@
-// Numbers that shaders count and the host reads back after every recording: faults, which are all zero in a
-// good run, and work done.
+// Counters of the shaders, which the host reads back after every recording: faults, which are all zero in a
+// good run, and work done. VX_COUNTER(constant, number, name in reports); is one of them. Numbers have no
+// gap; C++ refuses to compile a number that is missing or taken.
 #ifndef VX_TALLY_H
 #define VX_TALLY_H
 
 #include "portable.h"
 
+#ifdef __cplusplus
+#include <array>
+#include <utility>
+
+namespace voxilux::gpu {
+template <uint number>
+inline constexpr const char* kCounterName = nullptr;
+}
+#define VX_COUNTER(constant, number, name)   \
+    inline constexpr uint constant = number; \
+    template <>                              \
+    inline constexpr const char* kCounterName<number> = #name
+#else
+#define VX_COUNTER(constant, number, name) const uint constant = number
+#endif
+
 VX_BEGIN
 
-VX_CONST(uint, kFaultRayUnsound, 0u);      // a ray that is not finite or has no direction
-VX_CONST(uint, kFaultMarchExhausted, 1u);  // a march that met its step limit
-VX_CONST(uint, kFaultFilmClamped, 2u);     // a sample above kFilmMaxValue
-VX_CONST(uint, kFaultFilmNonFinite, 3u);   // a sample that is NaN or infinite; it counts as zero
-VX_CONST(uint, kFaultAoTableFull, 4u);     // hits that found no slot for their cell: they used their own rays
-VX_CONST(uint, kFaultPhotonStoreFull, 5u);  // photons that found no room in the store: they are lost
-VX_CONST(uint, kFaultPhotonPower, 6u);      // photons whose power or place was out of range: clamped or lost
-VX_CONST(uint, kFaultPathTooLong, 7u);      // paths that met kMostBounces surfaces, and ended there
-VX_CONST(uint, kFaultLoopCut, 8u);          // paths or sums that the device cut off (lib/loops.glsl)
-VX_CONST(uint, kFaultCount, 9u);
+VX_COUNTER(kFaultRayUnsound, 0u, ray_unsound);          // a ray that is not finite or has no direction
+VX_COUNTER(kFaultMarchExhausted, 1u, march_exhausted);  // a march that met its step limit
+VX_COUNTER(kFaultFilmClamped, 2u, film_clamped);        // a sample above kFilmMaxValue
+VX_COUNTER(kFaultFilmNonFinite, 3u, film_non_finite);   // a sample that is NaN or infinite; it counts as zero
+VX_COUNTER(kFaultAoTableFull, 4u,
+           ao_table_full);  // hits without a slot for their cell: they used their own rays
+VX_COUNTER(kFaultPhotonStoreFull, 5u, photon_store_full);  // photons without room in the store: they are lost
+VX_COUNTER(kFaultPhotonPower, 6u, photon_power);  // photons of a power or place out of range: clamped or lost
+VX_COUNTER(kFaultPathTooLong, 7u, path_too_long);  // paths that met kMostBounces surfaces, and ended there
+VX_COUNTER(kFaultLoopCut, 8u, loop_cut);           // paths or sums that the device cut off (lib/loops.glsl)
+VX_CONST(uint, kFaultCount, kFaultLoopCut + 1u);
 
-VX_CONST(uint, kWorkHits, 9u);      // camera rays that hit something
-VX_CONST(uint, kWorkAoRays, 10u);   // occlusion rays marched
-VX_CONST(uint, kWorkSunRays, 11u);  // shadow rays marched
+VX_COUNTER(kWorkHits, 9u, hits);          // camera rays that hit something
+VX_COUNTER(kWorkAoRays, 10u, ao_rays);    // occlusion rays marched
+VX_COUNTER(kWorkSunRays, 11u, sun_rays);  // shadow rays marched
 // Of the ambient occlusion hash:
-VX_CONST(uint, kWorkAoReused, 12u);       // hits whose cell was found by reprojection
-VX_CONST(uint, kWorkAoSearches, 13u);     // hits whose cell was searched in the table
-VX_CONST(uint, kWorkAoProbes, 14u);       // keys looked at in those searches
-VX_CONST(uint, kWorkAoClaimed, 15u);      // cells entered
-VX_CONST(uint, kWorkAoEvicted, 16u);      // cells given up
-VX_CONST(uint, kWorkAoDropped, 17u);      // samples that were in them; saturates at 2^32 - 1 for each cell
-VX_CONST(uint, kWorkAoOwnRays, 18u);      // occlusion rays that no cell took
-VX_CONST(uint, kWorkAoSwaps, 19u);        // compare-and-swaps of keys
-VX_CONST(uint, kWorkPhotonsStored, 20u);  // photons that found room in the store
-VX_CONST(uint, kWorkPathSegments, 21u);   // ways from surface to surface, and shadow rays to lamps
-VX_CONST(uint, kTallyCount, 22u);
+VX_COUNTER(kWorkAoReused, 12u, ao_reused);            // hits whose cell was found by reprojection
+VX_COUNTER(kWorkAoSearches, 13u, ao_searches);        // hits whose cell was searched in the table
+VX_COUNTER(kWorkAoProbes, 14u, ao_probes);            // keys looked at in those searches
+VX_COUNTER(kWorkAoClaimed, 15u, ao_claimed);          // cells entered
+VX_COUNTER(kWorkAoEvicted, 16u, ao_evicted);          // cells given up
+VX_COUNTER(kWorkAoDropped, 17u, ao_dropped);          // samples that were in them; at most 2^32 - 1 of a cell
+VX_COUNTER(kWorkAoOwnRays, 18u, ao_own_rays);         // occlusion rays that no cell took
+VX_COUNTER(kWorkAoSwaps, 19u, ao_swaps);              // compare-and-swaps of keys
+VX_COUNTER(kWorkPhotonsStored, 20u, photons_stored);  // photons that found room in the store
+VX_COUNTER(kWorkPathSegments, 21u, path_segments);  // ways from surface to surface, and shadow rays to lamps
+VX_CONST(uint, kTallyCount, kWorkPathSegments + 1u);
 
 VX_END
 
 #ifdef __cplusplus
 namespace voxilux::gpu {
-inline constexpr const char* kTallyNames[kTallyCount] = {
-    "ray_unsound",       "march_exhausted", "film_clamped",  "film_non_finite", "ao_table_full",
-    "photon_store_full", "photon_power",    "path_too_long", "loop_cut",        "hits",
-    "ao_rays",           "sun_rays",        "ao_reused",     "ao_searches",     "ao_probes",
-    "ao_claimed",        "ao_evicted",      "ao_dropped",    "ao_own_rays",     "ao_swaps",
-    "photons_stored",    "path_segments"};
+inline constexpr auto kTallyNames = []<uint... numbers>(std::integer_sequence<uint, numbers...>) {
+    static_assert(((kCounterName<numbers> != nullptr) && ...), "a number below kTallyCount has no counter");
+    static_assert(kCounterName<kTallyCount> == nullptr, "kTallyCount is that of a counter");
+    return std::array{kCounterName<numbers>...};
 }
+(std::make_integer_sequence<uint, kTallyCount>());
+}  // namespace voxilux::gpu
 #endif
 
 #endif

@@ -119,6 +119,20 @@ std::vector<std::string> unprovided(const std::vector<SourceFile>& files, const 
     return faults;
 }
 
+// Tests that need the shared data although the name of their suite does not say so.
+std::vector<std::string> unnamed_externals(const SourceFile& file) {
+    const Pattern head(R"(^TEST(_[FP])?\(([A-Za-z0-9_]+),)");
+    const Pattern skip("^ *SKIP_WITHOUT_");
+    std::vector<std::string> faults;
+    std::string suite;
+    for (const std::string& line : test::lines_of(file.text)) {
+        if (const auto found = head.find(line); !found.empty()) suite = found[2];
+        if (!skip.find(line).empty() && suite.find("External") == std::string::npos)
+            faults.push_back(file.path + ": " + suite);
+    }
+    return faults;
+}
+
 TEST(ShaderBlocks, each_is_readonly_or_writeonly_or_has_a_reason) {
     const std::vector<SourceFile> files = test::source_files("shaders", {".comp", ".glsl", ".h"});
     ASSERT_GT(files.size(), 20u);
@@ -157,6 +171,18 @@ TEST(SourceText, long_file_is_found) {
     EXPECT_EQ(long_files({{"engine/a.cpp", lines(500)}, {"shaders/shared/a.h", lines(250)}}).size(), 0u);
     EXPECT_EQ(long_files({{"engine/a.cpp", lines(501)}, {"shaders/shared/a.h", lines(251)}}).size(), 2u);
     EXPECT_EQ(long_files({{"shaders/passes/a.comp", lines(121)}}).size(), 1u);
+}
+
+TEST(SourceText, tests_of_shared_data_are_external) {
+    for (const SourceFile& file : test::source_files("tests", {"_test.cpp"}))
+        EXPECT_EQ(test::joined(unnamed_externals(file)), "");
+}
+
+TEST(SourceText, test_of_shared_data_without_the_name_is_found) {
+    const std::string skip = ", b) {\n    SKIP_WITHOUT_SHARED_DATA();\n";
+    EXPECT_EQ(unnamed_externals({"a_test.cpp", "TEST(AExternal" + skip}).size(), 0u);
+    EXPECT_EQ(unnamed_externals({"a_test.cpp", "TEST_P(AExternalNightly" + skip}).size(), 0u);
+    EXPECT_EQ(unnamed_externals({"a_test.cpp", "TEST(AExternal" + skip + "TEST(A" + skip}).size(), 1u);
 }
 
 TEST(Packages, everything_the_build_looks_for_is_installed) {

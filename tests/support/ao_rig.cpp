@@ -91,8 +91,11 @@ AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
 
 void AoRig::set_sums(const std::vector<std::uint64_t>& samples, const std::vector<std::uint64_t>& opens) {
     Recording recording;
-    recording.upload(use_buffer(prepared_.plan, "ao.samples", recording), std::as_bytes(std::span(samples)));
-    recording.upload(use_buffer(prepared_.plan, "ao.opens", recording), std::as_bytes(std::span(opens)));
+    const std::uint64_t slots = prepared_.plan.ao.slots;
+    recording.upload(declare<std::uint64_t>(recording, "ao.samples", slots, Lifetime::persistent),
+                     std::as_bytes(std::span(samples)));
+    recording.upload(declare<std::uint64_t>(recording, "ao.opens", slots, Lifetime::persistent),
+                     std::as_bytes(std::span(opens)));
     executor_.run(recording);
 }
 

@@ -69,7 +69,10 @@ void FrameRig::render_slices(std::uint32_t sample, std::uint32_t rows) {
 
 std::vector<std::int64_t> FrameRig::film_sums(const std::string& plane) {
     Recording recording;
-    const std::string buffer = use_buffer(prepared_.plan, film_buffer(plane, 0), recording);
+    const std::vector<FilmPlane> planes = film_planes(prepared_.plan);
+    const auto found = std::ranges::find(planes, plane, &FilmPlane::name);
+    VX_ASSERT(found != planes.end());
+    const std::string buffer = film_plane<std::int64_t>(prepared_.plan, *found, 0, recording);
     recording.readback(buffer);
     return values_of<std::int64_t>(executor_.run(recording), buffer);
 }

@@ -9,6 +9,14 @@
 
 namespace voxilux::test {
 
+// How the samples of a made-up picture scatter.
+enum class NoiseKind { gauss, ambient_occlusion, firefly, decay };
+
+[[nodiscard]] inline const char* name_of(NoiseKind kind) {
+    constexpr const char* kNames[] = {"gauss", "ambient occlusion", "firefly", "decay"};
+    return kNames[static_cast<int>(kind)];
+}
+
 // How often an interval of estimate_error() held the error that it estimated, over many trials.
 struct IntervalCoverage {
     int trials = 0;

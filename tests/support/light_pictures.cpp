@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "support/frame_rig.h"
 
@@ -102,6 +104,30 @@ LightPicture truth_picture(const TruthWorld& world, const TruthRequest& request)
 
 PictureZ light_z(const LightPicture& traced, const LightPicture& expected) {
     return picture_z(smoothed(traced).pixels, smoothed(expected).pixels);
+}
+
+namespace {
+
+constexpr double kFarOff = 4.0;  // standard deviations; normal noise passes them once in 16000 times
+constexpr double kMostBeyond4 = 0.02;
+
+double farthest(const PictureZ& z) {
+    return std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
+}
+
+}  // namespace
+
+bool is_equal_light(const LightPicture& a, const LightPicture& b) {
+    const PictureZ z = light_z(a, b);
+    return z.rms < kMostRms && z.beyond_4 < kMostBeyond4 && farthest(z) < kFarOff;
+}
+
+void expect_equal_light(const LightPicture& a, const LightPicture& b, const char* what) {
+    const PictureZ z = light_z(a, b);
+    testing::Test::RecordProperty(what, std::to_string(z.rms));
+    EXPECT_LT(z.rms, kMostRms) << what;
+    EXPECT_LT(z.beyond_4, kMostBeyond4) << what;
+    EXPECT_LT(farthest(z), kFarOff) << what;
 }
 
 }  // namespace voxilux::test

@@ -45,4 +45,13 @@ struct LightRequest {
 // each is the mean over the pixel and its neighbours before the pictures are compared.
 [[nodiscard]] PictureZ light_z(const LightPicture& traced, const LightPicture& expected);
 
+// The most that light_z's rms may be for equal pictures.
+inline constexpr double kMostRms = 1.3;
+
+// Whether two pictures are equal but for their noise.
+[[nodiscard]] bool is_equal_light(const LightPicture& a, const LightPicture& b);
+
+// Fails the test when they are not, and records how far they are apart as the property `what`.
+void expect_equal_light(const LightPicture& a, const LightPicture& b, const char* what);
+
 }  // namespace voxilux::test

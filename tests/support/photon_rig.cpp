@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "passes/photon_buffers.h"
 #include "plan/plan_photons.h"
-#include "shared/photon_cell.h"
 
 namespace voxilux::test {
 namespace {
@@ -20,12 +20,12 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Rec
          .shader = "photon_append",
          .extent = {count, 1, 1},
          .bindings = {{"In", "t.photons"},
-                      {"PhotonFrame", use_buffer(plan, "photon.frame", recording)},
-                      {"Tally", use_buffer(plan, "tally", recording)},
-                      {"PhotonHeads", use_buffer(plan, "photon.head", recording)},
-                      {"StoredPhotons", use_buffer(plan, "photon.stored", recording)},
-                      {"WantedCells", use_buffer(plan, "photon.wanted", recording)},
-                      {"BucketCounts", use_buffer(plan, "photon.counts", recording)}},
+                      {"PhotonFrame", photon_frame_buffer(recording)},
+                      {"Tally", tally_buffer(recording)},
+                      {"PhotonHeads", photon_head_buffer(recording)},
+                      {"StoredPhotons", photon_store_buffer(plan, recording)},
+                      {"WantedCells", photon_wanted_buffer(plan, recording)},
+                      {"BucketCounts", photon_counts_buffer(plan, recording)}},
          .constants = {{"sorts_photons", sorts ? 1u : 0u}, {"slots_at_once", job.slots_at_once}},
          .push = to_bytes(count)});
 }
@@ -36,11 +36,10 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     frame.height = rows_of(job);
     frame.row_count = frame.height;
     frame.column_count = job.width;
-    recording.upload(use_buffer(plan, "frame", recording), to_bytes(frame));
-    recording.clear(use_buffer(plan, "tally", recording));
+    recording.upload(frame_buffer(recording), to_bytes(frame));
+    recording.clear(tally_buffer(recording));
     if (!job.spheres.empty())
-        recording.upload(use_buffer(plan, "sphere.records", recording),
-                         std::as_bytes(std::span(job.spheres)));
+        recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(job.spheres)));
     recording.declare(
         {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
     recording.clear("t.points", 0xFFFFFFFFu);
@@ -90,32 +89,14 @@ std::uint32_t rows_of(const PhotonJob& job) {
 }
 
 RenderPlan photon_plan(const PhotonJob& job) {
-    const std::uint64_t pixels = std::uint64_t{job.width} * rows_of(job);
-    const std::uint64_t capacity = std::max(job.setup.capacity, 1u);
-    const std::uint64_t buckets = job.setup.buckets;
     RenderPlan plan;
     plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
+    plan.slice_rows = rows_of(job);
     plan.effects[static_cast<std::size_t>(Effect::spheres)].on = !job.spheres.empty();
     if (job.knows_lanes) plan.photons.gather_lanes = gather_lanes(test_device().limits());
+    plan.photons.capacity = std::max(job.setup.capacity, 1u);
+    plan.photons.buckets = job.setup.buckets;
     plan.sphere_count = static_cast<std::uint32_t>(job.spheres.size());
-    plan.buffers = {
-        {"frame", sizeof(gpu::FrameParams)},
-        {"tally", gpu::kTallyCount * sizeof(gpu::uint)},
-        {"sphere.records", std::max<std::size_t>(job.spheres.size(), 1) * sizeof(gpu::SphereRecord)},
-        {"photon.frame", sizeof(gpu::PhotonParams)},
-        {"photon.head", sizeof(gpu::PhotonHead)},
-        {"photon.stored", capacity * sizeof(gpu::StoredPhoton)},
-        {"photon.wanted", std::uint64_t{gpu::mark_words(job.setup.buckets)} * 4},
-        {"photon.counts", buckets * 4},
-        {"photon.runs", std::uint64_t{gpu::scan_runs(job.setup.buckets)} * 4},
-        {"photon.starts", (buckets + 1) * 4},
-        {"photon.sorted", capacity * sizeof(gpu::SortedPhoton)},
-        {"photon.ranks", pixels * 4},
-        {"photon.radii", pixels * sizeof(gpu::PixelRadius), true},
-        {"photon.points", pixels * sizeof(gpu::PhotonPoint)},
-        {"photon.totals", pixels * 48},
-        {"photon.light", pixels * 12},
-        {"photon.narrow", pixels * 12}};
     return plan;
 }
 

@@ -41,7 +41,7 @@ struct PhotonOutcome {
 // The picture's rows of a job.
 [[nodiscard]] std::uint32_t rows_of(const PhotonJob& job);
 
-// A plan that holds the buffers of a job and nothing else.
+// A plan of what the passes of a job ask for and nothing else.
 [[nodiscard]] RenderPlan photon_plan(const PhotonJob& job);
 
 // Appends, sorts and gathers, or appends and splats.

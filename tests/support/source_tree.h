@@ -76,7 +76,7 @@ inline std::vector<SourceFile> source_files(const std::string& folder,
 // All code of ours: C++, shaders and build files.
 inline std::vector<SourceFile> all_code() {
     std::vector<SourceFile> files;
-    for (const char* folder : {"engine", "shaders", "tools", "tests", "fuzz"}) {
+    for (const char* folder : {"engine", "shaders", "voxelizer", "tools", "tests", "fuzz"}) {
         std::vector<SourceFile> more =
             source_files(folder, {".h", ".cpp", ".glsl", ".comp", ".cmake", "CMakeLists.txt"});
         std::ranges::move(more, std::back_inserter(files));

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "bench/bench_flags.h"
-#include "bench/bench_scene.h"
+#include "jobs/bench/bench_scene.h"
 #include "output_files.h"
 #include "parse_values.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/ao_bench.h"
+#include "jobs/bench/ao_bench.h"
 
 namespace CLI {
 class App;

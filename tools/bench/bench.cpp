@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "bench/march_bench.h"
+#include "jobs/bench/march_bench.h"
 
 namespace voxilux {
 namespace {

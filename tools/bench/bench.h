@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/ao_flags.h"
-#include "bench/march_bench.h"
 #include "bench/photon_flags.h"
+#include "jobs/bench/march_bench.h"
 
 namespace voxilux {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/bench_rays.h"
-#include "bench/bench_row.h"
-#include "bench/bench_scene.h"
+#include "jobs/bench/bench_row.h"
+#include "jobs/bench/bench_scene.h"
+#include "jobs/bench/march_bench.h"
 
 namespace CLI {
 class App;
@@ -36,13 +36,7 @@ void add_bench_flags(CLI::App& command, BenchFlags& flags);
 CLI::Option* add_word_list(CLI::App& command, const std::string& flag, std::vector<std::string>& words,
                            const std::string& help);
 
-// What to measure of each scene. All throw Error(usage) for a flag that cannot be read.
-struct BenchRequest {
-    std::vector<RayKind> kinds;
-    glm::ivec2 size{640, 360};  // pixels
-    int rounds = 5;             // each row takes the best of them
-    std::uint32_t seed = 0;
-};
+// Throws Error(usage) for a flag that cannot be read.
 [[nodiscard]] BenchRequest bench_request(const BenchFlags& flags);
 
 // Measures the scenes that the flags name, one at a time, and prints a table for each, or all rows as JSON.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/photon_bench.h"
+#include "jobs/bench/photon_bench.h"
 #include "photon_options.h"
 
 namespace CLI {

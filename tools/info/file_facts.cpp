@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "formats/image_file.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "formats/vox_info.h"
 #include "scene/facts.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "frame/frame.h"
+#include "frame/footprint.h"
 #include "jobs/forecast_history.h"
 #include "jobs/report.h"
 #include "output_files.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "jobs/memory_forecast.h"
 #include "jobs/report.h"
 #include "output_files.h"

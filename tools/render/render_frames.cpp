@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "frame/footprint.h"
 #include "jobs/report.h"
 #include "output_files.h"
 #include "render/render_output.h"

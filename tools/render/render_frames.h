@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frame_list.h"
+#include "jobs/frame_list.h"
 #include "render/progress_line.h"
 #include "render/render.h"
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "formats/png.h"
+#include "frame/footprint.h"
 #include "jobs/forecast_history.h"
 #include "jobs/report.h"
 #include "output_files.h"

@@ -7,15 +7,15 @@
 
 #include "base/error.h"
 #include "estimators/difference_estimate.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "jobs/effect_price.h"
+#include "jobs/price_list/price_files.h"
+#include "jobs/price_list/price_list.h"
+#include "jobs/price_list/price_list_json.h"
 #include "output_files.h"
 #include "parse_values.h"
 #include "render/progress_line.h"
 #include "tradeoff/page_maker.h"
-#include "tradeoff/price_files.h"
-#include "tradeoff/price_list.h"
-#include "tradeoff/price_list_json.h"
 
 namespace voxilux {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bench/march_bench.h"
+#include "jobs/bench/march_bench.h"
 #include "support/device_fixture.h"
 
 namespace voxilux {

@@ -77,11 +77,20 @@ bool grew_a_world(const RenderOutcome& outcome) {
            outcome.statistics.passes.end();
 }
 
-class FrameSequence : public testing::TestWithParam<std::pair<const char*, Scene (*)()>> {};
+struct Sequenced {
+    const char* name;
+    Scene (*scene)();
+};
+
+void PrintTo(const Sequenced& sequenced, std::ostream* out) {
+    *out << sequenced.name;
+}
+
+class FrameSequence : public testing::TestWithParam<Sequenced> {};
 
 // In no order, with a frame twice: nothing of a frame may be left in the next.
 TEST_P(FrameSequence, frame_is_the_picture_of_its_scene_alone) {
-    const Scene scene = GetParam().second();
+    const Scene scene = GetParam().scene();
     RenderSession session(scene, validated());
     std::optional<Image> before;
     for (const std::int64_t frame : {1, 2, 3, 0, 4, 1}) {
@@ -99,10 +108,10 @@ TEST_P(FrameSequence, frame_is_the_picture_of_its_scene_alone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, FrameSequence,
-                         testing::Values(std::pair{"turntable", &turning_scene},
-                                         std::pair{"vox", &walking_scene},
-                                         std::pair{"spheres", &sphere_scene}),
-                         [](const auto& test) { return test.param.first; });
+                         testing::Values(Sequenced{"turntable", &turning_scene},
+                                         Sequenced{"vox", &walking_scene},
+                                         Sequenced{"spheres", &sphere_scene}),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(FrameSequenceOf, camera_that_moves_uploads_no_world) {
     RenderSession session(turning_scene(), validated());

@@ -9,6 +9,7 @@
 #include "shared/world_cell.h"
 #include "support/device_fixture.h"
 #include "support/ray_families.h"
+#include "support/traversal_name.h"
 #include "world/build_fields.h"
 
 namespace voxilux {
@@ -35,7 +36,7 @@ MarchWorld grown_on_device(MarchWorld skeleton) {
                                declare(recording, "test.leaves", skeleton.leaves.size()),
                                declare(recording, "test.homes", needs.home_bytes / 4),
                                declare(recording, "test.grown", needs.grown_bytes / 4)};
-    record_world_build(skeleton, buffers, recording);
+    record_world_build(skeleton, needs, buffers, recording);
     for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
         recording.readback(name);
     const RunResult result = test_executor().run(recording);
@@ -57,8 +58,7 @@ TEST_P(WorldGrow, device_gives_the_bits_of_the_cpu_for_every_small_world) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 // More cells than a dispatch of 65,535 groups in a row takes (hole 11 of the list of hard cases), of chunks
 // or of bricks.
@@ -76,8 +76,7 @@ TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the
     EXPECT_TRUE(got.roots == want.roots && got.nodes == want.nodes && got.leaves == want.leaves);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pass, WorldGrowNightly, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Pass, WorldGrowNightly, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 // A voxel in each chunk: the nodes of one structure and the roots of the other pass the 128 MiB of a binding.
 TEST(WorldGrowLargeNightly, levels_over_the_binding_limit_get_the_bits_of_the_cpu) {

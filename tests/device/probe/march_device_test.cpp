@@ -6,6 +6,7 @@
 #include "support/march_probe.h"
 #include "support/ray_families.h"
 #include "support/same_bits.h"
+#include "support/traversal_name.h"
 
 namespace voxilux {
 namespace {
@@ -60,8 +61,7 @@ TEST_P(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Probe, MarchOnDevice, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Probe, MarchOnDevice, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 TEST(MarchOnDeviceJudge, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
     const MarchWorld march_world = build_march_world(test::small_worlds(kSeed)[9].world);

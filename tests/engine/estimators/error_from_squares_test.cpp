@@ -20,13 +20,18 @@ std::int64_t fixed(double value) {
     return std::llround(std::ldexp(value, kFilmFractionBits));
 }
 
-enum class NoiseKind { gauss, ambient_occlusion, firefly, decay };
+using test::NoiseKind;
 
 struct Noise {
     NoiseKind kind = NoiseKind::gauss;
     int width = 32, height = 24;
     std::uint64_t n = 32;  // in each half
 };
+
+void PrintTo(const Noise& noise, std::ostream* out) {
+    *out << test::name_of(noise.kind) << ' ' << noise.width << 'x' << noise.height << ", twice " << noise.n
+         << " samples";
+}
 
 struct Draw {
     double sum = 0.0;

@@ -8,7 +8,7 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"

@@ -97,20 +97,33 @@ TEST(LeanRender, spheres_alone_have_no_world) {
 
 class LeanRenderOf : public testing::TestWithParam<std::string> {};
 
-// The device holds the buffers of the plan and one word for each constant, and one pipeline per shader.
+// The device holds the buffers of the plan, and one pipeline per shader.
 TEST_P(LeanRenderOf, device_holds_the_plan_and_nothing_else) {
-    const Scene scene = test::repository_scene(GetParam(), {"render.size=[32, 24]", "render.spp=2"});
+    const Scene scene =
+        test::repository_scene(GetParam(), {"render.size=[32, 24]", "render.spp=2", "photons.radius=1"});
     const LeanRun run = run_lean(scene, test::exr_request());
     Names planned;
-    for (const PlannedBuffer& buffer : test::plan_of(scene).buffers)
+    for (const PlannedBuffer& buffer : footprint(test::plan_of(scene)).buffers)
         planned.insert(buffer.buffer);
-    Names held;
-    for (const std::string& name : run.buffers) {
-        if (!name.starts_with("constant.")) held.insert(name);
-    }
-    EXPECT_EQ(held, planned);
+    EXPECT_EQ(run.buffers, planned);
     const std::size_t levels = run.shaders.contains("photon_scan") ? 2 : 0;  // it has three variants
     EXPECT_EQ(run.pipelines, run.shaders.size() + levels);
+}
+
+// What the session ran and holds at the end: passes with their counts, buffers with their bytes.
+TEST_P(LeanRenderOf, report_names_the_passes_and_buffers_of_the_plan) {
+    const Scene scene = test::repository_scene(GetParam(), {"render.size=[32, 24]", "render.spp=2"});
+    const RenderOutcome outcome = render_scene(scene, {.plan = test::exr_request()});
+    const Footprint needs = footprint(test::plan_of(scene));
+    std::map<std::string, std::uint64_t> ran, held, planned;
+    for (const PassTime& pass : outcome.statistics.passes)
+        ran[pass.label] = pass.count;
+    EXPECT_EQ(ran, test::planned_counts(needs));
+    for (const MemoryRow& row : outcome.statistics.memory)
+        if (row.buffer != "executor.staging") held[row.buffer] = row.bytes;
+    for (const PlannedBuffer& buffer : needs.buffers)
+        planned[buffer.buffer] = buffer.bytes;
+    EXPECT_EQ(held, planned);
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, LeanRenderOf, testing::ValuesIn(test::scene_names()),

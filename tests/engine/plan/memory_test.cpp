@@ -34,21 +34,21 @@ PlanRequest with_budget(std::uint64_t bytes) {
 }
 
 std::uint64_t largest_buffer(const RenderPlan& plan) {
-    return std::ranges::max(plan.buffers, {}, &PlannedBuffer::bytes).bytes;
+    return std::ranges::max(footprint(plan).buffers, {}, &PlannedBuffer::bytes).bytes;
 }
 
 TEST(PlanMemory, total_is_the_sum_of_the_buffers) {
-    const RenderPlan plan = test::plan_of(test::repository_scene("mixed"));
+    const Footprint needs = footprint(test::plan_of(test::repository_scene("mixed")));
     std::uint64_t sum = 0;
-    for (const PlannedBuffer& planned : plan.buffers)
+    for (const PlannedBuffer& planned : needs.buffers)
         sum += planned.bytes;
-    EXPECT_EQ(plan.total_bytes(), sum);
+    EXPECT_EQ(needs.total_bytes(), sum);
     EXPECT_GT(sum, 0u);
 }
 
 TEST(PlanMemory, budget_is_kept_to_the_byte) {
     const Scene scene = test::repository_scene("mixed");
-    const std::uint64_t needed = test::plan_of(scene).total_bytes();
+    const std::uint64_t needed = footprint(test::plan_of(scene)).total_bytes();
     EXPECT_EQ(memory_refusal(scene, with_budget(needed)), "accepted");
     EXPECT_NE(memory_refusal(scene, with_budget(needed - 1)), "accepted");
     EXPECT_EQ(memory_refusal(scene, with_budget(0)), "accepted") << "0 is no limit";
@@ -91,7 +91,7 @@ TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
     const SceneFacts facts = measure_scene(scene);
     const auto refusal_of = [&](const WorldFacts& world) -> std::string {
         try {
-            (void)plan_render(scene, facts, world, PlanRequest{}, DeviceLimits{});
+            (void)plan_within_memory(scene, facts, world, PlanRequest{}, DeviceLimits{});
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ExitCode::out_of_memory);
             return error.what();
@@ -100,7 +100,7 @@ TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
     };
     const std::uint64_t most = DeviceLimits{}.max_allocation_bytes;
     WorldFacts world{.size = glm::ivec3(4096), .root_bytes = most, .node_bytes = most, .leaf_bytes = most};
-    world.growth = {.home_bytes = 128 * kMiB, .grown_bytes = most, .steps = 1};
+    world.growth = {.home_bytes = 128 * kMiB, .grown_bytes = most, .levels = {{.log2 = 2, .cells = 64}}};
     EXPECT_EQ(refusal_of(world), "accepted");
     WorldFacts over = world;
     over.leaf_bytes += 4;

@@ -206,9 +206,10 @@ std::set<std::string> ao_names(const RenderPlan& plan) {
     const auto add = [&](const std::string& name) {
         if (name.starts_with("ao.")) names.insert(name);
     };
-    for (const PlannedPass& pass : plan.passes)
+    const Footprint needs = footprint(plan);
+    for (const PlannedPass& pass : needs.passes)
         add(pass.label);
-    for (const PlannedBuffer& buffer : plan.buffers)
+    for (const PlannedBuffer& buffer : needs.buffers)
         add(buffer.buffer);
     return names;
 }
@@ -250,6 +251,7 @@ TEST(PlanAo, recordings_use_exactly_what_the_plan_lists) {
         const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
         const gpu::FrameParams params = frame_params(prepared.plan, scene, prepared.march_world);
         const Slice slice{.row_count = static_cast<std::uint32_t>(prepared.plan.settings.size.y)};
+        const Footprint needs = footprint(prepared.plan);
         FrameState state;
         std::set<std::string> used;
         for (std::uint32_t i = 0; i < kFrames; ++i) {
@@ -258,9 +260,8 @@ TEST(PlanAo, recordings_use_exactly_what_the_plan_lists) {
             for (const BufferProxy& proxy : recording.buffers()) {
                 if (!proxy.name.starts_with("ao.")) continue;
                 used.insert(proxy.name);
-                const auto planned =
-                    std::ranges::find(prepared.plan.buffers, proxy.name, &PlannedBuffer::buffer);
-                ASSERT_NE(planned, prepared.plan.buffers.end()) << proxy.name;
+                const auto planned = std::ranges::find(needs.buffers, proxy.name, &PlannedBuffer::buffer);
+                ASSERT_NE(planned, needs.buffers.end()) << proxy.name;
                 EXPECT_EQ(planned->bytes, proxy.size_bytes) << proxy.name;
                 EXPECT_EQ(planned->persistent, proxy.persistent) << proxy.name;
             }

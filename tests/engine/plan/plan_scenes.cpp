@@ -41,6 +41,13 @@ RenderPlan plan_of(const Scene& scene, const PlanRequest& request) {
     return prepare_scene(scene, request, DeviceLimits{}).plan;
 }
 
+std::map<std::string, std::uint64_t> planned_counts(const Footprint& needs) {
+    std::map<std::string, std::uint64_t> counts;
+    for (const PlannedPass& pass : needs.passes)
+        VX_ASSERT(counts.emplace(pass.label, pass.count).second);
+    return counts;
+}
+
 namespace {
 
 void add(RecordedRender& render, Recording recording) {

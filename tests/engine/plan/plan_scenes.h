@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/footprint.h"
 #include "jobs/render_session.h"
 #include "record/recording.h"
 
@@ -29,6 +30,9 @@ namespace voxilux::test {
 
 // The plan alone, for the default device.
 [[nodiscard]] RenderPlan plan_of(const Scene& scene, const PlanRequest& request = exr_request());
+
+// Dispatches by label.
+[[nodiscard]] std::map<std::string, std::uint64_t> planned_counts(const Footprint& needs);
 
 // All that a whole render records when no slice is cut smaller than the plan's.
 struct RecordedRender {

@@ -1,44 +1,36 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/plan/plan_scenes.h"
-#include "passes/plane.h"
 
 namespace voxilux {
 namespace {
 
 using Sizes = std::map<std::string, std::pair<std::uint64_t, bool>>;
 
-// Name, bytes and persistence of every buffer that is not a constant: a constant is one element that stands
-// for an effect that is off.
+// Name, bytes and persistence of every buffer.
 Sizes recorded_sizes(const test::RecordedRender& render) {
     Sizes sizes;
-    for (const auto& [name, proxy] : render.buffers) {
-        if (name.starts_with("constant.")) continue;
+    for (const auto& [name, proxy] : render.buffers)
         sizes[name] = {proxy.size_bytes, proxy.persistent};
-    }
     return sizes;
 }
 
-Sizes planned_sizes(const RenderPlan& plan) {
+Sizes planned_sizes(const Footprint& needs) {
     Sizes sizes;
-    for (const PlannedBuffer& planned : plan.buffers)
+    for (const PlannedBuffer& planned : needs.buffers)
         EXPECT_TRUE(sizes.emplace(planned.buffer, std::pair(planned.bytes, planned.persistent)).second)
             << planned.buffer << " is planned twice";
     return sizes;
 }
 
-std::map<std::string, std::uint64_t> planned_counts(const RenderPlan& plan) {
-    std::map<std::string, std::uint64_t> counts;
-    for (const PlannedPass& pass : plan.passes)
-        EXPECT_TRUE(counts.emplace(pass.label, pass.count).second) << pass.label << " is planned twice";
-    return counts;
-}
-
 void expect_as_planned(const Scene& scene, const PlanRequest& request) {
     const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
     const test::RecordedRender render = test::record_render(scene, prepared);
-    EXPECT_EQ(recorded_sizes(render), planned_sizes(prepared.plan));
-    EXPECT_EQ(render.dispatches, planned_counts(prepared.plan));
+    const Footprint needs = footprint(prepared.plan);
+    EXPECT_EQ(recorded_sizes(render), planned_sizes(needs));
+    EXPECT_EQ(render.dispatches, test::planned_counts(needs));
 }
 
 class RecordedPlan : public testing::TestWithParam<std::string> {};
@@ -75,7 +67,7 @@ TEST_P(RecordedPlan, cropped_render_declares_and_dispatches_exactly_the_plan) {
     request.crop = PixelWindow{{100, 200}, {140, 230}};
     expect_as_planned(scene, request);
     const Scene small = test::repository_scene(GetParam(), {"render.spp=2", "render.size=[40, 30]"});
-    EXPECT_EQ(test::plan_of(scene, request).buffers, test::plan_of(small).buffers);
+    EXPECT_EQ(footprint(test::plan_of(scene, request)), footprint(test::plan_of(small)));
     EXPECT_EQ(test::plan_of(scene, request).rays, test::plan_of(small).rays);
 }
 
@@ -171,11 +163,54 @@ TEST(RecordedPlanOf, unneeded_effect_that_is_forced_on_is_recorded) {
     EXPECT_TRUE(test::record_render(scene, prepared).shaders.contains("ao_trace"));
 }
 
-TEST(RecordedPlanOf, buffer_of_an_absent_effect_is_our_mistake) {
-    const RenderPlan plan = test::plan_of(test::repository_scene("night"));
-    Recording recording;
-    EXPECT_THROW((void)use_buffer(plan, "sun.lit", recording), InternalError);
-    EXPECT_EQ(use_buffer(plan, "ao.open", recording), "ao.open");
+// What a recorder adds to the real one, by no other change, is in the footprint.
+TEST(RecordedPlanOf, pass_that_the_recording_gains_is_planned_with_its_count_and_bytes) {
+    const RenderPlan plan = test::plan_of(test::repository_scene("night", {"render.spp=5"}));
+    const auto record = [](const RenderPlan& of, const Slice& slice, gpu::FrameParams params,
+                           const SampleNumber& number, Recording& recording) {
+        record_frame(of, slice, params, number, recording);
+        const std::string words = declare<float>(recording, "extra.words", 7);
+        recording.dispatch({.label = "extra.step", .shader = "x", .bindings = {{"Words", words}}});
+        if (number.sample == 0) recording.dispatch({.label = "extra.first", .shader = "x"});
+        if (number.sample == 1) recording.dispatch({.label = "extra.later", .shader = "x"});
+    };
+    const Footprint with = footprint(plan, record);
+    const auto counts = test::planned_counts(with);
+    EXPECT_EQ(counts.at("extra.step"), 5u);
+    EXPECT_EQ(counts.at("extra.first"), 1u);
+    EXPECT_EQ(counts.at("extra.later"), 4u) << "all samples after the first record what the second does";
+    const auto extra = std::ranges::find(with.buffers, "extra.words", &PlannedBuffer::buffer);
+    ASSERT_NE(extra, with.buffers.end());
+    EXPECT_EQ(extra->bytes, 28u);
+    const Footprint without = footprint(plan);
+    EXPECT_EQ(with.total_bytes(), without.total_bytes() + 28);
+    EXPECT_EQ(with.passes.size(), without.passes.size() + 3);
+}
+
+// A frame that gives up cells, as later ones of a range may; a single frame never does.
+TEST(RecordedPlanOf, giving_up_cells_is_planned_once_a_frame_of_a_range) {
+    const Scene scene = test::repository_scene("mixed", {"ao.method=hash", "render.spp=3"});
+    PlanRequest request = test::exr_request();
+    EXPECT_FALSE(test::planned_counts(footprint(test::plan_of(scene, request))).contains("ao.age"));
+    request.frames = 2;
+    const auto counts = test::planned_counts(footprint(test::plan_of(scene, request)));
+    EXPECT_EQ(counts.at("ao.age"), 1u);
+    EXPECT_EQ(counts.at("ao.sample"), 3u);
+}
+
+// The radius of photons is found by an iteration whose buffers the device keeps.
+TEST(RecordedPlanOf, pilot_of_photons_is_held_but_not_run_in_the_frame) {
+    const auto planned = [](const std::vector<std::string>& overrides) {
+        return footprint(test::plan_of(test::repository_scene("emitters", overrides)));
+    };
+    const Footprint known = planned({"photons.radius=1"}), piloted = planned({});
+    EXPECT_EQ(piloted.passes, known.passes);
+    const auto holds_radii = [](const Footprint& needs) {
+        return std::ranges::find(needs.buffers, "photon.radii", &PlannedBuffer::buffer) !=
+               needs.buffers.end();
+    };
+    EXPECT_TRUE(holds_radii(piloted));
+    EXPECT_FALSE(holds_radii(known));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "scene/scene_camera.h"
 #include "scene/vox_scene.h"

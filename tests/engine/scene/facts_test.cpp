@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 #include "scene/facts.h"
 #include "scene/scene_bounds.h"
 

@@ -11,6 +11,7 @@
 #include "world/world_view.h"
 // After the world's, which says how C++ reads it.
 #include "shared/camera.h"
+#include "support/traversal_name.h"
 
 namespace voxilux {
 namespace {
@@ -137,7 +138,7 @@ TEST_P(BeamIn, start_changes_no_hit_of_a_sparse_world) {
 
 INSTANTIATE_TEST_SUITE_P(Traversals, BeamIn,
                          ::testing::ValuesIn(all_traversals().begin(), all_traversals().end()),
-                         [](const auto& parameter) { return std::string(name_of(parameter.param)); });
+                         test::traversal_name);
 
 // A picture from above the sparse world, fine enough for its tiles to be narrow.
 gpu::FrameParams view_from_above() {

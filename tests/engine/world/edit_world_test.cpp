@@ -8,6 +8,7 @@
 #include <random>
 
 #include "support/ray_families.h"
+#include "support/traversal_name.h"
 #include "world/world_view.h"
 
 namespace voxilux {
@@ -93,8 +94,7 @@ TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
     EXPECT_NE(first_difference(built, build_march_world(world, GetParam())), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 TEST(EditWorldBlocks, an_edit_inside_a_mixed_brick_adds_few_blocks) {
     std::mt19937 dice(kSeed);

@@ -10,6 +10,7 @@
 #include "support/box_check.h"
 #include "support/grow_aadf.h"
 #include "support/ray_families.h"
+#include "support/traversal_name.h"
 #include "world/build_fields.h"
 #include "world/edit_world.h"
 #include "world/world_view.h"
@@ -157,10 +158,9 @@ TEST_P(EmptyBoxes, one_voxel_more_or_less_than_the_structure_has_is_caught) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Structure, EmptyBoxes, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(Structure, EmptyBoxes, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 INSTANTIATE_TEST_SUITE_P(Structure, EmptyBoxesNightly, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+                         test::traversal_name);
 
 // Mean distance of the empty cells over all directions; `distance(cell, direction)`.
 template <class Distance>

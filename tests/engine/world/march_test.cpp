@@ -3,6 +3,7 @@
 
 #include "support/march_oracle.h"
 #include "support/ray_families.h"
+#include "support/traversal_name.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -60,8 +61,7 @@ TEST(March, world_of_a_million_voxels_on_one_axis_is_hit_at_both_ends) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(March, EveryTraversal, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+INSTANTIATE_TEST_SUITE_P(March, EveryTraversal, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 TEST(March, every_family_agrees_with_boxes_in_double_precision) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed + 1)) {

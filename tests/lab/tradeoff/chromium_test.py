@@ -1,9 +1,8 @@
 """The page of a price list in headless Chromium, light and dark.
 
-    chromium_test.py FOLDER_OF_PAGE     exit code 77 where Chromium or matplotlib is missing
+    chromium_test.py FOLDER_OF_PAGE     exit code 77 where Chromium is missing, which no command installs
 """
 
-import importlib.util
 import pathlib
 import shutil
 import subprocess
@@ -12,9 +11,9 @@ import tempfile
 import unittest
 
 import fake_price_list
+import needs
 
 sys.path.insert(0, str(pathlib.Path(sys.argv[1]).resolve()))
-SKIPPED = 77
 SIZE = (1200, 5000)
 DARK = "--blink-settings=preferredColorScheme=0"
 PAPER = {"light": (255, 255, 255), "dark": (0x14, 0x17, 0x1B)}
@@ -72,9 +71,8 @@ class Shown(unittest.TestCase):
 
 if __name__ == "__main__":
     CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-    missing = [name for name, there in (("chromium", CHROMIUM), ("matplotlib", importlib.util.find_spec("matplotlib")),
-                                        ("PIL", importlib.util.find_spec("PIL"))) if not there]
-    if missing:
-        print(f"skipped: {' and '.join(missing)} not there: apt-get install chromium python3-matplotlib")
-        sys.exit(SKIPPED)
+    if not CHROMIUM:
+        print("skipped: chromium is not there: apt-get install chromium")
+        sys.exit(needs.SKIPPED)
+    needs.need_modules("matplotlib", "PIL")
     unittest.main(argv=sys.argv[:1])

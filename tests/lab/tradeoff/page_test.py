@@ -1,13 +1,12 @@
 """The page of a price list, from a made-up one.
 
-    page_test.py FOLDER_OF_PAGE JOINED     exit code 77 where matplotlib is missing
+    page_test.py FOLDER_OF_PAGE JOINED
 
 The folder has page.py and its parts; JOINED is the script that the build makes of them.
 """
 
 import contextlib
 import html.parser
-import importlib.util
 import io
 import json
 import pathlib
@@ -18,11 +17,11 @@ import tempfile
 import unittest
 
 import fake_price_list
+import needs
 
 JOINED = pathlib.Path(sys.argv[2]).resolve()
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(FOLDER))
-SKIPPED = 77
 VOID = {"meta", "img", "br", "link", "hr", "input"}
 
 
@@ -305,7 +304,5 @@ class Refusal(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if importlib.util.find_spec("matplotlib") is None:
-        print("skipped: matplotlib is not there: apt-get install python3-matplotlib")
-        sys.exit(SKIPPED)
+    needs.need_modules("matplotlib")
     unittest.main(argv=sys.argv[:1])

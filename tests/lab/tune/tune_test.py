@@ -1,18 +1,20 @@
 """The tuning tool, with a stand-in for voxilux and with voxilux itself.
 
-    tune_test.py TUNE VOXILUX SCENE     exit code 77 where Optuna is missing
+    tune_test.py TUNE VOXILUX SCENE
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import needs
+
 TUNE, VOXILUX, SCENE = sys.argv[1:4]
 FAKE = pathlib.Path(__file__).with_name("fake_voxilux.py")
-SKIPPED = 77
 
 
 def tune(*words):
@@ -77,6 +79,15 @@ class Refusal(unittest.TestCase):
         self.expect(2, "--time", "a.toml", "--time", "0")
         self.expect(2, "--repeats", "a.toml", "--repeats", "none")
 
+    def test_machine_without_optuna(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "optuna.py").write_text("raise ImportError", encoding="utf-8")
+            done = subprocess.run([sys.executable, TUNE, "a.toml"], capture_output=True, text=True, check=False,
+                                  env={**os.environ, "PYTHONPATH": folder})
+        self.assertEqual((done.returncode, done.stdout), (69, ""))
+        self.assertTrue(done.stderr.startswith("tune.py: needs Optuna: "), done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
     def test_program_that_is_not_there(self):
         done = tune("a.toml", "--voxilux", "no/such/program", "--trials", "1")
         self.assertEqual(done.returncode, 1)
@@ -100,12 +111,5 @@ class Real(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    try:
-        import optuna  # noqa: F401
-    except ImportError:
-        missing = tune("a.toml")
-        assert missing.returncode == 69 and missing.stderr.startswith("tune.py: needs Optuna: "), missing.stderr
-        assert missing.stderr.count("\n") == 1 and "Traceback" not in missing.stderr, missing.stderr
-        print(f"skipped: {missing.stderr.strip()}")
-        sys.exit(SKIPPED)
+    needs.need_modules("optuna")
     unittest.main(argv=sys.argv[:1])

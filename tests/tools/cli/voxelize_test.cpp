@@ -38,12 +38,12 @@ std::string output_of(const std::string& command) {
 }
 
 bool has_numpy() {
-    return !output_of("python3 -c 'import numpy, PIL; print(1)' 2>/dev/null").empty();
+    return !output_of(VX_PYTHON " -c 'import numpy, PIL; print(1)' 2>/dev/null").empty();
 }
 
 #define SKIP_WITHOUT_ORACLE()   \
     SKIP_WITHOUT_SHARED_DATA(); \
-    if (!has_numpy()) GTEST_SKIP() << "no python3 with numpy and Pillow"
+    if (!has_numpy()) GTEST_SKIP() << VX_PYTHON " lacks numpy or Pillow"
 
 // Voxelizes a mesh of the shared data and asks the oracle.
 Json judged(const std::string& mesh, int resolution, const std::string& judge_flags = "",
@@ -55,7 +55,7 @@ Json judged(const std::string& mesh, int resolution, const std::string& judge_fl
                  {"voxelize", input, "-o", output, "--resolution", std::to_string(resolution)});
     const Ending ending = run(flags);
     EXPECT_EQ(ending.code, 0) << ending.err;
-    const std::string text = output_of("python3 '" VX_SOURCE_DIR "/tests/tools/cli/voxelize_judge.py' '" +
+    const std::string text = output_of(VX_PYTHON " '" VX_SOURCE_DIR "/tests/tools/cli/voxelize_judge.py' '" +
                                        (shared_data() / "oracle").string() + "' '" + input + "' '" + output +
                                        "' " + std::to_string(resolution) + " " + judge_flags);
     return text.empty() ? Json() : Json::parse(text);
@@ -70,7 +70,7 @@ void expect_exact(const Json& json) {
     EXPECT_EQ(json["holes"], 0) << json;
 }
 
-class VoxelizeExternal : public testing::TestWithParam<const char*> {};
+class VoxelizeExternal : public testing::TestWithParam<std::string> {};
 
 TEST_P(VoxelizeExternal, voxels_are_those_of_the_oracle_at_32_and_64) {
     SKIP_WITHOUT_ORACLE();
@@ -99,19 +99,19 @@ TEST(VoxelizeOracleExternal, another_resolution_is_seen) {
     EXPECT_GT(json["missing"].get<int>() + json["outside"].get<int>(), 100);
 }
 
-class VoxelizeNightly : public testing::TestWithParam<const char*> {};
+class VoxelizeExternalNightly : public testing::TestWithParam<std::string> {};
 
-TEST_P(VoxelizeNightly, voxels_are_those_of_the_oracle_at_32_64_and_256) {
+TEST_P(VoxelizeExternalNightly, voxels_are_those_of_the_oracle_at_32_64_and_256) {
     SKIP_WITHOUT_ORACLE();
     for (const int resolution : {32, 64, 256})
         expect_exact(judged(GetParam(), resolution));
 }
 
-INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeNightly,
+INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternalNightly,
                          testing::Values("Duck.glb", "FlightHelmet/FlightHelmet.gltf",
                                          "Sponza_LowPoly/Sponza_LowPoly.gltf", "stanford-bunny.obj"));
 
-TEST(VoxelizeColourNightly, colours_are_near_the_mean_by_area) {
+TEST(VoxelizeColourExternalNightly, colours_are_near_the_mean_by_area) {
     SKIP_WITHOUT_ORACLE();
     const Json duck = judged("Duck.glb", 256, "--color");
     EXPECT_LE(duck["dE_p95"], 0.2);

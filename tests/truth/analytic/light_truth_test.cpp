@@ -27,6 +27,10 @@ struct LightCase {
     int truth_spp = 256;
 };
 
+void PrintTo(const LightCase& one, std::ostream* out) {
+    *out << one.scene;
+}
+
 // A change to the scene that is rendered, which the truth does not know.
 using Change = void (*)(Scene&);
 void no_change(Scene&) {}

@@ -13,6 +13,11 @@
 #include "support/shared_data.h"
 
 namespace voxilux {
+
+static void PrintTo(Sequence sequence, std::ostream* out) {
+    *out << name_of(sequence);
+}
+
 namespace {
 
 namespace fs = std::filesystem;

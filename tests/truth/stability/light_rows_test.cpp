@@ -19,11 +19,8 @@ namespace voxilux {
 namespace {
 
 using test::LightPicture;
-using test::PictureZ;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFarOff = 4.0;  // standard deviations; normal noise passes them once in 16000 times
-constexpr double kMostRms = 1.3;
 constexpr int kBlock = 4;
 
 Scene repository_scene(const std::string& name, int pixels) {
@@ -39,21 +36,9 @@ LightPicture render(const Scene& scene, std::uint32_t iterations, int block = kB
     return test::render_light(scene, {iterations, blocks, effects}).front();
 }
 
-double farthest(const PictureZ& z) {
-    return std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
-}
-
 LightPicture truth_of(const Scene& scene, int spp, int block = kBlock) {
     return test::truth_picture(test::truth_world(scene),
                                {.size = scene.settings.size / block, .spp = spp, .seed = 21});
-}
-
-void expect_equal(const LightPicture& a, const LightPicture& b, const char* what) {
-    const PictureZ z = test::light_z(a, b);
-    testing::Test::RecordProperty(what, std::to_string(z.rms));
-    EXPECT_LT(z.rms, kMostRms) << what;
-    EXPECT_LT(z.beyond_4, 0.02) << what;
-    EXPECT_LT(farthest(z), kFarOff) << what;
 }
 
 // Row 24. Two samples of a scene with the workgroups given.
@@ -131,7 +116,7 @@ Scene clear_scene(bool has_glass) {
 }
 
 TEST(Row26, glass_of_index_1_is_invisible_as_spheres) {
-    expect_equal(render(clear_scene(true), 48), render(clear_scene(false), 48), "spheres");
+    test::expect_equal_light(render(clear_scene(true), 48), render(clear_scene(false), 48), "spheres");
 }
 
 Scene voxel_room(int pixels) {
@@ -146,18 +131,18 @@ Scene voxel_room(int pixels) {
 TEST(Row26, glass_of_index_1_is_invisible_as_voxels) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {1, 3, 0}, {5, 7, 4}, test::add_glass(scene, 1.0f));
-    expect_equal(render(scene, 48), render(voxel_room(32), 48), "voxels");
+    test::expect_equal_light(render(scene, 48), render(voxel_room(32), 48), "voxels");
 }
 
 TEST(Row26, glass_that_takes_a_tenth_is_caught) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {1, 3, 0}, {5, 7, 4}, test::add_glass(scene, 1.0f, 0.9f));
-    EXPECT_GT(test::light_z(render(scene, 48), render(voxel_room(32), 48)).rms, kMostRms);
+    EXPECT_GT(test::light_z(render(scene, 48), render(voxel_room(32), 48)).rms, test::kMostRms);
 }
 
 TEST(Row28, voxels_alone_agree_with_paths) {
     const Scene scene = voxel_room(32);
-    expect_equal(render(scene, 64), truth_of(scene, 512), "room");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 512), "room");
 }
 
 // Two kinds of glass that touch, a solid and a lamp inside one, and a ball of glass that crosses both.
@@ -172,13 +157,13 @@ Scene media_room() {
 
 TEST(Row28, glass_that_touches_other_glass_with_a_solid_inside_agrees_with_paths) {
     const Scene scene = media_room();
-    expect_equal(render(scene, 64), truth_of(scene, 1024), "touching");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "touching");
 }
 
 TEST(Row28, glass_ball_that_crosses_glass_voxels_agrees_with_paths) {
     Scene scene = media_room();
     scene.spheres.push_back({glm::dvec3(4.2, 4.0, 3.2), 1.3, test::add_glass(scene, 1.3f)});
-    expect_equal(render(scene, 64), truth_of(scene, 1024), "crossing");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "crossing");
 }
 
 // Nothing but photons brings this light: the lamp's shadow rays end at the first surface of glass.
@@ -188,7 +173,7 @@ TEST(Row28, lamp_inside_glass_lights_what_is_in_the_same_glass) {
     test::add_box(scene, {2, 3, 0}, {7, 7, 4}, test::add_glass(scene, 1.5f, 0.9f));
     test::add_box(scene, {4, 5, 2}, {5, 6, 3}, test::add_lamp(scene, 10.0f));
     scene.camera = test::camera_towards({4.0, 0.4, 4.5}, {4.5, 6.0, 1.0}, 65.0);
-    expect_equal(render(scene, 64), truth_of(scene, 1024), "lamp in voxels");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "lamp in voxels");
 }
 
 TEST(Row28, lamp_and_ball_inside_glass_balls_of_one_material_agree_with_paths) {
@@ -200,7 +185,7 @@ TEST(Row28, lamp_and_ball_inside_glass_balls_of_one_material_agree_with_paths) {
     scene.spheres.push_back({glm::dvec3(2.6, 6.0, 3.0), 0.6, test::add_lamp(scene, 40.0f)});
     scene.spheres.push_back({glm::dvec3(7.5, 6.0, 3.0), 0.9, test::add_diffuse(scene, 0.8f)});
     scene.camera = test::camera_towards({5.0, 0.4, 4.0}, {5.0, 6.0, 2.8}, 60.0);
-    expect_equal(render(scene, 64), truth_of(scene, 1024), "lamp in balls");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "lamp in balls");
 }
 
 // The same medium on both sides is no surface: what colour the ball's would take does not show.
@@ -210,20 +195,21 @@ TEST(Row28, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
     test::add_box(block, {2, 3, 0}, {7, 7, 4}, glass);
     Scene with_ball = block, with_other = block;
     with_ball.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, glass});
-    expect_equal(render(with_ball, 64), render(block, 64), "same glass");
+    test::expect_equal_light(render(with_ball, 64), render(block, 64), "same glass");
     with_other.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, test::add_glass(with_other, 1.5f, 0.5f)});
-    EXPECT_GT(test::light_z(render(with_other, 64), render(block, 64)).rms, 1.5 * kMostRms);  // the twin
+    EXPECT_GT(test::light_z(render(with_other, 64), render(block, 64)).rms,
+              1.5 * test::kMostRms);  // the twin
 }
 
 TEST(Row28, camera_inside_glass_agrees_with_paths) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {3, 0, 2}, {7, 3, 6}, test::add_glass(scene, 1.4f));
     scene.camera = test::camera_towards({5.0, 1.0, 4.0}, {5.0, 10.0, 3.0}, 40.0);
-    expect_equal(render(scene, 64), truth_of(scene, 512), "camera in voxels");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 512), "camera in voxels");
     Scene ball = voxel_room(32);
     ball.spheres.push_back({glm::dvec3(5.0, 2.0, 4.0), 1.5, test::add_glass(ball, 1.4f)});
     ball.camera = test::camera_towards({5.1, 1.6, 4.2}, {5.0, 10.0, 3.0}, 40.0);
-    expect_equal(render(ball, 64), truth_of(ball, 512), "camera in a ball");
+    test::expect_equal_light(render(ball, 64), truth_of(ball, 512), "camera in a ball");
 }
 
 TEST(Row30, black_walls_send_nothing_on) {
@@ -242,7 +228,7 @@ TEST(Row30, walls_of_albedo_0_and_1_agree_with_paths) {
     Scene scene = voxel_room(32);
     scene.materials[0].albedo = {1.0f, 0.0f, 0.5f};
     scene.materials[2].albedo = {0.0f, 1.0f, 1.0f};
-    expect_equal(render(scene, 64), truth_of(scene, 512), "0 and 1");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 512), "0 and 1");
 }
 
 // Row 31. Light is linear in the lamps, from the faintest that a sum of 64 bits can hold to the brightest.
@@ -281,7 +267,7 @@ TEST(Row31, faint_lamp_beside_a_bright_one_and_many_lamps_agree_with_paths) {
     test::add_box(scene, {0, 3, 5}, {1, 4, 6}, test::add_lamp(scene, 300.0f));
     for (int i = 0; i < 9; ++i)
         test::add_box(scene, {i, 9, 7}, {i + 1, 10, 8}, test::add_lamp(scene, 0.2f * static_cast<float>(i)));
-    expect_equal(render(scene, 64), truth_of(scene, 2048), "many lamps");
+    test::expect_equal_light(render(scene, 64), truth_of(scene, 2048), "many lamps");
 }
 
 // Row 32 and 33. Light of the sun through an opening, which only photons carry on.
@@ -303,14 +289,14 @@ const EffectRequest kForcedIndirect{.switches = {{Effect::indirect, Switch::on}}
 
 TEST(Row33, sunlight_through_an_opening_agrees_with_paths) {
     const Scene scene = sunny_room();
-    expect_equal(render(scene, 64, kBlock, kForcedIndirect), truth_of(scene, 2048), "opening");
+    test::expect_equal_light(render(scene, 64, kBlock, kForcedIndirect), truth_of(scene, 2048), "opening");
 }
 
 TEST(Row33, sunlight_through_a_pane_of_glass_agrees_with_paths) {
     Scene scene = sunny_room();
     scene.sun.angular_diameter_deg = 25.0f;  // for the sake of the path tracer, which finds it by chance
     test::add_box(scene, {3, 2, 6}, {5, 4, 7}, test::add_glass(scene, 1.5f));
-    expect_equal(render(scene, 64, kBlock, kForcedIndirect), truth_of(scene, 4096), "pane");
+    test::expect_equal_light(render(scene, 64, kBlock, kForcedIndirect), truth_of(scene, 4096), "pane");
 }
 
 // Row 34. A lit and a dark room with a wall of one voxel between them, on one floor.
@@ -369,10 +355,10 @@ TEST(Row36, roulette_changes_no_mean) {
     const LightPicture all = render(scene, 48);
     scene.settings.photons.roulette = true;
     scene.settings.seed = 99;
-    expect_equal(render(scene, 48), all, "roulette");
+    test::expect_equal_light(render(scene, 48), all, "roulette");
     scene.settings.photons.roulette = false;
     scene.settings.photons.depth = 2;
-    EXPECT_GT(test::light_z(render(scene, 48), all).rms, kMostRms) << "the twin: paths cut off";
+    EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMostRms) << "the twin: paths cut off";
 }
 
 // Between perfect mirrors a path never ends; between good ones roulette ends it.
@@ -400,7 +386,7 @@ TEST(Row36, caustic_seen_in_a_mirror_and_through_its_ball_is_reciprocal) {
     const LightPicture by_chance =
         test::truth_picture(test::truth_world(scene),
                             {.size = scene.settings.size / kBlock, .spp = 4096, .samples_lamps = false});
-    expect_equal(render(scene, 64), by_chance, "reciprocity");
+    test::expect_equal_light(render(scene, 64), by_chance, "reciprocity");
 }
 
 }  // namespace

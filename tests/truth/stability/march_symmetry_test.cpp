@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "support/exact_walk.h"
 #include "support/march_oracle.h"
+#include "support/traversal_name.h"
 #include "truth/stability/march_judges.h"
 
 namespace voxilux {
@@ -181,7 +182,7 @@ TEST_P(MarchSymmetry, row06_ties_of_permuted_scenes_go_by_the_rule_in_exact_inte
 }
 
 INSTANTIATE_TEST_SUITE_P(HardCase, MarchSymmetry, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+                         test::traversal_name);
 
 TEST(HardCase, row06_comparison_rejects_a_scene_mirrored_along_another_axis) {
     const VoxelWorld world = lopsided_world();

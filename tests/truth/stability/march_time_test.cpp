@@ -7,6 +7,7 @@
 #include <ctime>
 #include <limits>
 
+#include "support/traversal_name.h"
 #include "truth/stability/march_judges.h"
 
 namespace voxilux {
@@ -94,7 +95,7 @@ TEST_P(BadDirections, row08_are_counted_misses_and_leave_the_rays_beside_them_al
 }
 
 INSTANTIATE_TEST_SUITE_P(HardCase, BadDirections, ::testing::ValuesIn(all_traversals()),
-                         [](const auto& one) { return std::string(name_of(one.param)); });
+                         test::traversal_name);
 
 // The twin: rays that go ten times as far through a world without boxes take more than is allowed.
 TEST(BadDirectionsJudge, sees_rays_that_take_longer_than_is_allowed) {

@@ -10,6 +10,7 @@
 
 #include "shared/hash.h"
 #include "support/interval_walk.h"
+#include "support/traversal_name.h"
 #include "truth/stability/march_judges.h"
 
 namespace voxilux {
@@ -191,9 +192,9 @@ TEST_P(MarchVolumeNightly, of_every_family_never_leaves_a_closed_shell) {
     expect_no_leaks(GetParam(), kNightlyRounds);
 }
 
-const auto kName = [](const auto& one) { return std::string(name_of(one.param)); };
-INSTANTIATE_TEST_SUITE_P(Rays, MarchVolume, ::testing::ValuesIn(all_traversals()), kName);
-INSTANTIATE_TEST_SUITE_P(Rays, MarchVolumeNightly, ::testing::ValuesIn(all_traversals()), kName);
+INSTANTIATE_TEST_SUITE_P(Rays, MarchVolume, ::testing::ValuesIn(all_traversals()), test::traversal_name);
+INSTANTIATE_TEST_SUITE_P(Rays, MarchVolumeNightly, ::testing::ValuesIn(all_traversals()),
+                         test::traversal_name);
 
 // The twins: a world with one voxel too many, and shells with one voxel missing.
 TEST(MarchVolumeJudge, notices_one_voxel_that_the_structure_has_not) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "frame/footprint.h"
 #include "support/frame_rig.h"
 #include "support/test_scenes.h"
 
@@ -53,7 +54,8 @@ TEST(HardCase, row39_plan_of_16384_squared_splits_into_bands_or_is_refused_by_th
     const DeviceLimits limits;
     const RenderPlan plan = prepare_scene(scene, {}, limits).plan;
     EXPECT_GE(std::uint64_t{plan.band_rows} * plan.band_count, 16384u);
-    for (const PlannedBuffer& planned : plan.buffers)
+    const Footprint needs = footprint(plan);
+    for (const PlannedBuffer& planned : needs.buffers)
         EXPECT_LE(planned.bytes, limits.max_binding_bytes) << planned.buffer;
     try {
         (void)prepare_scene(scene, {.memory_budget_bytes = std::uint64_t{4} << 30}, limits);

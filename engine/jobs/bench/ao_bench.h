@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "jobs/bench/ao_stage.h"
+
+namespace voxilux {
+
+struct AoBenchOptions {
+    std::vector<AoVariant> variants;
+    std::vector<Motion> motions;
+    int frames = 64;
+    int rounds = 2;  // the best of them gives the times
+    std::uint32_t reference_rays = 4096;
+};
+
+// Rays per pixel and frames of Motion::floor: as many as bring the noise of a cell below its bias.
+inline constexpr std::uint32_t kFloorRays = 64;
+inline constexpr int kFloorFrames = 16;
+
+// A row for each motion and variant. Counts are means over all frames but the first, times the medians over
+// the second half of the frames, in the best of the rounds, in which the variants take turns.
+[[nodiscard]] std::vector<AoRow> bench_ao(const std::string& name, AoStage& stage,
+                                          const AoBenchOptions& options);
+
+}  // namespace voxilux

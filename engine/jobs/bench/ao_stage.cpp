@@ -1,0 +1,188 @@
+#include "jobs/bench/ao_stage.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "embedded.h"
+#include "formats/scene_toml.h"
+#include "frame/footprint.h"
+#include "frame/frame.h"
+#include "jobs/bench/bench_scene.h"
+#include "passes/ao.h"
+#include "passes/primary.h"
+#include "passes/sphere.h"
+#include "passes/upload.h"
+#include "scene/scene_camera.h"
+#include "shared/sequence.h"
+
+namespace voxilux {
+namespace {
+
+// The reference traces kStripRows rows of every kStripPeriod: enough pixels for a mean at a quarter of the
+// time. A strip is as high as a workgroup.
+constexpr std::uint32_t kStripRows = 8;
+constexpr std::uint32_t kStripPeriod = 32;
+
+constexpr int kMaterials = 24;  // of procedural_scene
+
+// Occlusion and what it needs; no sun and no planes for files.
+PlanRequest occlusion_request(int frames) {
+    PlanRequest request{.frames = static_cast<std::uint32_t>(frames)};
+    request.effects.switches = {{Effect::ao, Switch::on}, {Effect::sun, Switch::off}};
+    return request;
+}
+
+// The last buffer that holds the openness of a frame.
+std::string openness_buffer(const RenderPlan& plan) {
+    return plan.has_ao_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.open";
+}
+
+// Of the slice, not of the buffer: that has room for the largest slice.
+std::uint64_t pixels_of(const RenderPlan& plan, const Slice& slice) {
+    return std::uint64_t{slice.row_count} * static_cast<std::uint64_t>(plan.settings.size.x);
+}
+
+std::vector<AoPassTime> occlusion_times(const RunResult& result) {
+    std::vector<AoPassTime> times;
+    for (const PassTime& pass : result.passes)
+        if (pass.label.starts_with("ao.")) times.push_back({pass.label, pass.ms});
+    return times;
+}
+
+// The rows from `first` on that a reference traces at once.
+Slice strip_at(const RenderPlan& plan, std::uint32_t first) {
+    const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
+    const std::uint32_t band = first / plan.band_rows;
+    const std::uint32_t band_first_row = band * plan.band_rows;
+    const std::uint32_t end = std::min({height, band_first_row + plan.band_rows, first + plan.slice_rows});
+    return {band, band_first_row, first, std::min(kStripRows, end - first)};
+}
+
+struct TracedStrip {
+    std::string hits;
+    std::string openness;
+};
+
+// Hits where `params` look, and their openness by rays of the Sobol sequence.
+TracedStrip record_strip(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+                         Recording& recording) {
+    params.first_row = slice.first_row;
+    params.row_count = slice.row_count;
+    params.band_first_row = slice.band_first_row;
+    record_frame_upload(params, recording);
+    Plane hits = record_primary_march(plan, slice, record_primary_beam(plan, slice, recording), recording);
+    if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, slice, hits, recording);
+    RenderPlan traced = plan;
+    traced.settings.sequence = Sequence::sobol;
+    return {hits.buffer, record_ao_trace(traced, slice, hits, recording).buffer};
+}
+
+}  // namespace
+
+Scene ao_procedural_scene(int extent, std::uint32_t seed, glm::ivec2 size) {
+    const BenchScene bench = procedural_scene(extent, seed);
+    Scene scene;
+    scene.materials.resize(kMaterials);
+    VoxelModel model{.name = bench.name, .size = bench.world.size()};
+    bench.world.for_each_voxel([&](glm::ivec3 c, std::uint16_t voxel) {
+        model.voxels.push_back({static_cast<std::uint16_t>(c.x), static_cast<std::uint16_t>(c.y),
+                                static_cast<std::uint16_t>(c.z), static_cast<std::uint16_t>(voxel & 0x7FFF)});
+    });
+    scene.instances.push_back({.model = 0, .translation = model.size / 2});
+    scene.models.push_back(std::move(model));
+    scene.camera = bench.camera;
+    scene.camera->position.z = 0.3 * extent;
+    scene.camera->pitch_deg = -12.0;
+    scene.settings.size = size;
+    return scene;
+}
+
+Scene ao_file_scene(const std::filesystem::path& file, glm::ivec2 size) {
+    Scene scene = load_scene(file);
+    scene.settings.size = size;
+    if (!measure_scene(scene).has_voxels)
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: there is no voxel whose occlusion could be found", file.string()));
+    return scene;
+}
+
+AoStage::AoStage(Scene scene, Device& device)
+    : limits_(device.limits()),
+      scene_(std::move(scene)),
+      prepared_(prepare_scene(scene_, occlusion_request(1), limits_)),
+      executor_(device, pass_shaders()) {
+    seen_.camera = camera_of(scene_);
+    seen_.sky = scene_.sky;
+    Recording recording;
+    record_scene_upload(prepared_.plan, scene_, prepared_.march_world, prepared_.lights, recording);
+    executor_.run(recording);
+}
+
+RenderPlan AoStage::plan_of(const AoVariant& variant, std::uint32_t rays, int frames) {
+    RenderSettings& settings = scene_.settings;
+    settings.ao = variant.ao;
+    settings.sequence = variant.sequence;
+    settings.ao_rays = rays;
+    settings.spp = 1;
+    return plan_within_memory(scene_, prepared_.facts, prepared_.plan.world, occlusion_request(frames),
+                              limits_);
+}
+
+gpu::FrameParams AoStage::params_at(const RenderPlan& plan, Motion motion, int frame) {
+    const Camera start = *seen_.camera;
+    seen_.camera = moved_camera(start, motion, frame, plan.settings.size.y);
+    const gpu::FrameParams params = frame_params(plan, seen_, prepared_.march_world);
+    seen_.camera = start;
+    return params;
+}
+
+AoFootage AoStage::play(const AoTake& take) {
+    const RenderPlan plan = plan_of(take.variant, take.rays, take.frames);
+    const Slice whole{.row_count = static_cast<std::uint32_t>(plan.settings.size.y)};
+    const std::string openness = openness_buffer(plan);
+    AoFootage footage{.slots = plan.ao.slots};
+    FrameState state;
+    for (int frame = 1; frame <= take.frames; ++frame) {
+        const gpu::FrameParams params = params_at(plan, take.motion, frame);
+        const Stopwatch watch;
+        Recording recording;
+        record_frame(plan, whole, params, {0, state}, recording);
+        recording.readback("tally");
+        if (take.kept.contains(frame)) recording.readback(openness);
+        const RunResult result = executor_.run(recording);
+        footage.seconds.push_back(watch.elapsed());
+        footage.passes.push_back(occlusion_times(result));
+        const auto tally = values_of<gpu::uint>(result, "tally");
+        (frame == 1 ? footage.first : footage.rest).add(std::span(tally).first<gpu::kTallyCount>());
+        if (take.kept.contains(frame)) footage.openness[frame] = values_of<float>(result, openness);
+        state.finish_sample(params);
+        state.live_cells += std::uint64_t{tally[gpu::kWorkAoClaimed]} - tally[gpu::kWorkAoEvicted];
+        ++state.frames_done;
+    }
+    return footage;
+}
+
+AoReference AoStage::reference(Motion motion, int frame, Sequence sequence, std::uint32_t rays) {
+    const RenderPlan plan = plan_of({"reference", {.method = AoMethod::brute}, sequence}, rays, 1);
+    const gpu::FrameParams params = params_at(plan, motion, frame);
+    const auto width = static_cast<std::size_t>(plan.settings.size.x);
+    AoReference reference;
+    for (std::uint32_t row = 0; row < params.height; row += kStripPeriod) {
+        const Slice slice = strip_at(plan, row);
+        Recording recording;
+        const TracedStrip strip = record_strip(plan, slice, params, recording);
+        recording.readback(strip.hits, 0, pixels_of(plan, slice) * sizeof(gpu::Hit));
+        recording.readback(strip.openness, 0, pixels_of(plan, slice) * sizeof(float));
+        const RunResult result = executor_.run(recording);
+        const auto seen = values_of<gpu::Hit>(result, strip.hits);
+        const auto openness = values_of<float>(result, strip.openness);
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (seen[i].face >= gpu::kFaceInside) continue;
+            reference.pixels.push_back(row * width + i);
+            reference.openness.push_back(openness[i]);
+        }
+    }
+    return reference;
+}
+
+}  // namespace voxilux

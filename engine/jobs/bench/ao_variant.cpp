@@ -1,0 +1,74 @@
+#include "jobs/bench/ao_variant.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace voxilux {
+namespace {
+
+AoSettings hash() {
+    return {.method = AoMethod::hash};
+}
+
+template <class Value>
+AoSettings hash_with(Value AoSettings::*member, Value value) {
+    AoSettings ao = hash();
+    ao.*member = value;
+    return ao;
+}
+
+std::vector<AoVariant> make_variants() {
+    const AoSettings by_pixel = hash_with(&AoSettings::by_pixel, true);
+    std::vector<AoVariant> variants = {
+        {kAoBaseline, {.method = AoMethod::brute}},
+        {"hash", hash()},
+        {"reproject", hash_with(&AoSettings::reproject, std::optional(true))},
+        {"split", hash_with(&AoSettings::merged, std::optional(false))},
+        {"checkerboard", hash_with(&AoSettings::checkerboard, true)},
+        {"limit-4096", hash_with(&AoSettings::sample_limit, 4096u)},
+        {"px-5", hash_with(&AoSettings::cell_px, 5.0f)},
+        {"px-16", hash_with(&AoSettings::cell_px, 16.0f)},
+        {"cell-halton", hash(), Sequence::halton},
+        {"cell-white", hash(), Sequence::white},
+        {"pixel-sobol", by_pixel},
+        {"pixel-halton", by_pixel, Sequence::halton},
+        {"pixel-white", by_pixel, Sequence::white},
+    };
+    for (std::uint32_t i = 1; i <= 4; ++i)
+        variants.push_back({fmt::format("filter-{}", i), hash_with(&AoSettings::filter, i)});
+    return variants;
+}
+
+const AoVariant& variant_named(const std::string& name) {
+    const auto found = std::ranges::find(ao_variants(), name, &AoVariant::name);
+    if (found != ao_variants().end()) return *found;
+    std::vector<std::string> known;
+    for (const AoVariant& variant : ao_variants())
+        known.push_back(variant.name);
+    throw Error(ExitCode::usage, fmt::format("no variant '{}'; there are {}", name, fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+const std::vector<AoVariant>& ao_variants() {
+    static const std::vector<AoVariant> variants = make_variants();
+    return variants;
+}
+
+std::vector<AoVariant> ao_variants_named(std::span<const std::string> names) {
+    if (names.empty()) return ao_variants();
+    std::vector<AoVariant> variants;
+    for (const std::string& name : names) {
+        if (std::ranges::find(variants, name, &AoVariant::name) == variants.end())
+            variants.push_back(variant_named(name));
+    }
+    return variants;
+}
+
+bool sets_only_width(const AoVariant& variant) {
+    return variant.ao == hash_with(&AoSettings::cell_px, variant.ao.cell_px) &&
+           variant.sequence == Sequence::sobol;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,34 @@
+#pragma once
+
+// The rays that the benchmarks march.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "jobs/bench/bench_scene.h"
+#include "shared/gpu_types.h"
+#include "world/march_world.h"
+
+namespace voxilux {
+
+// primary: one through each pixel. ao: one cosine-distributed ray off each surface that those meet, 32 voxels
+// long. unbounded: the same without end.
+enum class RayKind : std::uint8_t { primary, ao, unbounded };
+inline constexpr std::array kRayKinds = {RayKind::primary, RayKind::ao, RayKind::unbounded};
+
+// "primary", "ao", "long".
+[[nodiscard]] std::string_view name_of(RayKind kind);
+
+// The kind of that name; Error(usage) with the known names when there is none.
+[[nodiscard]] RayKind ray_kind_named(std::string_view name);
+
+// The rays of a kind through a picture of `size` pixels, local to the world, in the order in which a render
+// marches them: tiles of 8 x 8 pixels, 64 in a row, the rows of tiles dealt alternately to the two halves of
+// the list. Only rays that exist are in it. `guide` is any structure of the scene's world.
+[[nodiscard]] std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guide, RayKind kind,
+                                               glm::ivec2 size, std::uint32_t seed);
+
+}  // namespace voxilux

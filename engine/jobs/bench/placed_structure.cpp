@@ -1,0 +1,159 @@
+#include "jobs/bench/placed_structure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.h"
+#include "passes/world.h"
+#include "shared/world_cell.h"
+#include "world/build_fields.h"
+
+namespace voxilux {
+namespace {
+
+std::string buffer_of(Traversal traversal, const char* part) {
+    return fmt::format("bench.{}.{}", name_of(traversal), part);
+}
+
+// A buffer has at least one word, also where a level of a structure has no cells.
+std::string declare(const std::string& name, std::uint64_t bytes, bool is_persistent, Recording& recording) {
+    recording.declare(
+        {.name = name, .size_bytes = std::max<std::uint64_t>(bytes, 4), .persistent = is_persistent});
+    return name;
+}
+
+WorldBuffers declare_structure(Traversal traversal, const StructureBytes& bytes, Recording& recording) {
+    return {.roots = declare(buffer_of(traversal, "roots"), bytes.roots, true, recording),
+            .nodes = declare(buffer_of(traversal, "nodes"), bytes.nodes, true, recording),
+            .leaves = declare(buffer_of(traversal, "leaves"), bytes.leaves, true, recording)};
+}
+
+void build_on_device(const MarchWorld& skeleton, Executor& executor) {
+    Recording recording;
+    const GrowthNeeds needs = growth_needs(skeleton);
+    WorldBuffers buffers = declare_structure(skeleton.traversal, bytes_of(skeleton), recording);
+    buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
+    buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
+    record_world_build(skeleton, needs, buffers, recording);
+    executor.run(recording);
+}
+
+// Builds a world of one voxel: compiles what builds the others.
+void warm_up(Traversal traversal, Executor& executor) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
+    world.set(glm::ivec3(8), 0);
+    build_on_device(build_march_skeleton(world, traversal), executor);
+}
+
+// Bytes that the structure takes even if all its bricks are equal: the paper's form stores those once.
+StructureBytes least_bytes(const VoxelWorld& world, Traversal traversal) {
+    StructureBytes least = predict_bytes(take_census(world), traversal);
+    if (traversal == Traversal::naadf) least.leaves = 0;
+    return least;
+}
+
+// Why the device cannot march the structure; empty when it can.
+std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
+    const auto mib = [](std::uint64_t count) { return static_cast<double>(count) / (1 << 20); };
+    const std::uint64_t most = max_world_array_bytes(limits);
+    for (const auto& [part, count] : {std::pair("roots", bytes.roots), std::pair("nodes", bytes.nodes),
+                                      std::pair("leaves", bytes.leaves)}) {
+        if (count > most) {
+            return fmt::format("its {} take {:.0f} MiB, the device allocates {:.0f} MiB at once", part,
+                               mib(count), mib(most));
+        }
+    }
+    return "";
+}
+
+void upload(const MarchWorld& built, Executor& executor) {
+    Recording recording;
+    const WorldBuffers buffers = declare_structure(built.traversal, bytes_of(built), recording);
+    const auto upload_words = [&](const std::string& buffer, const std::vector<std::uint32_t>& words) {
+        if (!words.empty()) recording.upload(buffer, std::as_bytes(std::span(words)));
+    };
+    upload_words(buffers.roots, built.roots);
+    upload_words(buffers.nodes, built.nodes);
+    upload_words(buffers.leaves, built.leaves);
+    executor.run(recording);
+}
+
+bool is_on_device(const std::string& buffer, const std::vector<std::uint32_t>& words, Executor& executor) {
+    if (words.empty()) return true;
+    Recording recording;
+    recording.readback(declare(buffer, 4 * words.size(), true, recording));
+    const RunResult result = executor.run(recording);
+    return std::memcmp(result.readbacks.at(buffer).data(), words.data(), 4 * words.size()) == 0;
+}
+
+void compare_builds(const MarchWorld& built, Executor& executor) {
+    if (!is_on_device(buffer_of(built.traversal, "roots"), built.roots, executor) ||
+        !is_on_device(buffer_of(built.traversal, "nodes"), built.nodes, executor) ||
+        !is_on_device(buffer_of(built.traversal, "leaves"), built.leaves, executor)) {
+        throw InternalError(fmt::format("internal error: the device builds another '{}' than the CPU",
+                                        name_of(built.traversal)));
+    }
+}
+
+// Sets the size and the reason; returns whether there is none.
+bool is_fit(PlacedStructure& placed, const MarchWorld& built, const DeviceLimits& limits) {
+    placed.bytes = bytes_of(built);
+    placed.reason = misfit(placed.bytes, limits);
+    return placed.reason.empty();
+}
+
+void place_from_device(PlacedStructure& placed, const VoxelWorld& world, const DeviceLimits& limits,
+                       Executor& executor) {
+    warm_up(placed.traversal, executor);
+    const Stopwatch watch;
+    const MarchWorld skeleton = build_march_skeleton(world, placed.traversal);
+    if (!is_fit(placed, skeleton, limits)) return;
+    build_on_device(skeleton, executor);
+    placed.device_build = watch.elapsed();
+}
+
+void place_from_cpu(PlacedStructure& placed, const VoxelWorld& world, const DeviceLimits& limits,
+                    Executor& executor) {
+    const Stopwatch watch;
+    const MarchWorld built = build_march_world(world, placed.traversal);
+    placed.cpu_build = watch.elapsed().cpu;
+    if (!is_fit(placed, built, limits)) return;
+    if (placed.device_build)
+        compare_builds(built, executor);
+    else
+        upload(built, executor);
+}
+
+}  // namespace
+
+Builder builder_named(std::string_view name) {
+    if (name == "cpu") return Builder::cpu;
+    if (name == "device") return Builder::device;
+    if (name == "both") return Builder::both;
+    throw Error(ExitCode::usage, fmt::format("--build: '{}' is not cpu, device or both", name));
+}
+
+PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Builder builder,
+                                const DeviceLimits& limits, Executor& executor) {
+    PlacedStructure placed{.traversal = traversal,
+                           .chunks = world.chunks(),
+                           .reason = misfit(least_bytes(world, traversal), limits)};
+    if (!placed.reason.empty()) return placed;
+    try {
+        if (builder != Builder::cpu) place_from_device(placed, world, limits, executor);
+        if (builder != Builder::device) place_from_cpu(placed, world, limits, executor);
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::out_of_memory) throw;
+        placed.reason = error.what();
+    }
+    return placed;
+}
+
+void point_to_structure(const PlacedStructure& structure, Recording& recording, Dispatch& dispatch) {
+    const WorldBuffers buffers = declare_structure(structure.traversal, structure.bytes, recording);
+    point_to_world(structure.traversal, buffers, dispatch);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,40 @@
+#pragma once
+
+// Structures of one world on the device, in buffers of their own.
+
+#include <optional>
+#include <string>
+
+#include "jobs/bench/stopwatch.h"
+#include "record/recording.h"
+#include "vk/executor.h"
+#include "world/structure_bytes.h"
+
+namespace voxilux {
+
+// What builds a structure: one thread of the CPU, the device, or both for a comparison of the bits.
+enum class Builder : std::uint8_t { cpu, device, both };
+
+// The builder of that name; Error(usage) with the known names when there is none.
+[[nodiscard]] Builder builder_named(std::string_view name);
+
+struct PlacedStructure {
+    Traversal traversal;
+    StructureBytes bytes;
+    glm::ivec3 chunks{0};
+    std::optional<double> cpu_build;  // seconds of build_march_world
+    std::optional<Seconds>
+        device_build;    // from the voxels to the structure on the device, without compilation
+    std::string reason;  // why it is not on the device; empty when it is
+};
+
+// Builds a structure of the world and puts it into persistent buffers. When both builders differ in a bit:
+// InternalError. What the device cannot hold has a reason instead, found before building where the size is
+// certain.
+[[nodiscard]] PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Builder builder,
+                                              const DeviceLimits& limits, Executor& executor);
+
+// Declares the buffers of a structure in a recording and lets a dispatch march through it.
+void point_to_structure(const PlacedStructure& structure, Recording& recording, Dispatch& dispatch);
+
+}  // namespace voxilux

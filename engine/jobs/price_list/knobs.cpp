@@ -1,0 +1,232 @@
+#include "jobs/price_list/knobs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "world/march_world.h"
+
+namespace voxilux {
+namespace {
+
+// Adds ways that differ from the first in one thing.
+class Designer {
+  public:
+    explicit Designer(const Way& base) { design_.ways.push_back(base); }
+
+    void begin(Knob knob) { design_.knobs.push_back(std::move(knob)); }
+
+    // A way that is there already is used again.
+    void add(const std::string& name, const std::function<void(Way&)>& change) {
+        Way way = design_.ways.front();
+        change(way);
+        const auto known = std::ranges::find(design_.ways, way);
+        const auto index = static_cast<std::size_t>(known - design_.ways.begin());
+        if (known == design_.ways.end()) design_.ways.push_back(way);
+        std::vector<KnobSetting>& settings = design_.knobs.back().settings;
+        if (std::ranges::find(settings, index, &KnobSetting::way) == settings.end())
+            settings.push_back({name, index});
+    }
+
+    void fix(FixedChoice choice) { design_.fixed.push_back(std::move(choice)); }
+
+    [[nodiscard]] const Way& base() const { return design_.ways.front(); }
+
+    // Knobs with one setting have nothing to compare.
+    [[nodiscard]] KnobDesign result() {
+        std::erase_if(design_.knobs,
+                      [](const Knob& knob) { return knob.name != "samples" && knob.settings.size() < 2; });
+        return std::move(design_);
+    }
+
+  private:
+    KnobDesign design_;
+};
+
+void design_sequence(Designer& designer) {
+    designer.begin({.name = "sequence",
+                    .label = "sequence",
+                    .axis = "sequence of sample points",
+                    .why = "Points that are spread more evenly than random ones leave less noise."});
+    designer.add("sobol", [](Way& way) { way.settings.sequence = Sequence::sobol; });
+    designer.add("halton", [](Way& way) { way.settings.sequence = Sequence::halton; });
+    designer.add("white", [](Way& way) { way.settings.sequence = Sequence::white; });
+}
+
+void design_traversal(const RenderPlan& plan, Designer& designer) {
+    designer.begin({.name = "traversal",
+                    .label = "traversal",
+                    .axis = "structure that rays march through",
+                    .why = "All structures find the same cells, so that only time and memory differ."});
+    for (std::size_t i = 0; i < kTraversalCount; ++i) {
+        const auto traversal = static_cast<Traversal>(i);
+        designer.add(std::string(name_of(traversal)), [&](Way& way) {
+            if (traversal != plan.world.traversal) way.traversal = traversal;
+        });
+    }
+}
+
+void design_occlusion(const RenderPlan& plan, Designer& designer) {
+    const AoMethod planned = plan.ao.method;
+    designer.begin({.name = "ao",
+                    .label = "occlusion",
+                    .axis = "way of finding occlusion",
+                    .why =
+                        "Pixels trace occlusion alone, or share samples in cells of the surface, which trade "
+                        "noise for blur."});
+    const auto method = [&](AoMethod wanted) {
+        return [planned, wanted](Way& way) {
+            if (planned != wanted) way.settings.ao.method = wanted;
+        };
+    };
+    designer.add("brute", method(AoMethod::brute));
+    designer.add("hash", method(AoMethod::hash));
+
+    designer.begin({.name = "ao_cell",
+                    .label = "occlusion cells",
+                    .axis = "width of a shared cell, pixels",
+                    .why = "Wider cells share more samples and blur more."});
+    const float usual = designer.base().settings.ao.cell_px;
+    for (const float factor : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
+        designer.add(fmt::format("{:g} px", factor * usual), [&](Way& way) {
+            method(AoMethod::hash)(way);
+            way.settings.ao.cell_px = factor * usual;
+        });
+    }
+
+    designer.begin({.name = "ao_rays",
+                    .label = "occlusion rays",
+                    .axis = "occlusion rays per sample",
+                    .why = "The share of the sky that a point sees is a mean over so many rays."});
+    const std::uint32_t rays = designer.base().settings.ao_rays;
+    for (const std::uint32_t factor : {1u, 2u, 4u, 8u})
+        designer.add(fmt::format("{}", factor * rays),
+                     [&](Way& way) { way.settings.ao_rays = factor * rays; });
+}
+
+std::string photon_method(const PhotonSettings& photons) {
+    if (photons.classic) return "classic";
+    return photons.scatter ? "scatter" : "gather";
+}
+
+void set_photon_method(const std::string& method, PhotonSettings& photons) {
+    photons.classic = method == "classic";
+    photons.scatter = method == "scatter";
+}
+
+void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
+    designer.begin({.name = "photons",
+                    .label = "photons",
+                    .axis = "photons per iteration",
+                    .why = "More photons in each iteration leave less noise for the same radius."});
+    const double count = plan.photons.count();
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        const double wanted =
+            std::clamp(std::round(factor * count), 1.0, static_cast<double>(PhotonSettings::kMostCount));
+        const auto photons = static_cast<std::uint32_t>(wanted);
+        designer.add(fmt::format("{}", photons), [&](Way& way) {
+            if (photons != plan.photons.count()) way.settings.photons.count = photons;
+        });
+    }
+    designer.begin({.name = "radius",
+                    .label = "photon radius",
+                    .axis = "radius of the first iteration, voxels",
+                    .why = "Light is averaged over a disc: a wide one blurs, a narrow one is noisy."});
+    const double radius = plan.photons.radius;
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        designer.add(fmt::format("{:.3g}", factor * radius),
+                     [&](Way& way) { way.settings.photons.radius = factor * radius; });
+    }
+    designer.begin(
+        {.name = "alpha",
+         .label = "photon alpha",
+         .axis = "exponent of the radius' decline",
+         .why = "The smaller alpha, the faster the discs shrink: less blur in the end, more noise."});
+    const double alpha = designer.base().settings.photons.alpha;
+    for (const double value : {0.5, alpha, 0.8, 1.0})
+        designer.add(fmt::format("{:.3g}", value), [&](Way& way) { way.settings.photons.alpha = value; });
+}
+
+void design_photon_methods(Designer& designer) {
+    designer.begin({.name = "gather",
+                    .label = "photon search",
+                    .axis = "who looks for whom",
+                    .why = "Points gather photons or photons scatter to points, to the same pixels; classic "
+                           "gives each pixel a radius of its own."});
+    const std::string planned = photon_method(designer.base().settings.photons);
+    for (const char* method : {"gather", "scatter", "classic"}) {
+        designer.add(method, [&](Way& way) {
+            if (method != planned) set_photon_method(method, way.settings.photons);
+        });
+    }
+    designer.begin({.name = "paths",
+                    .label = "photon paths",
+                    .axis = "what ends a path",
+                    .why = "Chance ends paths without bias; a depth that is too small loses light."});
+    const auto cut = [](std::uint32_t depth) {
+        return [depth](Way& way) {
+            way.settings.photons.roulette = false;
+            way.settings.photons.depth = depth;
+        };
+    };
+    designer.add("roulette", [](Way& way) { way.settings.photons.roulette = true; });
+    designer.add("depth 2", cut(2));
+    designer.add("depth 8", cut(8));
+}
+
+void design_estimate(const RenderPlan& plan, Designer& designer) {
+    if (!plan.has_independent_samples()) {
+        designer.fix({"error estimate", "from two halves",
+                      "squares of samples tell an error only where samples are independent: white noise or "
+                      "photons"});
+        return;
+    }
+    designer.begin({.name = "estimate",
+                    .label = "error estimate",
+                    .axis = "what the render sums of its samples",
+                    .why =
+                        "Sums of squares, and of the bias of photons, tell the error more exactly than two "
+                        "halves; they change no pixel."});
+    designer.add("halves", [](Way&) {});
+    designer.add("squares", [](Way& way) { way.request.wants_error = true; });
+}
+
+void name_fixed(const RenderPlan& plan, Designer& designer) {
+    designer.fix(
+        {"film sums", "64-bit whole numbers, 24 fraction bits",
+         "exact whatever the order and the number of samples: there are no float or compensated sums to "
+         "choose"});
+    designer.fix({"pixel filter", "box of one pixel",
+                  "a sample counts for the pixel that it falls in, and for no other one"});
+    if (!plan.has(Effect::voxels)) return;
+    designer.fix({"beams", "on",
+                  "rays of a tile share the way to the first voxel that any of them can meet; "
+                  "what they hit is the same"});
+}
+
+}  // namespace
+
+KnobDesign design_knobs(const RenderPlan& plan, const Way& base) {
+    Designer designer(base);
+    designer.begin({.name = "samples",
+                    .label = "samples",
+                    .axis = plan.has_photons() ? "iterations: samples per pixel" : "samples per pixel",
+                    .why = "A pixel is a mean over so many samples; their noise falls with the root of their "
+                           "number."});
+    design_sequence(designer);
+    if (plan.has(Effect::voxels)) design_traversal(plan, designer);
+    if (plan.has(Effect::ao)) design_occlusion(plan, designer);
+    if (plan.has_photons()) {
+        design_photon_numbers(plan, designer);
+        design_photon_methods(designer);
+    }
+    design_estimate(plan, designer);
+    name_fixed(plan, designer);
+    return designer.result();
+}
+
+}  // namespace voxilux

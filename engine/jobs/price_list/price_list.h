@@ -1,0 +1,75 @@
+#pragma once
+
+// What was measured, and what it says.
+
+#include <string>
+#include <vector>
+
+#include "jobs/effect_price.h"
+#include "jobs/price_list/equal_rows.h"
+#include "jobs/price_list/measure.h"
+#include "jobs/price_list/reference.h"
+#include "jobs/price_list/slope.h"
+
+namespace voxilux {
+
+// All that was measured.
+struct PriceList {
+    std::string scene;  // as named on the command line
+    std::uint64_t scene_hash = 0;
+    std::uint32_t seed = 0;
+    DeviceInfo device;
+    std::size_t repeats = 0;
+    double wall_s = 0.0;
+    Reference reference;
+    KnobDesign design;
+    std::vector<MeasuredWay> ways;
+    std::uint32_t asked = 0;  // samples per pixel
+    std::uint32_t top = 0;    // at which most ways are compared; below `asked` where time was short
+    std::vector<EffectPrice> effects;
+    EqualRow equal_time;
+    EqualRow equal_error;
+};
+
+// One mark of the price list: a setting of a knob at a number of samples.
+struct PricedRun {
+    std::string id;
+    std::size_t knob = 0;  // in the design
+    std::string setting;
+    std::size_t way = 0;
+    std::size_t level = 0;  // of the way
+    bool is_default = false;
+};
+
+// The runs in the order of the knobs, each knob's cheapest first: of the knob `samples` every level of way 0,
+// of other settings the level with `top` samples or the last.
+[[nodiscard]] std::vector<PricedRun> list_runs(const PriceList& list);
+
+// The exponent of error against time of all pictures of a way that the reference can judge.
+[[nodiscard]] std::optional<Slope> slope_of(const MeasuredWay& way);
+
+// The exponent of error against samples, which does not depend on the machine.
+[[nodiscard]] std::optional<Slope> slope_of_samples(const MeasuredWay& way);
+
+// A line for each way and number of samples, under a line of names.
+[[nodiscard]] std::string to_csv(const PriceList& list);
+
+// A summary for people: knobs with slopes, and the front.
+[[nodiscard]] std::string describe(const PriceList& list);
+
+// The runs that none beats in both time and error, fastest first.
+[[nodiscard]] std::vector<PricedRun> front_of(const PriceList& list, const std::vector<PricedRun>& runs);
+
+[[nodiscard]] const Level& level_of(const PriceList& list, const PricedRun& run);
+
+// The run that a picture of a row is a variant of; the first picture of a row is that of way 0.
+[[nodiscard]] const PricedRun& run_of(const PriceList& list, const std::vector<PricedRun>& runs,
+                                      const EqualPicture& picture, bool is_first);
+
+// Files of pictures below the folder of a price list: of a run, of a row's picture, and of what a picture
+// lacks.
+[[nodiscard]] std::string picture_of_run(const PricedRun& run);
+[[nodiscard]] std::string file_of_row(const char* row, const std::string& id);
+[[nodiscard]] std::string difference_of(std::string picture);
+
+}  // namespace voxilux

@@ -1,0 +1,170 @@
+#include "jobs/price_list/reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "estimators/film_error.h"
+#include "film/film_sums.h"
+#include "frame/footprint.h"
+#include "jobs/price_list/measure.h"
+#include "jobs/price_list/reference_cache.h"
+#include "scene/scene_hash.h"
+
+namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of the two halves. No other render of the price list is likely to have one of them.
+constexpr std::array<std::uint32_t, 2> kSeeds = {0x52456641, 0x52456642};
+// The radius of photons against that of the scene: their bias falls with its square. As many more photons
+// keep the noise.
+constexpr double kRadiusShare = 0.5;
+constexpr std::uint32_t kPhotonFactor = 4;
+
+// A half ends when it has taken so many times the time that was expected: the machine has got other work.
+constexpr double kPatience = 1.3;
+// That tell how long one takes.
+constexpr std::uint32_t kTimedSamples = 4;
+
+// Both halves as one film, half a of it being the first.
+FilmSums joined(FilmSums a, FilmSums b) {
+    const auto collapse = [](FilmSums& film, const std::string& plane) {
+        std::vector<std::int64_t>& sums = film.sums.at(plane + "_a");
+        const std::vector<std::int64_t>& others = film.sums.at(plane + "_b");
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += others[i];
+    };
+    FilmSums film{.width = a.width, .height = a.height};
+    for (const std::string plane : {"beauty", "bias"}) {
+        if (!a.sums.contains(plane + "_a")) continue;
+        collapse(a, plane);
+        collapse(b, plane);
+        film.sums[plane + "_a"] = std::move(a.sums.at(plane + "_a"));
+        film.sums[plane + "_b"] = std::move(b.sums.at(plane + "_a"));
+    }
+    for (std::size_t row = 0; row < a.even.size(); ++row) {
+        film.even.push_back(a.even[row] + a.odd[row]);
+        film.odd.push_back(b.even[row] + b.odd[row]);
+    }
+    return film;
+}
+
+Json facts_of(const Reference& reference) {
+    const ErrorEstimate& error = reference.error;
+    Json facts = {{"samples", reference.samples},
+                  {"time_s", reference.time_s},
+                  {"estimate", error.estimate},
+                  {"low", error.low}};
+    facts["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
+    facts["noise"] = error.noise.value_or(error.estimate);
+    facts["bias"] = error.bias ? Json(*error.bias) : Json(nullptr);
+    return facts;
+}
+
+std::optional<Reference> from_cache(const ReferenceJob& job, const std::string& key, glm::ivec2 size) {
+    std::optional<CachedPicture> cached = load_cached(job.cache, key, size.x, size.y);
+    if (!cached) return {};
+    try {
+        const Json& facts = cached->facts;
+        Reference reference{.image = std::move(cached->image),
+                            .samples = facts.at("samples"),
+                            .time_s = facts.at("time_s"),
+                            .is_cached = true};
+        reference.error.estimate = facts.at("estimate");
+        reference.error.low = facts.at("low");
+        reference.error.high = facts.at("high").is_null() ? std::numeric_limits<double>::infinity()
+                                                          : facts.at("high").get<double>();
+        if (!facts.at("bias").is_null()) {
+            reference.error.noise = facts.at("noise");
+            reference.error.bias = facts.at("bias");
+        }
+        return reference;
+    } catch (const Json::exception&) {
+        return {};
+    }
+}
+
+// All that the picture depends on but for the number of samples.
+std::string key_of(const RenderSession& session, const RenderPlan& plan) {
+    return cache_key(fmt::format("{} {:016x} {}", VX_VERSION, sample_hash(session.scene()), describe(plan)));
+}
+
+// kPhotonFactor times the photons of the scene, or as many as fit the device.
+std::uint32_t most_photons(RenderSession& session, const ReferenceJob& job, Way way, std::uint32_t planned) {
+    for (std::uint32_t factor = kPhotonFactor; factor > 1; factor /= 2) {
+        if (planned > PhotonSettings::kMostCount / factor) continue;
+        way.settings.photons.count = factor * planned;
+        try {
+            (void)measure_once(session, {.way = way, .frame = job.frame, .seed = kSeeds[0]});
+            return way.settings.photons.count;
+        } catch (const Error& error) {
+            if (error.code() != ExitCode::input_refused && error.code() != ExitCode::out_of_memory) throw;
+        }
+    }
+    return planned;
+}
+
+}  // namespace
+
+ReferenceNoise Reference::noise() const {
+    const double square = std::pow(error.noise.value_or(error.estimate), 2.0);
+    // The interval is that of noise and bias together, and symmetric in the logarithm.
+    const double ratio = error.estimate > 0.0 ? error.low / error.estimate : 1.0;
+    const double spread = std::max(ratio, 0.1);
+    return {.square = square, .low = square * spread * spread, .high = square / (spread * spread)};
+}
+
+RenderSettings reference_settings(const Way& base, bool has_photons) {
+    RenderSettings settings = base.settings;
+    settings.ao.method = AoMethod::brute;
+    if (!has_photons) return settings;
+    PhotonSettings& photons = settings.photons;
+    photons.classic = false;
+    photons.scatter = false;
+    photons.roulette = true;
+    photons.radius = kRadiusShare * photons.radius.value_or(1.0);
+    return settings;
+}
+
+Reference make_reference(RenderSession& session, const ReferenceJob& job) {
+    PlanRequest request = job.base.request;
+    request.wants_error = true;
+    Measured first =
+        measure_once(session, {.way = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
+    const bool has_photons = first.outcome.plan.has_photons();
+    Way way{.settings = reference_settings(job.base, has_photons), .request = request};
+    if (has_photons)
+        way.settings.photons.count = most_photons(session, job, way, first.outcome.plan.photons.count());
+    const auto half = [&](std::size_t which, std::uint32_t samples) {
+        return measure_once(session, {.way = way,
+                                      .frame = job.frame,
+                                      .seed = kSeeds[which],
+                                      .samples = samples,
+                                      .time_limit_s = kPatience * job.budget_s / 2.0});
+    };
+    first = half(0, 1);
+    const double per_sample_s = std::max(half(0, kTimedSamples).time_s / kTimedSamples, 1e-9);
+    const double wanted = std::min<double>(job.most_samples, job.budget_s / per_sample_s);
+    const auto samples = static_cast<std::uint32_t>(std::max(wanted / 2.0, 1.0));
+    const std::string key = key_of(session, first.outcome.plan);
+    std::optional<Reference> cached = from_cache(job, key, first.outcome.plan.settings.size);
+    if (cached && cached->samples >= samples) {
+        cached->settings = settings_json(way, first.outcome.plan, cached->samples);
+        return std::move(*cached);
+    }
+    Measured a = half(0, samples), b = half(1, samples);
+    const RenderPlan plan = a.outcome.plan;
+    const std::uint32_t taken = a.outcome.statistics.samples + b.outcome.statistics.samples;
+    const FilmSums film = joined(std::move(*a.outcome.film), std::move(*b.outcome.film));
+    Reference reference{.image = colours_of(picture_of(film)),
+                        .samples = taken,
+                        .time_s = a.time_s + b.time_s,
+                        .error = error_of(film),
+                        .settings = settings_json(way, plan, taken)};
+    (void)store_cached(job.cache, key, {reference.image, facts_of(reference)});
+    return reference;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,197 @@
+#pragma once
+
+// The settings of a scene as rows: name, what is allowed, what it means, and the member that holds it. Scene
+// files and -D are read, flags checked, scenes hashed and the tables of scenes/README.md written from these
+// rows. Each list of rows starts by naming every member of its struct, so that one without a row does not
+// compile unnoticed.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/assert.h"
+#include "scene/camera_settings.h"
+#include "scene/scene.h"
+#include "scene/scene_bounds.h"
+#include "scene/vox_animation.h"
+
+namespace voxilux {
+
+// Allowed values of a number; infinities and NaN never are.
+struct Range {
+    double low = 0.0;
+    double high = 0.0;
+    bool open_low = false;
+    bool open_high = false;
+
+    [[nodiscard]] bool holds(double value) const;
+};
+
+// "(0, 180)": round where the end itself is not allowed.
+[[nodiscard]] std::string to_string(Range range);
+
+constexpr Range above(double low, double high) {
+    return {low, high, true, false};
+}
+constexpr Range below(double low, double high) {
+    return {low, high, false, true};
+}
+constexpr Range between(double low, double high) {
+    return {low, high, true, true};
+}
+
+inline constexpr Range kWhole{0, 4294967295};
+inline constexpr Range kLight{0,
+                              1e6};  // radiance, irradiance: far above any sun, and its square fits a float
+inline constexpr Range kTurn{-3600, 3600};  // degrees: ten turns, for the sake of animations
+inline constexpr Range kPitch{-90, 90};     // degrees
+inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
+inline constexpr Range kReach{-kMaxCoordinate / 2,
+                              kMaxCoordinate / 2};  // so that the sum of two is in kPlace
+
+// One row. A number is in `range`; what has `choices` is written as one of these names, in the order of the
+// values.
+struct Setting {
+    std::string_view name;
+    Range range;
+    std::string_view sentence;
+    std::span<const std::string_view> choices;
+    bool is_required = false;
+};
+
+[[nodiscard]] constexpr Setting required(Setting setting) {
+    setting.is_required = true;
+    return setting;
+}
+
+// Another way to write a colour, as "#rrggbb" in sRGB; excludes the key `linear_key`, which gives it in
+// linear numbers.
+struct HexColour {
+    glm::vec3& linear;
+    std::string_view linear_key;
+};
+
+// visit_settings(settings, visit) calls visit(const Setting&, member) for each row of a section.
+
+void visit_settings(RenderSettings& settings, auto&& visit) {
+    auto& [size, spp, ao_rays, ao_radius, seed, sequence, ao, photons] = settings;  // these two are sections
+    visit({"size", {1, 65535}, "width and height, pixels"}, size);
+    visit({"spp", {1, 4294967295}, "samples per pixel"}, spp);
+    visit({"ao_rays", {1, 65535}, "occlusion rays per sample"}, ao_rays);
+    visit({"ao_radius", above(0, 65536), "reach of occlusion rays, voxels"}, ao_radius);
+    visit({"seed", kWhole, "of every random stream"}, seed);
+    visit({"sequence", {}, "sample sequence", kSequenceNames}, sequence);
+}
+
+void visit_settings(AoSettings& settings, auto&& visit) {
+    auto& [method, cell_px, reproject, merged, checkerboard, by_pixel, filter, sample_limit, slots] =
+        settings;
+    visit({"method", {}, "see Occlusion", kAoMethodNames}, method);
+    visit({"cell_px", above(0, 4096), "largest width of a cell, pixels"}, cell_px);
+    visit({"reproject", {}, "look first where the last sample saw the cell; absent: on GPUs"}, reproject);
+    visit({"merged", {}, "search and sample in one pass; absent: on CPUs"}, merged);
+    visit({"checkerboard", {}, "every other pixel takes samples"}, checkerboard);
+    visit({"sampling", {}, "whose points and sequence rays take", kAoSamplingNames}, by_pixel);
+    visit({"filter", {0, 4}, "iterations of a smoothing filter"}, filter);
+    visit({"sample_limit", kWhole, "a cell takes no more samples; 0: no limit"}, sample_limit);
+    visit({"slots", {0, 1 << 24}, "of the table, a power of two; 0: the plan chooses"}, slots);
+}
+
+void visit_settings(PhotonSettings& settings, auto&& visit) {
+    auto& [count, radius, alpha, scatter, classic, roulette, depth] = settings;
+    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one per pixel, but at least 16384"},
+          count);
+    visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
+    visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
+    visit({"scatter", {}, "photons look for points: the same sums, slower"}, scatter);
+    visit({"classic", {}, "a radius for each pixel, which shrinks as photons arrive"}, classic);
+    visit({"roulette", {}, "chance ends paths, without bias; false: `depth` does"}, roulette);
+    visit({"depth", {1, 4096}, "surfaces on a path without roulette"}, depth);
+}
+
+void visit_settings(Sun& sun, auto&& visit) {
+    auto& [azimuth_deg, elevation_deg, angular_diameter_deg, irradiance, on] = sun;
+    visit({"azimuth", kTurn, "degrees counter-clockwise from +x, seen from above"}, azimuth_deg);
+    visit({"elevation", kPitch, "degrees above the horizon"}, elevation_deg);
+    visit({"angular_diameter", below(0, 180), "degrees; 0 gives hard shadows"}, angular_diameter_deg);
+    visit({"irradiance", kLight, "on a surface that faces the sun"}, irradiance);
+    visit({"on", {}, "whether it shines"}, on);
+}
+
+void visit_settings(Sky& sky, auto&& visit) {
+    auto& [radiance] = sky;
+    visit({"radiance", kLight, "the same from every direction"}, radiance);
+    visit({"color", {}, "the same in sRGB"}, HexColour{radiance, "radiance"});
+}
+
+void visit_settings(CameraPlacement& placement, auto&& visit) {
+    auto& [position, look_at, yaw_deg, pitch_deg, fov_y_deg] = placement;
+    visit({"position", kPlace, "of the pinhole"}, position);
+    visit({"look_at", kPlace, "the point in the middle of the image"}, look_at);
+    visit({"yaw", kTurn, "instead: degrees counter-clockwise from +x, seen from above"}, yaw_deg);
+    visit({"pitch", kPitch, "with it: degrees above the horizon"}, pitch_deg);
+    visit({"fov", between(0, 180), "vertical, degrees"}, fov_y_deg);
+}
+
+void visit_settings(CameraSettings& settings, auto&& visit) {
+    auto& [placement, preset, path] = settings;
+    visit_settings(placement, visit);
+    visit({"preset", {}, "instead of a position: frames the whole scene", kViewNames}, preset);
+    visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
+}
+
+void visit_settings(CameraKeySettings& settings, auto&& visit) {
+    auto& [frame, placement] = settings;
+    visit(required({"frame", {0, kMaxFrame}, "when the camera is there"}), frame);
+    visit_settings(placement, visit);
+}
+
+void visit_settings(Turntable& turntable, auto&& visit) {
+    auto& [frames, degrees, start_deg] = turntable;
+    visit(required({"frames", {1, kMaxFrame}, "of one turn"}), frames);
+    visit({"degrees", kTurn, "of one turn; negative goes clockwise"}, degrees);
+    visit({"start", kTurn, "degrees at frame 1"}, start_deg);
+}
+
+void visit_settings(Material& material, auto&& visit) {
+    // Metallic and transmission follow from the surface. Nothing transparent refracts more than germanium, 4.
+    auto& [name, albedo, emission, surface, roughness, ior, metallic, transmission] = material;
+    visit({"color", {}, "albedo in sRGB"}, HexColour{albedo, "albedo"});
+    visit({"albedo", {0, 1}, "share of light that is reflected, linear"}, albedo);
+    visit({"surface", {}, "how light leaves it", kSurfaceNames}, surface);
+    visit({"emission", kLight, "radiance; makes the surface `emit` unless it says otherwise"}, emission);
+    visit({"roughness", {0, 1}, "0 for metal and glass that name none"}, roughness);
+    visit({"ior", {1, 4}, "index of refraction of glass"}, ior);
+}
+
+void visit_settings(Sphere& sphere, auto&& visit) {
+    auto& [centre, radius, material] = sphere;  // materials are found by name
+    visit(required({"center", kReach, "of the sphere"}), centre);
+    visit(required({"radius", above(0, kReach.high), "voxels"}), radius);
+}
+
+// Calls visit(name, settings) for the sections of which a scene file has at most one, but for [camera]: that
+// one is no part of the scene, which keeps the camera it leads to.
+void visit_sections(auto& scene, auto&& visit) {
+    visit("render", scene.settings);
+    visit("ao", scene.settings.ao);
+    visit("photons", scene.settings.photons);
+    visit("sun", scene.sun);
+    visit("sky", scene.sky);
+}
+
+// The row of a name.
+template <class Settings>
+[[nodiscard]] Setting setting_of(std::string_view name) {
+    Settings settings;
+    Setting found;
+    visit_settings(settings, [&](const Setting& row, auto&&) {
+        if (row.name == name) found = row;
+    });
+    VX_ASSERT(!found.name.empty());
+    return found;
+}
+
+}  // namespace voxilux
