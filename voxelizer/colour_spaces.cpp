@@ -3,20 +3,13 @@
 #include <array>
 #include <cmath>
 
-#include "scene/colour.h"
+#include "base/colour.h"
 #include "voxelizer/linear_to_srgb.h"
 
 namespace voxilux {
 namespace {
 
-std::array<float, 256> make_linear() {
-    std::array<float, 256> linear;
-    for (std::size_t i = 0; i < linear.size(); ++i)
-        linear[i] = linear_from_srgb(static_cast<std::uint8_t>(i));
-    return linear;
-}
-
-const std::array<float, 256> kLinear = make_linear();
+const std::array<float, 256> kLinear = decoded_srgb_codes();
 
 // Between the bytes by straight lines: for means of bytes that are close to each other.
 float linear_at(float srgb) {

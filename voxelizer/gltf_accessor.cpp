@@ -73,7 +73,7 @@ struct ElementType {
 };
 
 // A block of elements as the model gives it, and what to call it in messages.
-struct Block {
+struct ByteBlock {
     std::string name;
     int view = -1;
     std::uint64_t offset = 0;
@@ -81,7 +81,7 @@ struct Block {
 
 // `count` elements of a block. Products stay below 2^64: counts, offsets and strides are held against the
 // view before they are multiplied.
-Elements locate(const GltfDocument& document, const Block& block, const ElementType& type,
+Elements locate(const GltfDocument& document, const ByteBlock& block, const ElementType& type,
                 std::uint64_t count) {
     const auto& views = document.model.bufferViews;
     const auto view = checked_index(block.view, views.size(), block.name + ".bufferView", "bufferViews");

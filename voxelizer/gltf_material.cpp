@@ -30,7 +30,7 @@ const Value* find_extension(const tinygltf::ExtensionMap& extensions, const char
     return found == extensions.end() ? nullptr : &found->second;
 }
 
-double number_in(const Value* object, const char* key, double fallback) {
+double factor_in(const Value* object, const char* key, double fallback) {
     const Value* value = find_in(object, key);
     return value != nullptr && value->IsNumber() ? value->GetNumberAsDouble() : fallback;
 }
@@ -115,7 +115,7 @@ std::optional<std::uint32_t> add_texture(Reader& reader, const TextureKey& key) 
 glm::dmat3 texture_transform(const Value* transform) {
     const std::vector<double> offset = numbers_in(transform, "offset", {0, 0});
     const std::vector<double> scale = numbers_in(transform, "scale", {1, 1});
-    const double angle = number_in(transform, "rotation", 0.0);
+    const double angle = factor_in(transform, "rotation", 0.0);
     const double c = std::cos(angle), s = std::sin(angle);
     return {glm::dvec3(c * scale[0], -s * scale[0], 0.0), glm::dvec3(s * scale[1], c * scale[1], 0.0),
             glm::dvec3(offset[0], offset[1], 1.0)};
@@ -192,20 +192,20 @@ void read_metallic_roughness(Reader& reader, const Item& item, const MaterialUse
                                                                name + ".metallicRoughnessTexture", use);
 }
 
-constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kSpecularGlossinessName = "KHR_materials_pbrSpecularGlossiness";
 
 // Its diffuse part is the base colour of a material without metal; the specular colour has no place in a
 // voxel.
 void read_specular_glossiness(Reader& reader, const Item& item, const MaterialUse& use,
                               MeshMaterial& material) {
-    const Value* old = find_extension(item.material.extensions, kSpecularGlossiness);
-    const std::string name = fmt::format("{}.extensions.{}", item.name, kSpecularGlossiness);
+    const Value* old = find_extension(item.material.extensions, kSpecularGlossinessName);
+    const std::string name = fmt::format("{}.extensions.{}", item.name, kSpecularGlossinessName);
     material.base_color =
         colour_factor(numbers_in(old, "diffuseFactor", {1, 1, 1, 1}), name + ".diffuseFactor");
     material.base_color_texture =
         read_texture_use(reader, info_of(find_in(old, "diffuseTexture")), name + ".diffuseTexture", use);
     material.metallic = 0.0f;
-    material.roughness = 1.0f - unit_number(number_in(old, "glossinessFactor", 1.0));
+    material.roughness = 1.0f - unit_number(factor_in(old, "glossinessFactor", 1.0));
     ++reader.notes["a material has specular colour and glossiness: its diffuse colour is read"];
 }
 
@@ -213,7 +213,7 @@ void read_emission(Reader& reader, const Item& item, const MaterialUse& use, Mes
     const std::vector<double>& v = item.material.emissiveFactor;
     if (v.size() != 3)
         throw MeshFault(fmt::format("{}.emissiveFactor has {} numbers, not 3", item.name, v.size()));
-    const double strength = number_in(
+    const double strength = factor_in(
         find_extension(item.material.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
     constexpr double kBrightest = 1e6;  // keeps sums of many texels finite in floats
     for (int i = 0; i < 3; ++i)
@@ -238,7 +238,7 @@ MeshMaterial read_material(Reader& reader, const MaterialUse& use) {
                        fmt::format("materials[{}]", *use.material)};
     const tinygltf::ExtensionMap& extensions = item.material.extensions;
     MeshMaterial material{.name = item.material.name};
-    if (extensions.contains(kSpecularGlossiness))
+    if (extensions.contains(kSpecularGlossinessName))
         read_specular_glossiness(reader, item, use, material);
     else
         read_metallic_roughness(reader, item, use, material);
@@ -246,8 +246,8 @@ MeshMaterial read_material(Reader& reader, const MaterialUse& use) {
     material.alpha_mode = alpha_mode_of(item);
     material.alpha_cutoff = static_cast<float>(std::max(item.material.alphaCutoff, 0.0));
     material.transmission = unit_number(
-        number_in(find_extension(extensions, "KHR_materials_transmission"), "transmissionFactor", 0.0));
-    const double ior = number_in(find_extension(extensions, "KHR_materials_ior"), "ior", 1.5);
+        factor_in(find_extension(extensions, "KHR_materials_transmission"), "transmissionFactor", 0.0));
+    const double ior = factor_in(find_extension(extensions, "KHR_materials_ior"), "ior", 1.5);
     constexpr double kLargestIor = 10.0;
     material.ior = static_cast<float>(ior >= 1.0 ? std::min(ior, kLargestIor) : 1.5);
     return material;

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/colour.h"
+
 namespace voxilux {
 namespace {
 
 constexpr int kBuckets = 4096;
-
-double linear_of(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 struct Table {
     std::array<float, 257> from;                   // the least linear value that rounds to each byte
@@ -21,7 +19,7 @@ struct Table {
 Table make_table() {
     Table table;
     for (int byte = 0; byte < 256; ++byte)
-        table.from[static_cast<std::size_t>(byte)] = static_cast<float>(linear_of((byte - 0.5) / 255.0));
+        table.from[static_cast<std::size_t>(byte)] = static_cast<float>(decode_srgb((byte - 0.5) / 255.0));
     table.from[256] = std::numeric_limits<float>::infinity();
     std::uint8_t byte = 0;
     for (int bucket = 0; bucket <= kBuckets; ++bucket) {

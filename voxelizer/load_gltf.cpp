@@ -148,10 +148,6 @@ std::uint32_t triangle_count(Topology topology, std::uint32_t vertices) {
     return vertices < 3 ? 0 : vertices - 2;
 }
 
-bool is_finite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 struct Corners {
     std::vector<std::uint32_t> indices;  // empty: the vertices in their order
     VertexRange vertices;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/checked_cast.h"
+#include "base/colour.h"
 #include "voxelizer/load_mtl.h"
 #include "voxelizer/obj_text.h"
 #include "voxelizer/polygon.h"
@@ -31,7 +32,7 @@ struct FirstCopy {
     std::uint32_t uv = kNone;
 };
 
-struct Loading {
+struct ObjLoading {
     const MeshRequest& request;
     MeshNotes& notes;
     ObjPoints points;
@@ -45,10 +46,8 @@ struct Loading {
     std::uint64_t triangles_read = 0;
 };
 
-// The inverse transfer function of IEC 61966-2-1.
 float linear_of(double srgb) {
-    const double c = std::isfinite(srgb) ? std::clamp(srgb, 0.0, 1.0) : 1.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    return static_cast<float>(decode_srgb(std::isfinite(srgb) ? std::clamp(srgb, 0.0, 1.0) : 1.0));
 }
 
 // x y z, x y z w, or x y z r g b.
@@ -69,7 +68,7 @@ void read_uv(ObjLines& lines, ObjPoints& points, MeshNotes& notes) {
     points.uvs.push_back(is_finite ? uv : glm::vec2(0.0f));
 }
 
-void read_points(std::string_view text, Loading& loading) {
+void read_points(std::string_view text, ObjLoading& loading) {
     ObjLines lines(text);
     const std::uint64_t limit = loading.request.limits.vertices;
     while (lines.next_line()) {
@@ -85,7 +84,7 @@ void read_points(std::string_view text, Loading& loading) {
 }
 
 // The vertex of the mesh for a v line and a vt line, or none.
-std::uint32_t vertex_of(Loading& loading, std::uint32_t position, std::uint32_t uv) {
+std::uint32_t vertex_of(ObjLoading& loading, std::uint32_t position, std::uint32_t uv) {
     FirstCopy& first = loading.first_copies[position];
     if (first.vertex != kNone && first.uv == uv) return first.vertex;
     Mesh& mesh = loading.mesh;
@@ -118,7 +117,7 @@ std::uint32_t line_of(const ObjLines& lines, std::string_view text, std::size_t 
 }
 
 // v, v/vt, v//vn or v/vt/vn.
-std::uint32_t read_corner(Loading& loading, const ObjLines& lines, std::string_view word) {
+std::uint32_t read_corner(ObjLoading& loading, const ObjLines& lines, std::string_view word) {
     const std::size_t slash = std::min(word.find('/'), word.size());
     const std::uint32_t position =
         line_of(lines, word.substr(0, slash), loading.positions_so_far, loading.points.positions.size());
@@ -128,7 +127,7 @@ std::uint32_t read_corner(Loading& loading, const ObjLines& lines, std::string_v
     return vertex_of(loading, position, line_of(lines, rest, loading.uvs_so_far, loading.points.uvs.size()));
 }
 
-std::uint32_t current_material(Loading& loading) {
+std::uint32_t current_material(ObjLoading& loading) {
     if (loading.material) return *loading.material;
     if (!loading.default_material) {
         loading.mesh.materials.push_back({.name = "default", .metallic = 0.0f});
@@ -138,11 +137,7 @@ std::uint32_t current_material(Loading& loading) {
     return *loading.default_material;
 }
 
-bool is_finite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-void read_face(Loading& loading, ObjLines& lines) {
+void read_face(ObjLoading& loading, ObjLines& lines) {
     std::vector<std::uint32_t> vertices;
     std::vector<glm::dvec3> corners;
     bool is_whole = true;
@@ -165,7 +160,7 @@ void read_face(Loading& loading, ObjLines& lines) {
 }
 
 // The rest of the line is one name with blanks where such a file is there, else each word is a name.
-void read_libraries(Loading& loading, ObjLines& lines) {
+void read_libraries(ObjLoading& loading, ObjLines& lines) {
     const std::string whole(lines.rest());
     std::error_code ignored;
     if (whole.find(' ') == std::string::npos ||
@@ -175,7 +170,7 @@ void read_libraries(Loading& loading, ObjLines& lines) {
         load_mtl(std::string(word), loading.library, loading.mesh, loading.notes);
 }
 
-void use_material(Loading& loading, const ObjLines& lines) {
+void use_material(ObjLoading& loading, const ObjLines& lines) {
     const std::string name(lines.rest());
     const auto found = loading.library.materials.find(name);
     loading.material.reset();
@@ -185,7 +180,7 @@ void use_material(Loading& loading, const ObjLines& lines) {
         ++loading.notes[fmt::format("material {} is not there: white is used", quoted_name(name))];
 }
 
-void read_faces(std::string_view text, Loading& loading) {
+void read_faces(std::string_view text, ObjLoading& loading) {
     ObjLines lines(text);
     while (lines.next_line()) {
         const std::string key(lines.next_word());
@@ -202,7 +197,7 @@ void read_faces(std::string_view text, Loading& loading) {
 
 Mesh load_obj(std::span<const std::byte> bytes, const std::filesystem::path& folder,
               const MeshRequest& request, MeshNotes& notes) {
-    Loading loading{.request = request, .notes = notes, .points = {}, .library = {}, .mesh = {}};
+    ObjLoading loading{.request = request, .notes = notes, .points = {}, .library = {}, .mesh = {}};
     loading.library.folder = folder;
     loading.library.budget.limits = request.limits;
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

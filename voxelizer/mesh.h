@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,10 @@
 #include <glm/glm.hpp>
 
 namespace voxilux {
+
+[[nodiscard]] inline bool is_finite(const glm::dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 // A mesh file as the voxelizer reads it: triangles in the world space of the file (glTF: right handed, y up,
 // metres), after all node transforms. Vertex attributes are shared by index.

@@ -14,11 +14,7 @@ namespace {
 // Rounding of an extent that is a whole number of cells must not add a layer: voxels.
 constexpr double kExtentSlack = 1e-6;
 
-bool is_finite(glm::dvec3 p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-bool is_finite(const Mesh& mesh, const MeshTriangle& triangle) {
+bool has_finite_corners(const Mesh& mesh, const MeshTriangle& triangle) {
     for (int corner = 0; corner < 3; ++corner) {
         if (!is_finite(mesh.positions[triangle.vertices[corner]])) return false;
     }
@@ -66,7 +62,8 @@ std::vector<std::uint32_t> finite_triangles(const Mesh& mesh) {
     std::vector<std::uint32_t> kept;
     kept.reserve(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (is_finite(mesh, mesh.triangles[i])) kept.push_back(checked_cast<std::uint32_t>(i, "triangle"));
+        if (has_finite_corners(mesh, mesh.triangles[i]))
+            kept.push_back(checked_cast<std::uint32_t>(i, "triangle"));
     }
     return kept;
 }

@@ -17,7 +17,7 @@ constexpr int kLloydRounds = 5;
 constexpr int kAxisRounds = 6;
 
 // Colours order[first..end) of one group.
-struct Part {
+struct ColourBox {
     std::size_t first = 0;
     std::size_t end = 0;
     std::uint32_t group = 0;
@@ -43,9 +43,9 @@ class Splitter {
     void split_until(std::size_t most) {
         VX_ASSERT(parts_.size() <= most);
         while (parts_.size() < most) {
-            const auto worst = std::ranges::max_element(parts_, {}, &Part::error);
+            const auto worst = std::ranges::max_element(parts_, {}, &ColourBox::error);
             if (worst == parts_.end() || !(worst->error > 0.0)) return;
-            const Part whole = *worst;
+            const ColourBox whole = *worst;
             const auto begin = order_.begin();
             const auto middle = std::stable_partition(
                 begin + static_cast<std::ptrdiff_t>(whole.first),
@@ -63,9 +63,9 @@ class Splitter {
     }
 
     [[nodiscard]] QuantizedColours result() {
-        std::ranges::stable_sort(parts_, {}, &Part::group);
+        std::ranges::stable_sort(parts_, {}, &ColourBox::group);
         QuantizedColours result{.entry_of = std::vector<std::uint16_t>(colours_.size())};
-        for (const Part& part : parts_) {
+        for (const ColourBox& part : parts_) {
             for (std::size_t i = part.first; i < part.end; ++i)
                 result.entry_of[order_[i]] = static_cast<std::uint16_t>(result.entries.size());
             result.entries.push_back({glm::vec3(part.mean), part.group});
@@ -74,7 +74,7 @@ class Splitter {
     }
 
   private:
-    [[nodiscard]] Part measured(Part part) const {
+    [[nodiscard]] ColourBox measured(ColourBox part) const {
         double weight = 0.0;
         glm::dvec3 sum(0.0);
         for (std::size_t i = part.first; i < part.end; ++i) {
@@ -106,7 +106,7 @@ class Splitter {
 
     std::span<const WeightedColour> colours_;
     std::vector<std::size_t> order_;
-    std::vector<Part> parts_;
+    std::vector<ColourBox> parts_;
 };
 
 // Entries of each group: first and end.

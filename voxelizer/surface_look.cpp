@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/colour.h"
 #include "base/error.h"
 
 namespace voxilux {
@@ -23,10 +24,6 @@ constexpr float kDarkestEmitter = 1.0f / 64.0f;
 
 std::uint8_t step(float value, float steps, int top) {
     return static_cast<std::uint8_t>(std::clamp(static_cast<int>(value * steps + 0.5f), 0, top));
-}
-
-float luminance(glm::vec3 colour) {
-    return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));  // Rec. 709
 }
 
 }  // namespace

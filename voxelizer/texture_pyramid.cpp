@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/assert.h"
-#include "scene/colour.h"
+#include "base/colour.h"
 
 namespace voxilux {
 namespace {
@@ -49,7 +49,7 @@ struct Cover {
     std::array<float, 4> weights{};
 };
 
-Cover cover_of(int i, int size, int larger) {
+Cover texels_under(int i, int size, int larger) {
     const double ratio = static_cast<double>(larger) / size;
     const double low = i * ratio, high = (i + 1) * ratio;
     Cover cover{.first = static_cast<int>(low)};
@@ -66,9 +66,9 @@ TexturePyramid::Level halve(const TexturePyramid::Level& from) {
     result.texels.reserve(static_cast<std::size_t>(result.size.x) * static_cast<std::size_t>(result.size.y));
     std::vector<Cover> columns;
     for (int x = 0; x < result.size.x; ++x)
-        columns.push_back(cover_of(x, result.size.x, larger.x));
+        columns.push_back(texels_under(x, result.size.x, larger.x));
     for (int y = 0; y < result.size.y; ++y) {
-        const Cover rows = cover_of(y, result.size.y, larger.y);
+        const Cover rows = texels_under(y, result.size.y, larger.y);
         for (const Cover& column : columns) {
             glm::vec4 mean(0.0f);
             for (int j = 0; j < rows.count; ++j) {

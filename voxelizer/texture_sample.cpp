@@ -128,12 +128,4 @@ SurfaceColor MaterialSampler::sample(const Prepared& prepared, const SurfacePiec
     });
 }
 
-// A triangle with edges p and q from one corner has the covariance (pp' + qq' - (pq' + qp') / 2) / 18 (each
-// prime a transpose), and a parallelogram with edges e and f has (ee' + ff') / 12. With s = p + q and d = p -
-// q the first is (s s' / 4 + 3 d d' / 4) / 18: e = s / sqrt(6) and f = d / sqrt(2).
-glm::mat2 triangle_span(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    const glm::vec2 p = b - a, q = c - a;
-    return {(p + q) / std::sqrt(6.0f), (p - q) / std::sqrt(2.0f)};
-}
-
 }  // namespace voxilux

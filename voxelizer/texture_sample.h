@@ -81,9 +81,4 @@ class MaterialSampler {
     std::vector<Uses> uses_;  // by material
 };
 
-// The edges of a parallelogram with the second moments of a triangle with these corners, as SurfacePiece
-// wants them. Exact: the triangle's second moments are those of its edges from one corner, see the source
-// file.
-[[nodiscard]] glm::mat2 triangle_span(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c);
-
 }  // namespace voxilux

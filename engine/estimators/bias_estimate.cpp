@@ -4,14 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "base/statistics.h"
 #include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {
-
-// Pixels along the edge of a block: wider than the discs of photons in common pictures.
-constexpr int kBlockEdge = 16;
-constexpr double kOneSided95 = 1.6448536269514722;  // quantile of the normal distribution
 
 double square_of_pixel(const HalfMeans& beauty, const HalfMeans& bias) {
     double total = 0.0;

@@ -8,6 +8,9 @@
 
 namespace voxilux {
 
+// Pixels along the edge of a block whose sum counts as one draw: wider than photon discs in common images.
+inline constexpr int kBlockEdge = 16;
+
 // From the biases that the samples of two independent halves tell, [height][width][3] sums like those of the
 // beauty and of the same samples. The product of two independent estimates is an unbiased one of the square;
 // its scatter is taken from blocks of pixels, because neighbours share photons.

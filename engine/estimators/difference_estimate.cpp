@@ -19,15 +19,12 @@
 #include <vector>
 
 #include "base/assert.h"
-#include "base/student_quantile.h"
-#include "base/sum.h"
+#include "base/statistics.h"
+#include "estimators/bias_estimate.h"
 #include "estimators/metrics.h"
 
 namespace voxilux {
 namespace {
-
-// Pixels along the edge of a block: wider than the discs of photons in common pictures.
-constexpr int kBlockEdge = 16;
 
 using Planes = std::array<std::span<const float>, 3>;
 using Pair = std::pair<std::size_t, std::size_t>;

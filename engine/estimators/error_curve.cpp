@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/statistics.h"
 
 namespace voxilux {
 namespace {
@@ -46,8 +47,7 @@ constexpr double kOwnVariance = 0.5;
 // Relative scatter of noise_high / noise, over the logarithm of that: pictures of few pixels, or few noisy
 // ones.
 constexpr double kSpreadScatter = 0.2;
-constexpr double kOneSided95 = 1.6448536269514722;  // of the upper end of bias
-constexpr double kExactTerms = 64.0;                // of a sum, before it becomes an integral
+constexpr double kExactTerms = 64.0;  // of a sum, before it becomes an integral
 
 enum class Quantity { noise, bias };
 

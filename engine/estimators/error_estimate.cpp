@@ -30,7 +30,7 @@
 #include <limits>
 
 #include "base/assert.h"
-#include "base/sum.h"
+#include "base/statistics.h"
 #include "estimators/metrics.h"
 
 namespace voxilux {
@@ -194,15 +194,6 @@ Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b, FilmS
     return result;
 }
 
-// Student's t from the normal quantile (Abramowitz and Stegun 26.7.5, three terms): within 1 % from 4 degrees
-// on.
-double student_quantile(double degrees) {
-    const double z = kNormalQuantile;
-    const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-    return z + (z3 + z) / (4.0 * degrees) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees) +
-           (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * degrees * degrees * degrees);
-}
-
 // Variance of the mean of what the blocks hold. Blocks are walked to and fro, so that successive ones are
 // neighbours.
 double variance_of_mean(const Blocks& all, CompensatedSum Block::*held, double mean, double pixels) {
@@ -226,7 +217,8 @@ double log_spread(const Blocks& all, double pixels) {
     const double of_estimate = variance_of_mean(all, &Block::error, mean, pixels);
     const double of_truth = variance_of_mean(all, &Block::drawn, all.drawn.value() / pixels, pixels);
     const double count = static_cast<double>(all.blocks.size());
-    return student_quantile(kDegreesPerDifference * (count - 1.0)) * std::sqrt(of_estimate + of_truth) / mean;
+    return student_quantile(kNormalQuantile, kDegreesPerDifference * (count - 1.0)) *
+           std::sqrt(of_estimate + of_truth) / mean;
 }
 
 }  // namespace

@@ -14,7 +14,8 @@
 #include <numbers>
 
 #include "base/assert.h"
-#include "base/sum.h"
+#include "base/colour.h"
+#include "base/statistics.h"
 #include "estimators/flip_colour.h"
 #include "estimators/flip_filter.h"
 
@@ -36,7 +37,6 @@ constexpr double kFeatureExponent = 0.5;   // q_f
 // the displayed luminance that the darkest and the brightest exposure give to the maximum and the median.
 constexpr double kCurveA = 0.6 * 0.6 * 2.51, kCurveB = 0.6 * 0.03;
 constexpr double kCurveD = 0.6 * 0.6 * 2.43, kCurveE = 0.6 * 0.59, kCurveF = 0.14;
-constexpr Vec3 kLuminance = {0.2126, 0.7152, 0.0722};  // Rec.709
 constexpr double kShownLuminance = 0.85;
 constexpr double kLeastMedian =
     std::numeric_limits<float>::epsilon();  // luminance; keeps the exposures finite
@@ -162,8 +162,10 @@ std::optional<FlipExposures> flip_exposures(const Image& reference) {
     if (!colours) return {};
     std::vector<double> luminances(pixel_count(reference));
     for (std::size_t i = 0; i < luminances.size(); ++i) {
+        Vec3 positive;
         for (std::size_t c = 0; c < 3; ++c)
-            luminances[i] += kLuminance[c] * std::max((*colours)[c][i], 0.0f);
+            positive[c] = std::max((*colours)[c][i], 0.0f);
+        luminances[i] = luminance(positive);
     }
     const double brightest = *std::max_element(luminances.begin(), luminances.end());
     if (!(brightest > kLeastMedian)) return {};

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "base/sum.h"
+#include "base/statistics.h"
 
 namespace voxilux::flip_filter {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/sum.h"
+#include "base/statistics.h"
 
 namespace voxilux {
 namespace {

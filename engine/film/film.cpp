@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/colour.h"
 
 namespace voxilux {
 namespace {
 
 std::uint64_t samples_of(const FilmHalf& half, std::size_t pixel) {
     return half.samples.size() == 1 ? half.samples[0] : half.samples[pixel];
-}
-
-double luminance(const std::array<double, 3>& rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];  // Rec.709
 }
 
 // 0 when there are no samples. In long double a sum of 63 bits is exact and the quotient has 11 bits more

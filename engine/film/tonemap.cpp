@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "base/assert.h"
-#include "base/srgb.h"
+#include "base/colour.h"
 
 namespace voxilux {
 namespace {

@@ -10,9 +10,9 @@
 #include <memory>
 
 #include "base/assert.h"
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/srgb.h"
 
 namespace voxilux {
 namespace {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "scene/colour.h"
 
 namespace voxilux {
 namespace {

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kFirstLook = 4;  // samples: with fewer a film hardly knows its own brightness
+constexpr std::uint32_t kFirstPilotLook = 4;  // samples: with fewer a film hardly knows its own brightness
 // Discs of photons shrink, and with them the time of a sample: this many at half and at the end of the render
 // that is expected are timed, too.
 constexpr std::uint32_t kLateSamples = 2;
@@ -50,7 +50,7 @@ ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor) {
     PilotFilm film(plan, job.prepared, job.scene, executor, job.is_cpu);
     const double pixels =
         static_cast<double>(plan.settings.size.x) * static_cast<double>(plan.settings.size.y);
-    std::uint32_t look = kFirstLook;
+    std::uint32_t look = kFirstPilotLook;
     do {
         for (; pilot.samples < look; ++pilot.samples) {
             if (job.stops && job.stops()) {

@@ -13,7 +13,6 @@ namespace {
 // Deviations of the claim that a render allows for before it looks at its error. A second round costs little
 // but is decided by the samples it averages.
 constexpr double kPlanDeviations = 0.75;
-constexpr double kHighDeviations = 1.6;  // at the upper end of the interval
 constexpr std::uint32_t kFewestSamples = 8;
 constexpr std::uint32_t kWholeSamples = 4;  // a multiple: halves of one size
 // Relative: what time of the day does to the speed of a machine, which no pilot sees.

@@ -10,6 +10,8 @@ namespace voxilux {
 
 // Share of forecasts that are meant to hold the real time.
 inline constexpr double kForecastConfidence = 0.8;
+// Deviations of the claim at the upper end of that interval.
+inline constexpr double kHighDeviations = 1.6;
 
 // What a render to an error is expected to take.
 struct Forecast {

@@ -6,6 +6,7 @@
 
 #include "estimators/film_error.h"
 #include "frame/frame.h"
+#include "jobs/forecast.h"
 #include "passes/upload.h"
 #include "plan/error_law.h"
 #include "shared/tally.h"
@@ -20,9 +21,6 @@ constexpr double kLeastSavePause = 9.0;
 // and this time has passed.
 constexpr double kLookEvery_s = 2.0;
 constexpr std::uint32_t kFirstLook = 8;
-
-// At the upper end of the time left, as in forecasts.
-constexpr double kHighDeviations = 1.6;
 
 // The strip that tells how long the end of a render takes: a part of the picture, whole blocks of an EXR.
 constexpr std::uint32_t kStripParts = 32;

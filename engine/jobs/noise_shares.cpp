@@ -10,7 +10,7 @@
 #include <span>
 
 #include "base/assert.h"
-#include "base/sum.h"
+#include "base/statistics.h"
 #include "estimators/metrics.h"
 #include "film/film.h"
 #include "renderer/pilot_film.h"

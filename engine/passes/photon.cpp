@@ -107,7 +107,6 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
         params.power_unit[c] = static_cast<float>(most / gpu::kPhotonQuanta);
     }
     params.capacity = setup.capacity;
-    params.photon_count = setup.photon_count;
     params.iteration = setup.iteration;
     params.alpha = static_cast<float>(setup.alpha);
     return params;

@@ -15,7 +15,6 @@ struct PhotonSetup {
     glm::dvec3 most_power{0.0};  // that a photon carries, watts
     std::uint32_t buckets = 0;   // a power of two
     std::uint32_t capacity = 0;  // photons that fit in the store
-    std::uint32_t photon_count = 0;  // emitted in an iteration
     std::uint32_t iteration = 1;
     double alpha = 2.0 / 3.0;  // of pixels with radii of their own
 };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/colour.h"
+#include "base/colour.h"
 #include "scene/vox_graph.h"
 
 namespace voxilux {

@@ -279,8 +279,4 @@ std::uint64_t Executor::pipelines_created() const {
     return state_->programs.pipelines_created();
 }
 
-const ProgramInfo& Executor::program_info(std::string_view shader) {
-    return state_->programs.at(shader).info;
-}
-
 }  // namespace voxilux

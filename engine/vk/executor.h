@@ -81,9 +81,6 @@ class Executor {
     // Pipelines made since construction.
     [[nodiscard]] std::uint64_t pipelines_created() const;
 
-    // What a shader says of itself. Throws InternalError when there is none of that name.
-    [[nodiscard]] const ProgramInfo& program_info(std::string_view shader);
-
   private:
     std::unique_ptr<ExecutorState> state_;
 };

@@ -23,7 +23,7 @@ uvec2 ray_number(uvec2 first, uint i) {
 // first of them in the pixel's stream.
 float trace_openness(Pixel pixel, Hit hit, uvec2 first) {
     uint own = own_sphere(hit);
-    uint stream = pixel.y * frame.width + pixel.x;
+    uint stream = pixel_stream(pixel);
     uint open = 0u;
     for (uint i = 0u; i < ao_rays; ++i) {
         SampleKey key = sample_key(stream, ray_number(first, i), frame.seed);

@@ -57,8 +57,8 @@ Discs common_discs() {
 
 // Writes what the sums of a pixel mean, when these shares of its discs are there to receive photons.
 void store_light(uint index, PhotonSums sums, Discs discs, float share, float narrow_share) {
-    precise float area = 3.14159274 * discs.squared * share;
-    precise float narrow_area = 3.14159274 * discs.narrow_squared * narrow_share;
+    precise float area = kPi * discs.squared * share;
+    precise float narrow_area = kPi * discs.narrow_squared * narrow_share;
     light[index] = irradiance(sums.wide, area);
     narrow_light[index] = irradiance(sums.narrow, narrow_area);
 }

@@ -9,8 +9,6 @@
 #include "shared/sampling.h"
 #include "shared/photon_area.h"
 
-VX_SPECIALIZED(uint, clips_discs, 1u);
-
 vec3 disc_normal(Hit hit) {
     if (hit.face < kFaceSphere) return face_normal(hit.face);
     Sphere shape = spheres[hit.sphere].shape;
@@ -26,7 +24,7 @@ vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 r
 // The shares of a hit's two discs, in [kLeastShare, 1].
 vec2 disc_shares(Hit hit, vec2 radii) {
     vec2 shares = vec2(1.0);
-    if (sphere_count == 0u || clips_discs == 0u || photon_surface(hit) == kNoSurface) return shares;
+    if (sphere_count == 0u || photon_surface(hit) == kNoSurface) return shares;
     uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;
     vec3 normal = disc_normal(hit);
     vec3 point = photon_position(hit);

@@ -18,6 +18,16 @@ float draw_1d(SampleKey key, uint dimension) {
     return sample_1d(sequence, key, dimension);
 }
 
+// The stream of samples of a pixel.
+uint pixel_stream(Pixel pixel) {
+    return pixel.y * frame.width + pixel.x;
+}
+
+// The frame's sample of a pixel.
+SampleKey pixel_key(Pixel pixel) {
+    return sample_key(pixel_stream(pixel), uvec2(frame.sample_index, 0u), frame.seed);
+}
+
 // The ray of the frame's sample through a pixel.
 Ray camera_ray_of(Pixel pixel) {
     return camera_ray(frame, sequence, pixel.x, pixel.y);

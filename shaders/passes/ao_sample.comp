@@ -56,7 +56,7 @@ Stream stream_of(Pixel pixel, AoCell cell, uint slot, bool takes) {
     uvec2 taken = uvec2(0u);
     if (takes && slot != kNoSlot) taken = unpack32(atomicAdd(samples[slot], uint64_t(ao_rays)));
     from.first = from.of_cell ? taken : first_ray(ao_frame.pass_number, ao_rays);
-    from.stream = from.of_cell ? ao_cell_stream(ao_cell_key(cell)) : pixel.y * frame.width + pixel.x;
+    from.stream = from.of_cell ? ao_cell_stream(ao_cell_key(cell)) : pixel_stream(pixel);
     return from;
 }
 

@@ -19,17 +19,11 @@ layout(scalar) writeonly buffer BenchHits {
     BenchHit hits[];
 };
 
-VX_SPECIALIZED(bool, starts_outside, true);
-
 void main() {
     open_world();
     uint i = linear_id();
     if (i >= push.count) return;
-    WorldEntry entry;
-    entry.ray = rays[i];
-    entry.t = 0.0;
-    entry.enters = true;
-    if (starts_outside) entry = enter_world(rays[i], push.chunks << kChunkLog2);
+    WorldEntry entry = enter_world(rays[i], push.chunks << kChunkLog2);
     BenchHit hit;
     hit.cell = ivec3(-1);
     hit.face = kFaceMiss;

@@ -67,17 +67,13 @@ void main() {
     vec3 light = vec3(0.0);
     uint rays = 0u;
     if (is_surface(hit) && hit.face != kFaceInside) {
-        SampleKey key;
-        key.stream = pixel.y * frame.width + pixel.x;
-        key.index = frame.sample_index;
-        key.seed = frame.seed;
+        SampleKey key = pixel_key(pixel);
         vec3 normal = surface_normal(hit);
         vec3 origin = local_position(hit.cell, hit.fraction);
         vec2 u_lamp = draw_2d(key, kPairLampPoint);
         vec2 u_surface = draw_2d(key, kPairSurface);
-        float u_choice = draw_1d(key, 2u * kPairLamp);
-        uint bits = uint(u_choice * 16777216.0) << 8u;
-        Aim aim = aim_at_lamp(origin, bits, rng_float(key.seed, key.stream, key.index, 2u * kPairLamp + 1u), u_lamp);
+        uint bits = unit_bits(draw_1d(key, 2u * kPairLamp));
+        Aim aim = aim_at_lamp(origin, bits, sample_1d(kSequenceWhite, key, 2u * kPairLamp + 1u), u_lamp);
         for (uint i = 0u; i < 2u; ++i) {
             vec3 direction = i == 0u ? aim.direction : cosine_about(normal, u_surface);
             float cosine = dot(normal, direction);

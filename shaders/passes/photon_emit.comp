@@ -59,10 +59,7 @@ PhotonStart leave_sun(vec2 u_point, vec2 u_direction) {
 void main() {
     uint id = linear_id();
     if (id >= frame.lamp_photons + frame.sun_photons) return;
-    SampleKey key;
-    key.stream = frame.sample_index;
-    key.index = id;
-    key.seed = frame.seed;
+    SampleKey key = sample_key(frame.sample_index, uvec2(id, 0u), frame.seed);
     vec2 u_choice = draw_2d(key, kPairPhoton);
     vec2 u_point = draw_2d(key, kPairPhoton + 1u);
     vec2 u_direction = draw_2d(key, kPairPhoton + 2u);
@@ -71,7 +68,7 @@ void main() {
         start = leave_sun(u_point, u_direction);
         start.power /= float(frame.sun_photons);
     } else {
-        DrawnLight lamp = draw_light(uint(u_choice.x * 16777216.0) << 8u, u_choice.y);
+        DrawnLight lamp = draw_light(unit_bits(u_choice.x), u_choice.y);
         if (lamp.parts.kind == kLightSphere) {
             start = leave_sphere(lamp, u_point, u_direction);
         } else {

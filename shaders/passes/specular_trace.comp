@@ -49,10 +49,7 @@ void main() {
     open_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
-    SampleKey key;
-    key.stream = pixel.y * frame.width + pixel.x;
-    key.index = frame.sample_index;
-    key.seed = frame.seed;
+    SampleKey key = pixel_key(pixel);
     PathRay path = first_ray(pixel);
     PathHit found = first_hit(pixel);
     vec3 weight = vec3(1.0);
@@ -63,16 +60,14 @@ void main() {
     for (; bounce < kMostBounces; ++bounce) {
         if (!is_surface(found.hit)) break;
         uint pair = kPairBounce + kPairsOfBounce * bounce;
-        vec2 u = bounce < kSureBounces ? draw_2d(key, pair)
-                                       : vec2(rng_float(key.seed, key.stream, key.index, 2u * pair),
-                                              rng_float(key.seed, key.stream, key.index, 2u * pair + 1u));
+        vec2 u = bounce < kSureBounces ? draw_2d(key, pair) : sample_2d(kSequenceWhite, key, pair);
         PathEvent event = path_event(path, found, u);
         if (event.kind == kEventDiffuse) break;
         if (event.kind != kEventPass) weight *= event.albedo;
         if (event.kind == kEventRefract) weight *= radiance_scale(event.eta);
         if (bounce >= kSureBounces) {
             float survival = roulette_survival(weight);
-            is_open = rng_float(key.seed, key.stream, key.index, 2u * pair + 2u) < survival;
+            is_open = sample_1d(kSequenceWhite, key, 2u * pair + 2u) < survival;
             weight = is_open ? weight / survival : vec3(0.0);
         }
         if (!is_open) break;

@@ -27,10 +27,7 @@ void main() {
     float lit = 0.0;
     bool traced = false;
     if (is_surface(hit) && hit.face != kFaceInside) {
-        SampleKey key;
-        key.stream = pixel.y * frame.width + pixel.x;
-        key.index = frame.sample_index;
-        key.seed = frame.seed;
+        SampleKey key = pixel_key(pixel);
         vec2 u = draw_2d(key, kPairSun);
         vec3 direction = uniform_cone(frame.sun_direction, frame.sun_cone_height, u);
         float cosine = dot(surface_normal(hit), direction);

@@ -26,10 +26,7 @@ VX_CONST(uint, kPairsOfBounce, 3u);
 // The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its
 // kSequence* id. Pinhole, box filter.
 VX_FN Ray camera_ray(FrameParams frame, uint sequence, uint x, uint y) {
-    SampleKey key;
-    key.stream = y * frame.width + x;
-    key.index = frame.sample_index;
-    key.seed = frame.seed;
+    const SampleKey key = sample_key(y * frame.width + x, uvec2(frame.sample_index, 0u), frame.seed);
     const vec2 jitter = sample_2d(sequence, key, kPairPixel);
     VX_PRECISE float right = 2.0f * (float(x) + jitter.x) / float(frame.width) - 1.0f;
     VX_PRECISE float up = 1.0f - 2.0f * (float(y) + jitter.y) / float(frame.height);

@@ -46,7 +46,7 @@ VX_FN float brightness(vec3 v) {
 }
 
 // Power over radiance of a face of a voxel: pi times its area, 1.
-VX_CONST(float, kFaceEtendue, 3.14159265f);
+VX_CONST(float, kFaceEtendue, kPi);
 
 // Weight of a direction that one of two ways of sampling has drawn, by the balance heuristic: both ways'
 // densities, that of the drawing way first. 0 where neither can draw it.

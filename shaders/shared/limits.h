@@ -6,6 +6,10 @@
 
 VX_BEGIN
 
+// Numbers in [0, 1) are drawn as multiples of 2^-24, half an ulp of a float below 1.
+VX_CONST(float, kUnitSteps, 16777216.0f);            // 2^24
+VX_CONST(float, kUnitStep, 5.9604644775390625e-8f);  // 2^-24
+
 // Sampling. Dimensions of the Halton sequence that have a prime base; the rest are white noise, because two
 // large bases stay correlated until about their product of points is drawn.
 VX_CONST(uint, kHaltonDimensions, 12u);
@@ -68,6 +72,7 @@ VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 
 // Depth of a pixel where the camera sees no surface, in voxels: finite, and beyond every scene.
 VX_CONST(float, kMissDepth, 1.0e10f);
+VX_CONST(float, kPi, 3.14159265f);
 VX_CONST(float, kInversePi, 0.318309886f);
 
 // Invocations of a workgroup over a list (lib/invocation.glsl).

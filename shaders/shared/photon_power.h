@@ -14,10 +14,10 @@
 
 #include "hash.h"
 #include "portable.h"
+#include "rng.h"
 
 VX_BEGIN
 
-VX_CONST(uint, kPhotonQuantaBits, 21u);
 VX_CONST(uint, kPhotonQuanta, 0x1FFFFFu);  // most quanta of a photon
 
 struct PackedPower {
@@ -47,10 +47,9 @@ VX_FN Quanta photon_quanta(float power, float scale, float dither) {
 VX_FN PackedPower pack_power(vec3 power, vec3 scale, vec3 position) {
     const uvec3 dither =
         pcg3d(uvec3(floatBitsToUint(position.x), floatBitsToUint(position.y), floatBitsToUint(position.z)));
-    const float step = 5.9604644775390625e-8f;  // 2^-24
-    const Quanta red = photon_quanta(power.x, scale.x, float(pcg_hash(dither.x) >> 8u) * step);
-    const Quanta green = photon_quanta(power.y, scale.y, float(pcg_hash(dither.y) >> 8u) * step);
-    const Quanta blue = photon_quanta(power.z, scale.z, float(pcg_hash(dither.z) >> 8u) * step);
+    const Quanta red = photon_quanta(power.x, scale.x, unit_float(pcg_hash(dither.x)));
+    const Quanta green = photon_quanta(power.y, scale.y, unit_float(pcg_hash(dither.y)));
+    const Quanta blue = photon_quanta(power.z, scale.z, unit_float(pcg_hash(dither.z)));
     PackedPower packed;
     packed.words = uvec2(red.count | (green.count << 21u), (green.count >> 11u) | (blue.count << 10u));
     packed.is_sound = red.is_sound && green.is_sound && blue.is_sound;

@@ -22,7 +22,6 @@ struct PhotonParams {
     float radius;         // of a gather, voxels
     float narrow_radius;  // of the second, which tells the bias; at most the first
     uint capacity;        // photons that fit in the store
-    uint photon_count;    // emitted in an iteration
     uint iteration;       // from 1
     float alpha;          // share of the new photons that a pixel with a radius of its own keeps
 };

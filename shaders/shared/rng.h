@@ -4,12 +4,18 @@
 #define VX_RNG_H
 
 #include "hash.h"
+#include "limits.h"
 
 VX_BEGIN
 
 // The upper 24 bits of `bits` as a float in [0, 1): a multiple of 2^-24, never 1, exact on every device.
 VX_FN float unit_float(uint bits) {
-    return float(bits >> 8u) * 5.9604644775390625e-8f;
+    return float(bits >> 8u) * kUnitStep;
+}
+
+// The inverse of unit_float(), with zeros below.
+VX_FN uint unit_bits(float u) {
+    return uint(u * kUnitSteps) << 8u;
 }
 
 // Uniform 32-bit word, a pure function of its four counters.

@@ -23,7 +23,7 @@ VX_FN vec3 face_normal(uint face) {
 // Sine and cosine of (pi/4) s for s in [-1, 1], within 2 ulp. Taylor series to the 9th and 10th power: the
 // first term left out is below 2e-9.
 VX_FN vec2 sin_cos_eighth(float s) {
-    VX_PRECISE float x = s * 0.785398163f;
+    VX_PRECISE float x = s * (0.25f * kPi);
     VX_PRECISE float x2 = x * x;
     VX_PRECISE float sine = 2.75573192e-6f;
     sine = sine * x2 - 1.98412698e-4f;
@@ -43,8 +43,8 @@ VX_FN vec2 sin_cos_eighth(float s) {
 // multiple of 2^-24, is moved to the middle of its lattice cell, which is exact and misses both centre and
 // rim. Source: Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 VX_FN vec3 concentric_disk(vec2 u) {
-    VX_PRECISE float a = (2.0f * u.x - 1.0f) + 5.9604644775390625e-8f;
-    VX_PRECISE float b = (2.0f * u.y - 1.0f) + 5.9604644775390625e-8f;
+    VX_PRECISE float a = (2.0f * u.x - 1.0f) + kUnitStep;
+    VX_PRECISE float b = (2.0f * u.y - 1.0f) + kUnitStep;
     bool a_is_longer = abs(a) > abs(b);
     VX_PRECISE float radius = a_is_longer ? a : b;
     VX_PRECISE float part = (a_is_longer ? b : a) / radius;
@@ -117,7 +117,7 @@ VX_FN float cone_height(float half_angle) {
 
 // Solid angle of a cone in steradians.
 VX_FN float cone_solid_angle(float height) {
-    return 6.28318531f * height;
+    return (2.0f * kPi) * height;
 }
 
 // Uniform direction in the cone of cone_height `height` around a unit direction, density 1 /

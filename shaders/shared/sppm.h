@@ -53,9 +53,9 @@ VX_FN float roulette_survival(vec3 throughput) {
     float largest = max(max(throughput.x, throughput.y), throughput.z);
     if (largest <= 0.0f) return 0.0f;
     if (!(largest < 1.0f)) return 1.0f;
-    float steps = largest * 16777216.0f;
+    float steps = largest * kUnitSteps;
     float whole = floor(steps);
-    return (whole < steps ? whole + 1.0f : whole) * 5.9604644775390625e-8f;
+    return (whole < steps ? whole + 1.0f : whole) * kUnitStep;
 }
 
 // A photon that leaves a sphere.
@@ -64,18 +64,13 @@ struct SphereEmission {
     vec3 direction;  // unit, away from the sphere
 };
 
-// Lambertian emission: uniform over the sphere and cosine-weighted about the normal, density sphere_emission_
-// pdf(). Each photon of N carries radiance * sphere_emission_etendue() / N.
+// Lambertian emission: uniform over the sphere and cosine-weighted about the normal. Each photon of N carries
+// radiance * sphere_emission_etendue() / N.
 VX_FN SphereEmission sphere_emission(vec2 u_place, vec2 u_direction) {
     SphereEmission emission;
     emission.normal = uniform_cone(vec3(0.0f, 0.0f, 1.0f), 2.0f, u_place);
     emission.direction = cosine_about(emission.normal, u_direction);
     return emission;
-}
-
-// Per area and solid angle; cosine between direction and normal.
-VX_FN float sphere_emission_pdf(float radius, float cosine) {
-    return cosine * kInversePi / (12.5663706f * radius * radius);
 }
 
 // Power over radiance: pi times the area, 4 pi^2 r^2.

@@ -78,11 +78,6 @@ VX_FN TwoFloat tf_add(TwoFloat a, TwoFloat b) {
     return quick_two_sum(v.hi, w);
 }
 
-// -a, exactly.
-VX_FN TwoFloat tf_negate(TwoFloat a) {
-    return two_float(-a.hi, -a.lo);
-}
-
 // a * b, relative error at most 7 * 2^-48. Algorithm 10, DWTimesDW1.
 VX_FN TwoFloat tf_mul(TwoFloat a, TwoFloat b) {
     TwoFloat c = two_prod(a.hi, b.hi);

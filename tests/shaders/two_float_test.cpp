@@ -59,7 +59,7 @@ TEST(TwoFloat, plain_float_arithmetic_is_caught_as_too_coarse) {
 TEST(TwoFloat, zero_and_opposite_operands_give_exact_zeros) {
     const TwoFloat zero = gpu::two_float(0.0f, 0.0f);
     const TwoFloat third = test::to_two_float(1.0 / 3.0);
-    EXPECT_EQ(value_of(gpu::tf_add(third, gpu::tf_negate(third))), 0.0L);
+    EXPECT_EQ(value_of(gpu::tf_add(third, test::to_two_float(-1.0 / 3.0))), 0.0L);
     EXPECT_EQ(value_of(gpu::tf_mul(zero, third)), 0.0L);
     EXPECT_EQ(value_of(gpu::tf_div(zero, third)), 0.0L);
     EXPECT_EQ(value_of(gpu::tf_add(zero, third)), value_of(third));
@@ -70,7 +70,7 @@ TEST(TwoFloat, zero_and_opposite_operands_give_exact_zeros) {
 TEST(TwoFloat, distance_over_a_million_voxels_keeps_a_millionth_of_a_voxel) {
     const double origin = -1000000.3;
     const double direction = 0.7310585;
-    const TwoFloat t = gpu::tf_div(gpu::tf_negate(test::to_two_float(origin)), test::to_two_float(direction));
+    const TwoFloat t = gpu::tf_div(test::to_two_float(-origin), test::to_two_float(direction));
     EXPECT_NEAR(static_cast<double>(value_of(t)), -origin / direction, 1e-6);
     EXPECT_GT(std::abs(static_cast<double>(1000000.3f / 0.7310585f) + origin / direction), 1e-3);
 }

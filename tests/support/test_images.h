@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "base/srgb.h"
+#include "base/colour.h"
 #include "formats/image.h"
 
 namespace voxilux::test {
@@ -49,7 +49,7 @@ inline void add_noise(Image& image, double deviation, std::mt19937& random) {
 // Display-referred image from 8-bit sRGB codes.
 inline Image code_image(int width, int height, const std::function<std::uint32_t(int, int, int)>& code) {
     Image image = rgb_image(width, height, [&](int x, int y, int c) {
-        return decode_srgb(static_cast<float>(code(x, y, c)) / 255.0f);
+        return linear_from_srgb(static_cast<std::uint8_t>(code(x, y, c)));
     });
     image.display_referred = true;
     return image;

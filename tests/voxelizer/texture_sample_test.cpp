@@ -252,29 +252,5 @@ TEST(MaterialSampler, metal_roughness_and_emission_are_read_as_stored) {
     EXPECT_NEAR(color.emissive.b, 2.0f, 1e-5f);
 }
 
-TEST(TriangleSpan, second_moments_are_those_of_points_in_the_triangle) {
-    const glm::vec2 a(0.1f, 0.2f), b(1.4f, 0.5f), c(0.3f, 2.0f);
-    const glm::vec2 middle = (a + b + c) / 3.0f;
-    glm::dmat2 points(0.0);
-    constexpr int kSteps = 300;
-    double count = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        for (int j = 0; i + j < kSteps; ++j) {
-            const float u = (static_cast<float>(i) + 1.0f / 3) / kSteps,
-                        v = (static_cast<float>(j) + 1.0f / 3) / kSteps;
-            const glm::dvec2 d = glm::dvec2(a + u * (b - a) + v * (c - a) - middle);
-            points += glm::outerProduct(d, d);
-            ++count;
-        }
-    }
-    const glm::dmat2 span(triangle_span(a, b, c));
-    const glm::dmat2 ours =
-        (glm::outerProduct(span[0], span[0]) + glm::outerProduct(span[1], span[1])) / 12.0;
-    for (int i = 0; i < 2; ++i) {
-        for (int j = 0; j < 2; ++j)
-            EXPECT_NEAR(ours[i][j], points[i][j] / count, 2e-3);
-    }
-}
-
 }  // namespace
 }  // namespace voxilux

@@ -9,8 +9,8 @@
 #include <random>
 #include <tuple>
 
+#include "base/colour.h"
 #include "base/file.h"
-#include "base/srgb.h"
 #include "formats/vox_write.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_material.h"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/sum.h"
+#include "base/statistics.h"
 #include "formats/image_file.h"
 #include "formats/scene_toml.h"
 #include "formats/vox_info.h"

@@ -5,14 +5,14 @@
 #include <numeric>
 #include <vector>
 
+#include "base/colour.h"
 #include "base/error.h"
 
 namespace voxilux {
 namespace {
 
-// Rec. 709.
-double luminance(const std::array<std::span<const float>, 3>& planes, std::size_t i) {
-    return 0.2126 * planes[0][i] + 0.7152 * planes[1][i] + 0.0722 * planes[2][i];
+double luminance_at(const std::array<std::span<const float>, 3>& planes, std::size_t i) {
+    return luminance(std::array<double, 3>{planes[0][i], planes[1][i], planes[2][i]});
 }
 
 std::size_t index_of(const Image& image, int x, int y) {
@@ -64,7 +64,7 @@ Image lamp_mask(const Image& reference) {
     white.assign(pixel_count(reference), 1.0f);
     for (int y = 0; y < reference.height; ++y) {
         for (int x = 0; x < reference.width; ++x) {
-            if (!(luminance(planes, index_of(reference, x, y)) > kLampLuminance)) continue;
+            if (!(luminance_at(planes, index_of(reference, x, y)) > kLampLuminance)) continue;
             for (int j = -kLampMargin; j <= kLampMargin; ++j) {
                 const int reach = kLampMargin - std::abs(j);
                 for (int i = -reach; i <= reach; ++i) {
@@ -83,7 +83,7 @@ double blurred_rmse(const Image& reference, const Image& test, const PixelBox& b
     const auto t = colour_planes(test).value();
     std::vector<double> difference(pixel_count(reference));
     for (std::size_t i = 0; i < difference.size(); ++i)
-        difference[i] = luminance(t, i) - luminance(r, i);
+        difference[i] = luminance_at(t, i) - luminance_at(r, i);
     difference = blurred(reference, blurred(reference, difference, true), false);
     double sum = 0.0;
     for (int y = box.y0; y < box.y1; ++y)

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/assert.h"
-#include "base/srgb.h"
+#include "base/colour.h"
 #include "estimators/metrics.h"
 
 namespace voxilux {

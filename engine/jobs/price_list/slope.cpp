@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/student_quantile.h"
+#include "base/statistics.h"
 
 namespace voxilux {
 namespace {

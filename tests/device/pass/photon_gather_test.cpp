@@ -43,8 +43,7 @@ PhotonJob random_job(std::uint64_t seed, glm::vec3 centre, double spread, std::u
                  .extent = 1.0 + spread + glm::length(glm::dvec3(centre)),
                  .most_power = {3.0, 2.0, 0.5},
                  .buckets = 1024,
-                 .capacity = 4000,
-                 .photon_count = 1000};
+                 .capacity = 4000};
     for (int i = 0; i < 3000; ++i) {
         const glm::vec3 position = centre + random_vec(random, -spread, spread);
         const glm::vec3 power = random_vec(random, 0.0, 0.5);

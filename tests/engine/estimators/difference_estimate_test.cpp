@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "base/student_quantile.h"
+#include "base/statistics.h"
 #include "estimators/difference_estimate.h"
 #include "estimators/metrics.h"
 #include "support/test_images.h"

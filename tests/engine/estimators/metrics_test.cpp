@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "base/sum.h"
+#include "base/statistics.h"
 #include "support/test_images.h"
 
 using namespace voxilux;

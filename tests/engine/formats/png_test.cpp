@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/srgb.h"
 #include "film/tonemap.h"
 #include "support/scratch_folder.h"
 #include "support/test_images.h"

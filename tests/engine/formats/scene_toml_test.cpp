@@ -5,10 +5,10 @@
 #include <fstream>
 #include <string>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "formats/scene_toml.h"
-#include "scene/colour.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
 #include "scene/scene_hash.h"

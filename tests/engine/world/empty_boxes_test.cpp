@@ -8,9 +8,9 @@
 
 #include "shared/aadf.h"
 #include "support/box_check.h"
+#include "support/grow_aadf.h"
 #include "support/ray_families.h"
 #include "support/traversal_name.h"
-#include "world/aadf.h"
 #include "world/build_fields.h"
 #include "world/edit_world.h"
 #include "world/world_view.h"

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "shared/world_cell.h"
+#include "support/grow_aadf.h"
 #include "support/ray_families.h"
-#include "world/aadf.h"
 
 namespace voxilux {
 namespace {
