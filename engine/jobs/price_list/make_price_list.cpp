@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "estimators/difference_estimate.h"
-#include "formats/scene_hash.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {
