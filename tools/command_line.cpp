@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
+#include <memory>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -117,6 +119,54 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
 
+// The subcommands, and what each runs with the options that parsing has filled.
+class Commands {
+  public:
+    template <class Options>
+    void add(CLI::App& app, const std::string& name, const std::string& help,
+             void (*add_flags)(Flags&, Options&), int (*run_command)(const Options&)) {
+        CLI::App* const command = app.add_subcommand(name, help);
+        const auto options = std::make_shared<Options>();
+        Flags flags(*command);
+        add_flags(flags, *options);
+        rows_.push_back({command, [=] { return run_command(*options); }});
+    }
+
+    [[nodiscard]] int run() const {
+        const auto parsed = std::ranges::find_if(rows_, [](const Row& row) { return row.app->parsed(); });
+        VX_ASSERT(parsed != rows_.end());
+        return parsed->run();
+    }
+
+  private:
+    struct Row {
+        const CLI::App* app;
+        std::function<int()> run;
+    };
+    std::vector<Row> rows_;
+};
+
+void add_required_render_flags(Flags& flags, RenderCommand& command) {
+    add_render_flags(flags, command).required();
+}
+
+void add_bench(CLI::App& app, Commands& commands) {
+    CLI::App& bench = *app.add_subcommand("bench", "throughput of one part: march, ao, photons");
+    bench.require_subcommand(1);
+    commands.add<BenchMarchCommand>(
+        bench, "march",
+        "rays through each structure of a world, in millions per second of CPU and of wall time",
+        add_bench_march_flags, run_bench_march);
+    commands.add<BenchAoCommand>(
+        bench, "ao",
+        "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays",
+        add_bench_ao_flags, run_bench_ao);
+    commands.add<BenchPhotonsCommand>(
+        bench, "photons",
+        "ways of tracing photons: time of each pass, growth with the job, and error against a picture",
+        add_bench_photons_flags, run_bench_photons);
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
@@ -127,24 +177,25 @@ int run_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
-    RenderCommand render;
-    PlanCommand plan;
-    InfoOptions info;
-    DevicesCommand devices;
-    CompareOptions compare;
-    MergeCommand merge;
-    BenchCommand bench;
-    VoxelizeCommand voxelize;
-    TradeoffCommand tradeoff;
-    const CLI::App* const render_app = add_render(app, render);
-    const CLI::App* const plan_app = add_plan(app, plan);
-    const CLI::App* const tradeoff_app = add_tradeoff(app, tradeoff);
-    const CLI::App* const info_app = add_info(app, info);
-    const CLI::App* const devices_app = add_devices(app, devices);
-    const CLI::App* const compare_app = add_compare(app, compare);
-    const CLI::App* const merge_app = add_merge(app, merge);
-    const CLI::App* const voxelize_app = add_voxelize(app, voxelize);
-    const CLI::App* const bench_app = add_bench(app, bench);
+    Commands commands;
+    commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
+                                run_render);
+    commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
+                              add_plan_flags, run_plan);
+    commands.add<TradeoffCommand>(app, "tradeoff",
+                                  "the price list: error against time for each setting that approximates",
+                                  add_tradeoff_flags, run_tradeoff);
+    commands.add<InfoOptions>(app, "info", "what is in a .vox file, a scene file, an EXR or a PNG",
+                              add_info_flags, run_info);
+    commands.add<DevicesCommand>(app, "devices", "Vulkan devices, which would be used, what each lacks",
+                                 add_devices_flags, run_devices);
+    commands.add<CompareOptions>(app, "compare", "metrics between two images (EXR or PNG) in linear light",
+                                 add_compare_flags, run_compare);
+    commands.add<MergeCommand>(app, "merge", "join the parts of one render that render --shard wrote",
+                               add_merge_flags, run_merge);
+    commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
+                                  add_voxelize_flags, run_voxelize);
+    add_bench(app, commands);
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
@@ -153,16 +204,7 @@ int run_command_line(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         return end_of_parse(app, error);
     }
-    if (render_app->parsed()) return run_render(render);
-    if (plan_app->parsed()) return run_plan(plan);
-    if (tradeoff_app->parsed()) return run_tradeoff(tradeoff);
-    if (info_app->parsed()) return run_info(info);
-    if (devices_app->parsed()) return run_devices(devices);
-    if (merge_app->parsed()) return run_merge(merge);
-    if (voxelize_app->parsed()) return run_voxelize(voxelize);
-    if (bench_app->parsed()) return run_bench(*bench_app, bench);
-    VX_ASSERT(compare_app->parsed());
-    return run_compare(compare);
+    return commands.run();
 }
 
 }  // namespace voxilux

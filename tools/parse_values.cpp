@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,8 +10,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/settings.h"
 #include "base/nearest_name.h"
-#include "parse_box.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {
@@ -33,14 +34,42 @@ double seconds_in(char unit) {
     return unit == 'h' ? 3600.0 : unit == 'm' ? 60.0 : unit == 's' ? 1.0 : 0.0;
 }
 
-template <class T, std::size_t N>
-T parse_name(std::string_view flag, std::string_view typed,
-             const std::array<std::pair<std::string_view, T>, N>& table) {
-    std::array<std::string_view, N> names;
-    for (std::size_t i = 0; i < N; ++i) {
-        if (table[i].first == typed) return table[i].second;
-        names[i] = table[i].first;
+// The four whole numbers of "x0,y0,x1,y1", or nothing when the text is something else.
+std::optional<std::array<int, 4>> parse_box(std::string_view text) {
+    std::array<int, 4> edges{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [rest, error] = std::from_chars(at, end, edges[i]);
+        const bool is_last = i + 1 == edges.size();
+        if (error != std::errc() || (is_last ? rest != end : rest == end || *rest != ',')) return {};
+        at = is_last ? end : rest + 1;
     }
+    return edges;
+}
+
+template <class T, std::size_t N>
+using Names = std::array<std::pair<std::string_view, T>, N>;
+
+template <class T, std::size_t N>
+std::optional<T> value_named(std::string_view typed, const Names<T, N>& table) {
+    for (const auto& [name, value] : table)
+        if (name == typed) return value;
+    return {};
+}
+
+// For flags of two or three words: `all` are they, for the message.
+template <class T, std::size_t N>
+T parse_word(std::string_view flag, std::string_view typed, const Names<T, N>& table, std::string_view all) {
+    if (const std::optional<T> value = value_named(typed, table)) return *value;
+    refuse(fmt::format("{}: '{}' is not {}", flag, typed, all));
+}
+
+template <class T, std::size_t N>
+T parse_name(std::string_view flag, std::string_view typed, const Names<T, N>& table) {
+    if (const std::optional<T> value = value_named(typed, table)) return *value;
+    std::array<std::string_view, N> names;
+    std::ranges::transform(table, names.begin(), [](const auto& row) { return row.first; });
     refuse(fmt::format("{}: there is no '{}'{}", flag, typed, name_hint(typed, names)));
 }
 
@@ -62,6 +91,11 @@ PixelWindow parse_window(std::string_view flag, std::string_view text) {
     if (!box) refuse(fmt::format("{}: '{}' is not X0,Y0,X1,Y1 in pixels", flag, text));
     const auto [x0, y0, x1, y1] = *box;
     return {{x0, y0}, {x1, y1}};
+}
+
+PixelBox parse_pixel_box(std::string_view flag, std::string_view text) {
+    const PixelWindow window = parse_window(flag, text);
+    return {window.first.x, window.first.y, window.end.x, window.end.y};
 }
 
 FrameList parse_frames(std::string_view text) {
@@ -131,39 +165,67 @@ Shard parse_shard(std::string_view text) {
 }
 
 AoMethod parse_ao_method(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, AoMethod>, 3> kNames = {
+    static constexpr Names<AoMethod, 3> kNames = {
         {{"auto", AoMethod::automatic}, {"brute", AoMethod::brute}, {"hash", AoMethod::hash}}};
     return parse_name("--ao", name, kNames);
 }
 
 Sequence parse_sequence(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, Sequence>, 3> kNames = {
-        {{name_of(Sequence::sobol), Sequence::sobol},
-         {name_of(Sequence::halton), Sequence::halton},
-         {name_of(Sequence::white), Sequence::white}}};
+    static constexpr Names<Sequence, 3> kNames = {{{name_of(Sequence::sobol), Sequence::sobol},
+                                                   {name_of(Sequence::halton), Sequence::halton},
+                                                   {name_of(Sequence::white), Sequence::white}}};
     return parse_name("--sequence", name, kNames);
 }
 
 View parse_view(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, View>, 7> kNames = {
-        {{"three-quarter", View::three_quarter},
-         {"front", View::front},
-         {"back", View::back},
-         {"left", View::left},
-         {"right", View::right},
-         {"top", View::top},
-         {"iso", View::iso}}};
+    static constexpr Names<View, 7> kNames = {{{"three-quarter", View::three_quarter},
+                                               {"front", View::front},
+                                               {"back", View::back},
+                                               {"left", View::left},
+                                               {"right", View::right},
+                                               {"top", View::top},
+                                               {"iso", View::iso}}};
     return parse_name("--camera", name, kNames);
 }
 
 EffectSwitch parse_effect_switch(std::string_view text) {
+    static constexpr Names<Switch, 3> kNames = {
+        {{"on", Switch::on}, {"off", Switch::off}, {"auto", Switch::automatic}}};
     const std::size_t equals = text.find('=');
     const Effect effect = effect_named(text.substr(0, equals));
     const std::string_view choice = equals == std::string_view::npos ? "" : text.substr(equals + 1);
-    if (choice == "on") return {effect, Switch::on};
-    if (choice == "off") return {effect, Switch::off};
-    if (choice == "auto") return {effect, Switch::automatic};
+    if (const std::optional<Switch> value = value_named(choice, kNames)) return {effect, *value};
     refuse(fmt::format("--effect: '{}' must be NAME=on, NAME=off or NAME=auto", text));
+}
+
+ToneMap parse_tone(std::string_view name) {
+    static constexpr Names<ToneMap, 2> kNames = {{{"filmic", ToneMap::filmic}, {"plain", ToneMap::plain}}};
+    return parse_word("--tone", name, kNames, "filmic or plain");
+}
+
+ProgressMode parse_progress(std::string_view name) {
+    static constexpr Names<ProgressMode, 3> kNames = {
+        {{"auto", ProgressMode::automatic}, {"never", ProgressMode::never}, {"json", ProgressMode::json}}};
+    return parse_word("--progress", name, kNames, "auto, never or json");
+}
+
+float checked_exposure(float ev) {
+    if (!std::isfinite(ev)) refuse(fmt::format("--exposure: {} is not a number of stops", ev));
+    return ev;
+}
+
+std::int64_t checked_range(std::string_view flag, std::int64_t value, std::int64_t low, std::int64_t high) {
+    if (value < low || value > high)
+        refuse(fmt::format("{}: {} is not from {} to {}", flag, value, low, high));
+    return value;
+}
+
+std::optional<double> parse_photon_radius(std::string_view text) {
+    if (text == "auto") return {};
+    const auto number = leading_number(text);
+    const Range range = setting_of<PhotonSettings>("radius").range;
+    if (number && number->second.empty() && range.holds(number->first)) return number->first;
+    refuse(fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}", text, to_string(range)));
 }
 
 }  // namespace voxilux

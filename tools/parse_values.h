@@ -3,14 +3,18 @@
 // Values of flags as people write them. Each throws Error(usage) that names the flag, the text and an
 // example.
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "estimators/metrics.h"
+#include "film/tonemap.h"
 #include "jobs/frame_list.h"
 #include "plan/effects.h"
 #include "plan/render_plan.h"
+#include "progress_line.h"
 #include "scene/scene.h"
 #include "scene/scene_camera.h"
 
@@ -21,6 +25,9 @@ namespace voxilux {
 
 // "x0,y0,x1,y1": columns x0 to x1-1 and rows y0 to y1-1.
 [[nodiscard]] PixelWindow parse_window(std::string_view flag, std::string_view text);
+
+// The same, for image metrics.
+[[nodiscard]] PixelBox parse_pixel_box(std::string_view flag, std::string_view text);
 
 // "90s", "2m", "1h30m", "1.5h" or plain seconds, in seconds.
 [[nodiscard]] double parse_duration(std::string_view text);
@@ -33,6 +40,20 @@ namespace voxilux {
 
 // "2/4": the second of four shards.
 [[nodiscard]] Shard parse_shard(std::string_view text);
+
+// "2.5", a radius of photons in voxels; nothing for "auto".
+[[nodiscard]] std::optional<double> parse_photon_radius(std::string_view text);
+
+// A number from `low` to `high`.
+[[nodiscard]] std::int64_t checked_range(std::string_view flag, std::int64_t value, std::int64_t low,
+                                         std::int64_t high);
+
+// A number of stops.
+[[nodiscard]] float checked_exposure(float ev);
+
+// filmic or plain; auto, never or json.
+[[nodiscard]] ToneMap parse_tone(std::string_view name);
+[[nodiscard]] ProgressMode parse_progress(std::string_view name);
 
 // sobol, halton or white.
 [[nodiscard]] AoMethod parse_ao_method(std::string_view name);

@@ -1,68 +1,80 @@
 #include "scene_options.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "formats/scene_toml.h"
+#include "in_range.h"
 #include "parse_values.h"
-#include "quality.h"
 #include "scene/animation.h"
 #include "scene/facts.h"
-#include "scene/scene_camera.h"
 
 namespace voxilux {
 namespace {
 
-constexpr const char* kScene = "Scene";
-constexpr const char* kSampling = "Sampling";
-constexpr std::uint64_t kMostMib = std::numeric_limits<std::uint64_t>::max() >> 20;
-
-void add_sampling_flags(CLI::App& command, SceneOptions& options) {
-    command.add_option("--quality", options.quality, quality_help())->type_name("NAME")->group(kSampling);
-    command.add_option("--spp", options.spp, "samples per pixel")->type_name("N")->group(kSampling);
-    command
-        .add_option("--iterations", options.iterations,
-                    "iterations of photons: the samples per pixel of such a render")
-        ->type_name("N")
-        ->excludes("--spp")
-        ->group(kSampling);
-    add_photon_flags(command, options.photons);
-    command.add_option("--ao-rays", options.ao_rays, "occlusion rays per sample")
-        ->type_name("N")
-        ->group(kSampling);
-    command.add_option("--ao-radius", options.ao_radius, "reach of occlusion rays, in voxels")
-        ->type_name("R")
-        ->group(kSampling);
-    command
-        .add_option("--ao", options.ao,
-                    "occlusion: brute (each pixel alone), hash (shared between pixels and frames) or auto")
-        ->type_name("METHOD")
-        ->group(kSampling);
-    command
-        .add_option("--traversal", options.traversal,
-                    "structure that rays march through; the plan chooses one")
-        ->type_name("NAME")
-        ->group(kSampling);
-    command.add_option("--seed", options.seed, "seed of every random stream")
-        ->type_name("N")
-        ->group(kSampling);
-    command.add_option("--sequence", options.sequence, "sample sequence: sobol, halton or white")
-        ->type_name("NAME")
-        ->group(kSampling);
+// Stores a value in a member of the settings.
+template <class T>
+std::function<void(const T&)> change(SettingsChanges& changes, T RenderSettings::*member) {
+    return [&changes, member](const T& value) {
+        changes.push_back([=](RenderSettings& settings) { settings.*member = value; });
+    };
 }
 
-// The -D overrides, after those of the preset, so that they win.
-std::vector<std::string> overrides_with_quality(const SceneOptions& options) {
-    if (!options.quality) return options.overrides;
-    std::vector<std::string> overrides = overrides_of(quality_named(*options.quality));
-    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    return overrides;
+// Takes a number in the range of the setting `key`.
+template <class T>
+std::function<void(const T&)> checked(const char* flag, const char* key, std::function<void(const T&)> take) {
+    return [=](const T& value) { take(in_range<RenderSettings>(flag, key, value)); };
+}
+
+// The same for one of the photons' settings, of a text or a number.
+template <class T, class Value, class Check>
+std::function<void(const Value&)> change_photons(SettingsChanges& changes, T PhotonSettings::*member,
+                                                 Check check) {
+    return [&changes, member, check](const Value& given) {
+        const T value = check(given);
+        changes.push_back([=](RenderSettings& settings) { settings.photons.*member = value; });
+    };
+}
+
+void add_sampling_flags(Flags& flags, SceneOptions& options) {
+    SettingsChanges& changes = options.changes;
+    flags.begin_group("Sampling");
+    flags.add_parsed(
+        "--quality", "NAME", options.quality, [](const std::string& name) { return &quality_named(name); },
+        quality_help());
+    const std::function<void(const std::uint32_t&)> take_spp = [&](std::uint32_t spp) { options.spp = spp; };
+    flags.on("--spp", "N", checked("--spp", "spp", take_spp), "samples per pixel");
+    flags
+        .on("--iterations", "N", checked("--iterations", "spp", take_spp),
+            "iterations of photons: the samples per pixel of such a render")
+        .excludes("--spp");
+    add_photon_flags(flags, changes);
+    flags.on("--ao-rays", "N", checked("--ao-rays", "ao_rays", change(changes, &RenderSettings::ao_rays)),
+             "occlusion rays per sample");
+    flags.on("--ao-radius", "R",
+             checked("--ao-radius", "ao_radius", change(changes, &RenderSettings::ao_radius)),
+             "reach of occlusion rays, in voxels");
+    flags.on<std::string>(
+        "--ao", "METHOD",
+        [&changes](const std::string& name) {
+            changes.push_back(
+                [method = parse_ao_method(name)](RenderSettings& settings) { settings.ao.method = method; });
+        },
+        "occlusion: brute (each pixel alone), hash (shared between pixels and frames) or auto");
+    flags.add_parsed("--traversal", "NAME", options.request.traversal, traversal_named,
+                     "structure that rays march through; the plan chooses one");
+    flags.on("--seed", "N", change(changes, &RenderSettings::seed), "seed of every random stream");
+    flags.on<std::string>(
+        "--sequence", "NAME",
+        [take = change(changes, &RenderSettings::sequence)](const std::string& name) {
+            take(parse_sequence(name));
+        },
+        "sample sequence: sobol, halton or white");
 }
 
 bool has_photons(const Scene& scene, const SceneOptions& options) {
-    const EffectStates effects = decide_effects(measure_scene(scene), plan_request(options).effects);
+    const EffectStates effects = decide_effects(measure_scene(scene), options.request.effects);
     return std::ranges::any_of(effects, [](const EffectState& state) {
         return state.on && (state.effect == Effect::caustics || state.effect == Effect::indirect);
     });
@@ -70,78 +82,79 @@ bool has_photons(const Scene& scene, const SceneOptions& options) {
 
 // Samples of the preset in a scene with photons, unless an override says how many.
 void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
-    if (!options.quality) return;
+    if (options.quality == nullptr) return;
     const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
     if (std::ranges::none_of(options.overrides, sets_samples) && has_photons(scene, options))
-        scene.settings.spp = quality_named(*options.quality).lamps.samples;
+        scene.settings.spp = options.quality->lamps.samples;
 }
 
 }  // namespace
 
-void add_scene_flags(CLI::App& command, SceneOptions& options) {
-    command.add_option("INPUT", options.input, "a .vox file, or a scene file .toml")
-        ->required()
-        ->type_name("");
-    command.add_option("--size", options.size, "picture size in pixels")->type_name("WxH")->group(kScene);
-    command
-        .add_option("--camera", options.camera,
-                    "frame it from three-quarter, front, back, left, right, top or iso")
-        ->type_name("SIDE")
-        ->group(kScene);
-    command.add_option("--crop", options.crop, "render columns X0 to X1-1 and rows Y0 to Y1-1 only")
-        ->type_name("X0,Y0,X1,Y1")
-        ->group(kScene);
-    command.add_option("--frame", options.frame, "one picture, of this frame of an animated scene")
-        ->check([](const std::string& text) { return text.starts_with("-") ? "is not 0 or above" : ""; })
-        ->type_name("N")
-        ->group(kScene);
-    command
-        .add_option("--frames", options.frames,
+void add_photon_flags(Flags& flags, SettingsChanges& changes) {
+    const auto checked_count = [](std::int64_t count) {
+        return static_cast<std::uint32_t>(in_range<PhotonSettings>("--photons", "count", count));
+    };
+    const auto checked_alpha = [](double alpha) {
+        return in_range<PhotonSettings>("--alpha", "alpha", alpha);
+    };
+    flags.on("--photons", "N",
+             change_photons<std::uint32_t, std::int64_t>(changes, &PhotonSettings::count, checked_count),
+             "photons of an iteration; 0: as many as the picture has pixels");
+    flags.on("--radius", "R",
+             change_photons<std::optional<double>, std::string>(changes, &PhotonSettings::radius,
+                                                                parse_photon_radius),
+             "radius of photons in the first iteration, in voxels, or auto");
+    flags.on("--alpha", "A", change_photons<double, double>(changes, &PhotonSettings::alpha, checked_alpha),
+             "how slowly that radius declines, above 0 and up to 1, where it stays");
+}
+
+Flag add_scene_flags(Flags& flags, SceneOptions& options) {
+    PlanRequest& request = options.request;
+    const Flag input = flags.add("INPUT", "", options.input, "a .vox file, or a scene file .toml");
+    flags.begin_group("Scene");
+    flags.on<std::string>(
+        "--size", "WxH",
+        [take = change(options.changes, &RenderSettings::size)](const std::string& text) {
+            take(parse_size("--size", text));
+        },
+        "picture size in pixels");
+    flags.add_parsed("--camera", "SIDE", options.view, parse_view,
+                     "frame it from three-quarter, front, back, left, right, top or iso");
+    flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
+                     "render columns X0 to X1-1 and rows Y0 to Y1-1 only");
+    flags.add("--frame", "N", options.frame, "one picture, of this frame of an animated scene").from_zero();
+    flags
+        .add_parsed("--frames", "A-B[xS]", options.frames, parse_frames,
                     "a picture for each frame from A to B, every Sth: x.png gives x.0001.png, ...")
-        ->type_name("A-B[xS]")
-        ->excludes("--frame")
-        ->group(kScene);
-    command.add_option("--effect", options.effects, "override the plan: on, off or auto; may repeat")
-        ->type_name("NAME=STATE")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->group(kScene);
-    command
-        .add_option("-D", options.overrides,
-                    "set a key of the scene file, such as sun.elevation=10; may repeat")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->group(kScene);
-    add_sampling_flags(command, options);
+        .excludes("--frame");
+    flags.on<std::vector<std::string>>(
+        "--effect", "NAME=STATE",
+        [&request](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+                const EffectSwitch one = parse_effect_switch(text);
+                request.effects.switches[one.effect] = one.choice;
+            }
+        },
+        "override the plan: on, off or auto; may repeat");
+    flags.add("-D", "KEY=VALUE", options.overrides,
+              "set a key of the scene file, such as sun.elevation=10; may repeat");
+    add_sampling_flags(flags, options);
+    return input;
 }
 
 Scene load_scene_with(const SceneOptions& options) {
-    // Flags are read before the file: a slip in a flag should not cost the loading of a large scene.
-    std::optional<glm::ivec2> size;
-    std::optional<View> view;
-    std::optional<Sequence> sequence;
-    if (options.size) size = parse_size("--size", *options.size);
-    if (options.camera) view = parse_view(*options.camera);
-    if (options.sequence) sequence = parse_sequence(*options.sequence);
-    std::optional<AoMethod> ao;
-    if (options.ao) ao = parse_ao_method(*options.ao);
-    (void)with_photons({}, options.photons);
-
-    Scene scene = load_scene(options.input, {.overrides = overrides_with_quality(options)});
+    // -D comes after the preset, so that it wins.
+    std::vector<std::string> overrides;
+    if (options.quality != nullptr) overrides = overrides_of(*options.quality);
+    overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+    Scene scene = load_scene(options.input, {.overrides = overrides});
     set_iterations_of_quality(options, scene);
-    RenderSettings& settings = scene.settings;
-    settings.size = size.value_or(settings.size);
-    settings.spp = options.iterations.value_or(options.spp.value_or(settings.spp));
-    settings.ao_rays = options.ao_rays.value_or(settings.ao_rays);
-    settings.ao_radius = options.ao_radius.value_or(settings.ao_radius);
-    settings.seed = options.seed.value_or(settings.seed);
-    settings.sequence = sequence.value_or(settings.sequence);
-    settings.ao.method = ao.value_or(settings.ao.method);
-    settings.photons = with_photons(settings.photons, options.photons);
-    if (view) {
+    for (const auto& change : options.changes)
+        change(scene.settings);
+    scene.settings.spp = options.spp.value_or(scene.settings.spp);
+    if (options.view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
-        scene.camera = framing_camera(scene, *view, fov_y_deg);
+        scene.camera = framing_camera(scene, *options.view, fov_y_deg);
         scene.animation.camera_keys.clear();
     }
     return scene;
@@ -153,12 +166,11 @@ FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
         const std::int64_t frame = options.frame.value_or(all.value_or(FrameRange{}).first);
         return {.first = frame, .last = frame};
     }
-    const FrameList frames = parse_frames(*options.frames);
     if (!all)
         throw Error(ExitCode::usage,
                     "--frames: the scene is still; it needs [[camera.key]], [camera.turntable] "
                     "or an animated .vox file");
-    return frames;
+    return *options.frames;
 }
 
 void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request) {
@@ -171,18 +183,6 @@ void print_frame_note(const SceneOptions& options, const Scene& scene) {
     if (!all || options.frame || options.frames) return;
     fmt::print(stderr, "note: this is frame {0} of an animation; --frames {0}-{1} renders all {2}\n",
                all->first, all->last, all->last - all->first + 1);
-}
-
-PlanRequest plan_request(const SceneOptions& options) {
-    PlanRequest request;
-    for (const std::string& text : options.effects) {
-        const EffectSwitch one = parse_effect_switch(text);
-        request.effects.switches[one.effect] = one.choice;
-    }
-    if (options.traversal) request.traversal = traversal_named(*options.traversal);
-    if (options.crop) request.crop = parse_window("--crop", *options.crop);
-    request.memory_budget_bytes = std::min(options.memory_budget_mib, kMostMib) << 20;
-    return request;
 }
 
 }  // namespace voxilux

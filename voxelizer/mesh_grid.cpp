@@ -11,6 +11,9 @@
 namespace voxilux {
 namespace {
 
+constexpr std::array<std::string_view, 6> kUpNames = {"x",  "y",  "z",
+                                                      "-x", "-y", "-z"};  // in the order of UpAxis
+
 // Rounding of an extent that is a whole number of cells must not add a layer: voxels.
 constexpr double kExtentSlack = 1e-6;
 
@@ -51,11 +54,14 @@ int cells_along(double extent) {
 
 }  // namespace
 
+std::string_view name_of(UpAxis up) {
+    return kUpNames[static_cast<std::size_t>(up)];
+}
+
 std::optional<UpAxis> parse_up(std::string_view word) {
-    constexpr std::array<std::string_view, 6> kWords = {"x", "y", "z", "-x", "-y", "-z"};
-    const auto found = std::ranges::find(kWords, word);
-    if (found == kWords.end()) return std::nullopt;
-    return static_cast<UpAxis>(found - kWords.begin());
+    const auto found = std::ranges::find(kUpNames, word);
+    if (found == kUpNames.end()) return std::nullopt;
+    return static_cast<UpAxis>(found - kUpNames.begin());
 }
 
 std::vector<std::uint32_t> finite_triangles(const Mesh& mesh) {

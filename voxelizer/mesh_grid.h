@@ -26,6 +26,7 @@ enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
 
 // x, y, z, -x, -y or -z; nothing for another word.
 [[nodiscard]] std::optional<UpAxis> parse_up(std::string_view word);
+[[nodiscard]] std::string_view name_of(UpAxis up);
 
 struct GridRequest {
     int resolution = 256;                    // cells along the longest side, unless metres_per_voxel is given

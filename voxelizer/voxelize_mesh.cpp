@@ -178,4 +178,22 @@ VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request) {
     return set;
 }
 
+std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set) {
+    std::vector<std::string> warnings = mesh.warnings;
+    if (set.dropped != 0)
+        warnings.push_back(
+            fmt::format("{} triangles with a vertex that is not finite are left out", set.dropped));
+    if (set.solid.open_edges + set.solid.open_rows != 0) {
+        warnings.push_back(
+            fmt::format("the mesh is open: {} edges have no partner, {} rows of voxels are not filled",
+                        set.solid.open_edges, set.solid.open_rows));
+    }
+    if (set.solid.disputed != 0) {
+        warnings.push_back(fmt::format(
+            "the mesh overlaps itself: parity and winding number disagree on {} voxels of the inside",
+            set.solid.disputed));
+    }
+    return warnings;
+}
+
 }  // namespace voxilux

@@ -40,4 +40,7 @@ struct VoxelSet {
 // Throws what grid_of throws, and Error(input_refused) when nothing is left to be seen.
 [[nodiscard]] VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request);
 
+// What the user should know of a mesh and its voxels, one line each.
+[[nodiscard]] std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set);
+
 }  // namespace voxilux

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -74,6 +76,28 @@ void write_file_atomically(const fs::path& path, std::span<const std::byte> byte
         out.close();
         if (!out) throw std::runtime_error(std::strerror(errno != 0 ? errno : EIO));
     });
+}
+
+bool has_ending(const fs::path& file, std::string_view ending) {
+    std::string own = file.extension().string();
+    std::ranges::transform(own, own.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return own == ending;
+}
+
+void check_writable(const fs::path& file) {
+    if (file.empty() || file == "-") return;
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ExitCode::cannot_write, fmt::format("{}: cannot write: {}", file.string(), why));
+    };
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) refuse("it is a folder");
+    const bool is_device = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!fs::is_directory(folder, ignored)) refuse(fmt::format("there is no folder {}", folder.string()));
+    const fs::path& written = is_device ? file : folder;
+    if (::access(written.c_str(), W_OK) != 0)
+        refuse(fmt::format("{}: {}", written.string(), std::strerror(errno)));
 }
 
 }  // namespace voxilux

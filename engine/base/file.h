@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxilux {
@@ -20,5 +21,13 @@ void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path& temporary)>& write);
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// Whether the file's ending is `ending` (".exr") in small or capital letters.
+[[nodiscard]] bool has_ending(const std::filesystem::path& file, std::string_view ending);
+
+// Throws Error(cannot_write) for a file that could not be written later: a folder of that name, a folder that
+// is absent or may not be written into. Nothing for "" and "-". Finding out before the work is kinder than
+// after it.
+void check_writable(const std::filesystem::path& file);
 
 }  // namespace voxilux

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/toml_scene.h"
-#include "formats/toml_section.h"
 #include "formats/vox_read.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "formats/toml_scene.h"
-#include "formats/toml_section.h"
 #include "scene/animation.h"
 #include "scene/scene_camera.h"
 

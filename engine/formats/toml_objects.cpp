@@ -10,9 +10,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "formats/toml_materials.h"
 #include "formats/toml_scene.h"
-#include "formats/toml_section.h"
 #include "formats/vox_read.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"

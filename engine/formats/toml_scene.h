@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <toml++/toml.h>
 
+#include "formats/toml_section.h"
 #include "scene/scene.h"
 
 namespace voxilux {
@@ -33,5 +35,12 @@ void read_camera(TomlScene& in);  // last: a preset frames everything else
 
 // The tables of a repeated section like [[shape]]; refused when it is anything else.
 [[nodiscard]] std::vector<const toml::table*> find_sections(const TomlScene& in, std::string_view name);
+
+// The name that carves instead of filling.
+inline constexpr std::string_view kAir = "air";
+
+// The index of a [material.NAME] in the scene; refused at `key` with the nearest name when there is none.
+[[nodiscard]] std::uint32_t find_material(const TomlScene& in, const TomlSection& section,
+                                          std::string_view key, const std::string& name);
 
 }  // namespace voxilux

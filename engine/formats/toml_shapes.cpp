@@ -6,9 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "formats/toml_materials.h"
 #include "formats/toml_scene.h"
-#include "formats/toml_section.h"
 #include "scene/shapes.h"
 
 namespace voxilux {

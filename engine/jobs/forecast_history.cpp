@@ -9,6 +9,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "base/median.h"
+#include "base/user_folders.h"
 #include "jobs/forecast_report.h"
 
 namespace voxilux {
@@ -95,13 +97,6 @@ std::optional<Judged> judge(const Json& entry) {
     return Judged{.is_inside = *wall >= *low && *wall <= *high, .ratio = *wall / *expected};
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
 }  // namespace
 
 Json history_entry(const Json& report, const std::string& scene_name) {
@@ -111,6 +106,11 @@ Json history_entry(const Json& report, const std::string& scene_name) {
     entry["device"] = report.at("device").at("name");
     entry["forecast"] = report.at("forecast");
     return entry;
+}
+
+fs::path history_file() {
+    const fs::path folder = state_folder();
+    return folder.empty() ? folder : folder / "forecasts.jsonl";
 }
 
 bool append_history(const fs::path& file, const Json& entry) {
@@ -127,6 +127,11 @@ bool append_history(const fs::path& file, const Json& entry) {
         static_cast<std::uint64_t>(status.st_size) >= kMostHistoryBytes)
         make_room(file, out.number());
     return is_written;
+}
+
+void remember_forecast(const Json& report, const std::string& scene_name) {
+    if (report.at("forecast").at("low_s").is_null()) return;
+    (void)append_history(history_file(), history_entry(report, scene_name));
 }
 
 std::vector<Json> read_history(const fs::path& file) {

@@ -18,9 +18,15 @@ inline constexpr std::uint64_t kMostHistoryBytes = std::uint64_t{1} << 20;
 [[nodiscard]] nlohmann::ordered_json history_entry(const nlohmann::ordered_json& report,
                                                    const std::string& scene_name);
 
+// Where the forecasts of all renders are kept; empty where there is no home.
+[[nodiscard]] std::filesystem::path history_file();
+
 // Appends one line to the file, whose folder is made if need be. Safe beside other processes that do the
 // same: a line is one write at the end of the file. False where that cannot be done, which harms nothing.
 bool append_history(const std::filesystem::path& file, const nlohmann::ordered_json& entry);
+
+// Remembers the forecast that the report of a render has, if it has one.
+void remember_forecast(const nlohmann::ordered_json& report, const std::string& scene_name);
 
 // The entries of the old file and the file, oldest first. Lines that are none are left out, as is a file that
 // cannot be read.

@@ -3,7 +3,7 @@
 #include <bit>
 #include <memory>
 #include <new>
-#include <string>
+#include <ranges>
 #include <tuple>
 #include <type_traits>
 
@@ -104,6 +104,10 @@ auto fields_of(const VoxLayer& layer) {
     return std::tie(id, attributes, reserved);
 }
 
+auto fields_of(const VoxDict::value_type& attribute) {
+    return std::tie(attribute.first, attribute.second);
+}
+
 auto fields_of(const Animation& animation) {
     const auto& [camera_keys, camera_path, turntable, files, placements] = animation;
     return std::tie(camera_keys, camera_path, turntable, files, placements);
@@ -123,13 +127,24 @@ class Hasher {
         XXH3_64bits_reset(state_.get());
     }
 
-    // A struct, by its fields.
+    // A list starts with its length, so that no two scenes give the same bytes.
     template <class T>
     void add(const T& value) {
-        if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>)
+        if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
             add_bytes(&value, sizeof(value));
-        else
+        } else if constexpr (std::ranges::range<T>) {
+            add(std::uint64_t{value.size()});
+            for (const auto& element : value)
+                add(element);
+        } else {
             std::apply([&](const auto&... fields) { (add(fields), ...); }, fields_of(value));
+        }
+    }
+    // Scenes have up to 2^28 of them.
+    void add(const std::vector<Voxel>& voxels) {
+        static_assert(std::has_unique_object_representations_v<Voxel>);
+        add(std::uint64_t{voxels.size()});
+        add_bytes(voxels.data(), voxels.size() * sizeof(Voxel));
     }
     template <glm::length_t N, class T>
     void add(const glm::vec<N, T>& value) {
@@ -140,33 +155,6 @@ class Hasher {
     void add(const std::optional<T>& value) {
         add(value.has_value());
         if (value) add(*value);
-    }
-    template <class T, std::size_t N>
-    void add(const std::array<T, N>& list) {
-        for (const T& element : list)
-            add(element);
-    }
-    // Lists start with their length, so that no two scenes give the same bytes.
-    template <class T>
-    void add(const std::vector<T>& list) {
-        add(std::uint64_t{list.size()});
-        for (const T& element : list)
-            add(element);
-    }
-    // Scenes have up to 2^28 of them.
-    void add(const std::vector<Voxel>& voxels) {
-        static_assert(std::has_unique_object_representations_v<Voxel>);
-        add(std::uint64_t{voxels.size()});
-        add_bytes(voxels.data(), voxels.size() * sizeof(Voxel));
-    }
-    void add(const std::string& text) {
-        add(std::uint64_t{text.size()});
-        add_bytes(text.data(), text.size());
-    }
-    template <class A, class B>
-    void add(const std::pair<A, B>& both) {
-        add(both.first);
-        add(both.second);
     }
     template <class... T>
     void add(const std::variant<T...>& value) {

@@ -5,6 +5,7 @@
 // rows. Each list of rows starts by naming every member of its struct, so that one without a row does not
 // compile unnoticed.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,9 +13,9 @@
 #include <string_view>
 
 #include "base/assert.h"
-#include "scene/camera_settings.h"
 #include "scene/scene.h"
 #include "scene/scene_bounds.h"
+#include "scene/scene_camera.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {
@@ -43,13 +44,14 @@ constexpr Range between(double low, double high) {
 }
 
 inline constexpr Range kWhole{0, 4294967295};
-inline constexpr Range kLight{0,
-                              1e6};  // radiance, irradiance: far above any sun, and its square fits a float
-inline constexpr Range kTurn{-3600, 3600};  // degrees: ten turns, for the sake of animations
-inline constexpr Range kPitch{-90, 90};     // degrees
+// Radiance and irradiance: far above any sun, and the square still fits a float.
+inline constexpr Range kLight{0, 1e6};
+// Degrees: ten turns, for the sake of animations.
+inline constexpr Range kTurn{-3600, 3600};
+inline constexpr Range kPitch{-90, 90};  // degrees
 inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
-inline constexpr Range kReach{-kMaxCoordinate / 2,
-                              kMaxCoordinate / 2};  // so that the sum of two is in kPlace
+// Centre and radius of a sphere: their sum is a place, too.
+inline constexpr Range kReach{-kMaxCoordinate / 2, kMaxCoordinate / 2};
 
 // One row. A number is in `range`; what has `choices` is written as one of these names, in the order of the
 // values.
@@ -71,6 +73,31 @@ struct Setting {
 struct HexColour {
     glm::vec3& linear;
     std::string_view linear_key;
+};
+
+// What a scene file says of where the camera stands. A direction is a point to look at, or yaw and pitch.
+struct CameraPlacement {
+    std::optional<glm::dvec3> position;
+    std::optional<glm::dvec3> look_at;
+    std::optional<double> yaw_deg;
+    std::optional<double> pitch_deg;
+    double fov_y_deg = kDefaultFovYDeg;
+};
+
+inline constexpr std::array<std::string_view, 7> kViewNames{
+    "three_quarter", "front", "back", "left", "right", "top", "iso"};  // in the order of View
+
+// [camera], less its keys and its turntable.
+struct CameraSettings {
+    CameraPlacement placement;
+    std::optional<View> preset;
+    CameraPath path = CameraPath::smooth;
+};
+
+// [[camera.key]]
+struct CameraKeySettings {
+    std::int64_t frame = 0;
+    CameraPlacement placement;
 };
 
 // visit_settings(settings, visit) calls visit(const Setting&, member) for each row of a section.
@@ -101,8 +128,7 @@ void visit_settings(AoSettings& settings, auto&& visit) {
 
 void visit_settings(PhotonSettings& settings, auto&& visit) {
     auto& [count, radius, alpha, scatter, classic, roulette, depth] = settings;
-    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one per pixel, but at least 16384"},
-          count);
+    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one for each pixel"}, count);
     visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
     visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
     visit({"scatter", {}, "photons look for points: the same sums, slower"}, scatter);
@@ -138,7 +164,7 @@ void visit_settings(CameraPlacement& placement, auto&& visit) {
 void visit_settings(CameraSettings& settings, auto&& visit) {
     auto& [placement, preset, path] = settings;
     visit_settings(placement, visit);
-    visit({"preset", {}, "instead of a position: frames the whole scene", kViewNames}, preset);
+    visit({"preset", {}, "frames the whole scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
 }
 

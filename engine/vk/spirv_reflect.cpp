@@ -210,6 +210,8 @@ void add_constants(const Module& module, ProgramInfo& info) {
         info.constants.push_back({.name = module.name(id), .id = *spec_id, .default_value = *constant.value});
     }
     std::ranges::sort(info.constants, {}, &SpecConstant::id);
+    if (std::ranges::adjacent_find(info.constants, {}, &SpecConstant::id) != info.constants.end())
+        spirv::fail("two specialization constants share a number");
 }
 
 void add_local_size(const Module& module, ProgramInfo& info) {

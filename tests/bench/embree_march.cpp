@@ -65,11 +65,12 @@ std::uint64_t count_differences(Query query, std::span<const gpu::BenchHit> hits
 
 class EmbreeBench {
   public:
-    EmbreeBench(const BenchScene& scene, const BenchRequest& request) : scene_(scene), embree_(scene.world) {
+    EmbreeBench(const BenchScene& scene, const MarchBenchOptions& options)
+        : scene_(scene), embree_(scene.world) {
         build_s_ = build_watch_.elapsed().cpu;
         const MarchWorld guide = build_march_world(scene.world);
-        for (const RayKind kind : request.kinds) {
-            RayList list{.kind = kind, .rays = bench_rays(scene, guide, kind, request.size, request.seed)};
+        for (const RayKind kind : options.kinds) {
+            RayList list{.kind = kind, .rays = bench_rays(scene, guide, kind, options.size, options.seed)};
             for (const gpu::Ray& ray : list.rays)
                 list.marched.push_back(march_one(guide, ray));
             lists_.push_back(std::move(list));
@@ -78,8 +79,8 @@ class EmbreeBench {
 
     // A row for each query and kind of rays; says on standard error how many rays hit. They must not outlive
     // this.
-    std::vector<Contestant> contestants() {
-        std::vector<Contestant> all;
+    std::vector<MarchContestant> contestants() {
+        std::vector<MarchContestant> all;
         for (const RayList& list : lists_)
             all.push_back(contestant(Query::intersect1, list));
         for (const RayList& list : lists_)
@@ -88,7 +89,7 @@ class EmbreeBench {
     }
 
   private:
-    Contestant contestant(Query query, const RayList& list) {
+    MarchContestant contestant(Query query, const RayList& list) {
         BenchRow row{.scene = scene_.name,
                      .extent = scene_.extent,
                      .traversal = query == Query::occluded1 ? "embree.occluded1" : "embree.intersect1",
@@ -159,13 +160,13 @@ void print_ratios(const std::vector<BenchRow>& rows) {
     }
 }
 
-std::vector<BenchRow> bench_both(const BenchScene& scene, const MarchBenchOptions& options,
-                                 const BenchRequest& request, Device& device) {
-    MarchBench march(scene, options, request, device);
-    EmbreeBench embree(scene, request);
-    std::vector<Contestant> contestants = march.contestants();
+std::vector<BenchRow> bench_both(const BenchScene& scene, const MarchBenchOptions& options, Device& device) {
+    MarchBench march(scene, options, device);
+    EmbreeBench embree(scene, options);
+    std::vector<MarchContestant> contestants = march.contestants();
     std::ranges::move(embree.contestants(), std::back_inserter(contestants));
-    std::vector<BenchRow> rows = run_contest(contestants, request.rounds);
+    run_contest(contestants, options.rounds);
+    const std::vector<BenchRow> rows = rows_of(contestants);
     print_ratios(rows);
     return rows;
 }
@@ -174,13 +175,14 @@ int run(int argc, char** argv) {
     CLI::App app{"voxilux bench march with Embree in the contest, one ray at a time on one thread."};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     BenchMarchCommand command;
-    add_march_flags(app, command);
+    Flags flags(app);
+    add_bench_march_flags(flags, command);
     CLI11_PARSE(app, argc, argv);
-    const MarchBenchOptions options = march_options(command);
-    const BenchRequest request = bench_request(command.flags);
-    Device device = open_device({.selector = command.device});
-    run_benchmark(command.flags,
-                  [&](const BenchScene& scene) { return bench_both(scene, options, request, device); });
+    MarchBenchOptions options = command.options;
+    options.size = command.inputs.size;
+    options.seed = command.inputs.seed;
+    Device device = open_device({.selector = command.inputs.device});
+    bench_march_scenes(command, [&](const BenchScene& scene) { return bench_both(scene, options, device); });
     return 0;
 }
 

@@ -1,4 +1,5 @@
-// Who may include whom. The rooms and their order are the table of engine/README.md.
+// Who may include whom. The rooms and their order are the table of engine/README.md; above them stand the voxelizer
+// and the tools.
 
 #include <gtest/gtest.h>
 
@@ -135,6 +136,117 @@ TEST(Rooms, vulkan_header_outside_vk_is_found) {
         EXPECT_EQ(vulkan_includes_outside_vk({{"engine/film/film.h", text}}).size(), 1u) << header;
         EXPECT_EQ(vulkan_includes_outside_vk({{"tests/device/probe/a_test.cpp", text}}).size(), 1u) << header;
     }
+}
+
+// Of the engine, what the voxelizer may include: it knows meshes and files, and nothing that renders.
+const Rooms kVoxelizerRooms = {"base", "scene", "formats", "estimators"};
+
+std::vector<std::string> wrong_voxelizer_includes(const std::vector<SourceFile>& files) {
+    std::vector<std::string> faults;
+    for (const SourceFile& file : files) {
+        for (const Include& include : includes_of(file)) {
+            const std::string folder = first_folder(include.target);
+            const bool may = !include.quoted || folder == "voxelizer" || folder == "shared" ||
+                             std::ranges::find(kVoxelizerRooms, folder) != kVoxelizerRooms.end();
+            if (!may) faults.push_back(file.path + " includes " + include.target);
+        }
+    }
+    return faults;
+}
+
+// Folders of tools that other subcommands may include: plan takes the flags of render.
+const Rooms kSharedTools = {"render"};
+
+// A subcommand includes its own folder, what all share at the top of tools/, the engine and the voxelizer. Of
+// the files at the top only the command line, which lists the subcommands, includes their folders.
+bool may_tool_include(const Rooms& rooms, const std::string& path, const Include& include) {
+    const std::string folder = first_folder(include.target);
+    if (!include.quoted || folder.empty() || folder == "voxelizer" || folder == "shared" ||
+        path == "tools/command_line.cpp")
+        return true;
+    const bool is_room = std::ranges::find(rooms, folder) != rooms.end();
+    const bool is_other_tool = std::filesystem::exists(VX_SOURCE_DIR "/tools/" + include.target);
+    if (is_room && !is_other_tool) return true;
+    const std::string own = first_folder(path.substr(std::string("tools/").size()));
+    const bool is_shared = std::ranges::find(kSharedTools, folder) != kSharedTools.end();
+    return !own.empty() && (folder == own || is_shared);
+}
+
+std::vector<std::string> wrong_tool_includes(const Rooms& rooms, const std::vector<SourceFile>& files) {
+    std::vector<std::string> faults;
+    for (const SourceFile& file : files) {
+        for (const Include& include : includes_of(file)) {
+            if (!may_tool_include(rooms, file.path, include))
+                faults.push_back(file.path + " includes " + include.target);
+        }
+    }
+    return faults;
+}
+
+// The parser of command lines takes ten seconds to compile.
+const std::vector<std::string> kMayParse = {"tools/command_line.cpp", "tools/flags.cpp"};
+
+std::vector<std::string> wrong_parser_includes(const std::vector<SourceFile>& files) {
+    std::vector<std::string> faults;
+    for (const SourceFile& file : files) {
+        const bool may =
+            file.path.starts_with("tests/") || std::ranges::find(kMayParse, file.path) != kMayParse.end();
+        for (const Include& include : includes_of(file)) {
+            if (!may && include.target.starts_with("CLI/"))
+                faults.push_back(file.path + " includes " + include.target);
+        }
+    }
+    return faults;
+}
+
+TEST(Rooms, voxelizer_includes_nothing_that_renders) {
+    const std::vector<SourceFile> files = test::source_files("voxelizer", {".h", ".cpp"});
+    ASSERT_GT(files.size(), 20u);
+    EXPECT_EQ(test::joined(wrong_voxelizer_includes(files)), "");
+}
+
+TEST(Rooms, voxelizer_that_includes_a_plan_or_a_tool_is_found) {
+    const std::string path = "voxelizer/mesh.h";
+    for (const char* target :
+         {"plan/render_plan.h", "jobs/report.h", "progress_line.h", "voxelize/voxelize.h"})
+        EXPECT_EQ(wrong_voxelizer_includes({{path, std::string("#include \"") + target + "\"\n"}}).size(), 1u)
+            << target;
+    EXPECT_EQ(wrong_voxelizer_includes({{path, "#include \"base/error.h\"\n#include <vector>\n"}}).size(),
+              0u);
+}
+
+TEST(Rooms, tool_includes_no_other_tool) {
+    const std::vector<SourceFile> files = test::source_files("tools", {".h", ".cpp"});
+    ASSERT_GT(files.size(), 30u);
+    EXPECT_EQ(test::joined(wrong_tool_includes(our_rooms(), files)), "");
+}
+
+TEST(Rooms, tool_that_includes_another_tool_is_found) {
+    const Rooms rooms = our_rooms();
+    const auto faults = [&](const char* path, const std::string& target) {
+        return wrong_tool_includes(rooms, {{path, "#include \"" + target + "\"\n"}}).size();
+    };
+    EXPECT_EQ(faults("tools/merge/merge.cpp", "compare/compare.h"), 1u);
+    EXPECT_EQ(faults("tools/merge/merge.cpp", "plan/plan.h"), 1u) << "plan is a room and a tool";
+    EXPECT_EQ(faults("tools/shared_flags.cpp", "render/render.h"), 1u);
+    EXPECT_EQ(faults("tools/merge/merge.cpp", "merge/merge.h"), 0u);
+    EXPECT_EQ(faults("tools/plan/plan.cpp", "render/render.h"), 0u);
+    EXPECT_EQ(faults("tools/merge/merge.cpp", "plan/render_plan.h"), 0u);
+    EXPECT_EQ(faults("tools/merge/merge.cpp", "shared_flags.h"), 0u);
+    EXPECT_EQ(faults("tools/command_line.cpp", "compare/compare.h"), 0u);
+}
+
+TEST(Rooms, parser_of_command_lines_is_compiled_in_two_places) {
+    std::vector<SourceFile> files = test::all_code();
+    std::ranges::move(test::source_files("voxelizer", {".h", ".cpp"}), std::back_inserter(files));
+    EXPECT_EQ(test::joined(wrong_parser_includes(files)), "");
+}
+
+TEST(Rooms, parser_elsewhere_is_found) {
+    const std::string text = "#include <CLI/CLI.hpp>\n";
+    for (const char* path : {"engine/jobs/report.h", "voxelizer/mesh.h", "tools/render/render_flags.cpp"})
+        EXPECT_EQ(wrong_parser_includes({{path, text}}).size(), 1u) << path;
+    EXPECT_EQ(wrong_parser_includes({{"tools/flags.cpp", text}}).size(), 0u);
 }
 
 TEST(Rooms, rows_outside_the_table_are_no_rooms) {

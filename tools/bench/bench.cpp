@@ -1,70 +1,114 @@
 #include "bench/bench.h"
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
+#include <cstdio>
+#include <filesystem>
 
 #include "base/error.h"
-#include "jobs/bench/march_bench.h"
+#include "base/file.h"
+#include "formats/image_file.h"
+#include "formats/scene_toml.h"
+#include "write_json.h"
 
 namespace voxilux {
 namespace {
 
-std::vector<Traversal> traversals_of(const BenchMarchCommand& command) {
-    if (command.traversals.empty()) return {all_traversals().begin(), all_traversals().end()};
-    std::vector<Traversal> traversals;
-    for (const std::string& name : command.traversals) {
-        const Traversal traversal = traversal_named(name);
-        if (std::ranges::find(traversals, traversal) == traversals.end()) traversals.push_back(traversal);
-    }
-    return traversals;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPhotonScene = "scenes/cornell.toml";
+constexpr std::uint32_t kPhotons = 65536;
+constexpr double kPhotonRadius = 2.0;  // voxels
+
+// Prints the rows of a scene as they come, unless JSON goes where they would, to which they are added.
+template <class Row>
+void print_rows(const std::vector<Row>& rows, const std::string& file, Json& json) {
+    for (const Row& row : rows)
+        json.push_back(to_json(row));
+    if (file == "-") return;
+    fmt::print("{}\n", describe(rows));
+    std::fflush(stdout);
+}
+
+std::string name_of_file(const std::string& file) {
+    return std::filesystem::path(file).filename().string();
+}
+
+Scene photon_scene(const BenchPhotonsCommand& command, const std::string& file) {
+    Scene scene = load_scene(file);
+    RenderSettings& settings = scene.settings;
+    settings.size = command.inputs.size;
+    settings.spp = static_cast<std::uint32_t>(command.iterations);
+    settings.seed = command.inputs.seed;
+    settings.photons.count = kPhotons;
+    settings.photons.radius = kPhotonRadius;
+    for (const auto& change : command.photons)
+        change(settings);
+    return scene;
 }
 
 }  // namespace
 
-void add_march_flags(CLI::App& command, BenchMarchCommand& march) {
-    add_bench_flags(command, march.flags);
-    add_word_list(command, "--traversal", march.traversals, "structures to march through (default all)")
-        ->type_name("NAME,...");
-    command.add_option("--device", march.device, "index or part of the name, see voxilux devices")
-        ->type_name("NAME");
-    command
-        .add_option("--build", march.build,
-                    "what builds the structures: cpu, device, or both to compare their bits (default cpu)")
-        ->type_name("WHO");
-}
-
-MarchBenchOptions march_options(const BenchMarchCommand& command) {
-    return {.traversals = traversals_of(command), .builder = builder_named(command.build)};
-}
-
-CLI::App* add_bench(CLI::App& app, BenchCommand& command) {
-    CLI::App* bench = app.add_subcommand("bench", "throughput of one part: march, ao, photons");
-    bench->require_subcommand(1);
-    CLI::App* march = bench->add_subcommand(
-        "march", "rays through each structure of a world, in millions per second of CPU and of wall time");
-    add_march_flags(*march, command.march);
-    CLI::App* ao = bench->add_subcommand(
-        "ao", "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays");
-    add_ao_flags(*ao, command.ao);
-    CLI::App* photons = bench->add_subcommand(
-        "photons",
-        "ways of tracing photons: time of each pass, growth with the job, and error against a picture");
-    add_photon_bench_flags(*photons, command.photons);
-    return bench;
-}
-
-int run_bench(const CLI::App& bench, const BenchCommand& command) {
-    if (bench.got_subcommand("ao")) return run_bench_ao(command.ao);
-    if (bench.got_subcommand("photons")) return run_bench_photons(command.photons);
-    return run_bench_march(command.march);
+void bench_march_scenes(const BenchMarchCommand& command,
+                        const std::function<std::vector<BenchRow>(const BenchScene&)>& measure) {
+    const BenchInputs& inputs = command.inputs;
+    check_writable(inputs.json);
+    Json json = Json::array();
+    std::vector<int> extents = command.extents;
+    if (extents.empty() && inputs.files.empty()) extents = {256, 512};
+    for (const int extent : extents)
+        print_rows(measure(procedural_scene(extent, inputs.seed)), inputs.json, json);
+    for (const std::string& file : inputs.files)
+        print_rows(measure(file_scene(file, inputs.size)), inputs.json, json);
+    write_json(inputs.json, json);
 }
 
 int run_bench_march(const BenchMarchCommand& command) {
-    const MarchBenchOptions options = march_options(command);
-    const BenchRequest request = bench_request(command.flags);
-    Device device = open_device({.selector = command.device});
-    run_benchmark(command.flags,
-                  [&](const BenchScene& scene) { return bench_march(scene, options, request, device); });
+    MarchBenchOptions options = command.options;
+    options.size = command.inputs.size;
+    options.seed = command.inputs.seed;
+    Device device = open_device({.selector = command.inputs.device});
+    bench_march_scenes(command, [&](const BenchScene& scene) { return bench_march(scene, options, device); });
+    return static_cast<int>(ExitCode::done);
+}
+
+int run_bench_ao(const BenchAoCommand& command) {
+    const BenchInputs& inputs = command.inputs;
+    check_writable(inputs.json);
+    Device device = open_device({.selector = inputs.device});
+    Json json = Json::array();
+    const auto run = [&](const std::string& name, Scene scene) {
+        scene.settings.seed = inputs.seed;
+        AoStage stage(std::move(scene), device);
+        print_rows(bench_ao(name, stage, command.options), inputs.json, json);
+    };
+    if (inputs.files.empty())
+        run("procedural", ao_procedural_scene(command.extent, inputs.seed, inputs.size));
+    for (const std::string& file : inputs.files)
+        run(name_of_file(file), ao_file_scene(file, inputs.size));
+    write_json(inputs.json, json);
+    return static_cast<int>(ExitCode::done);
+}
+
+int run_bench_photons(const BenchPhotonsCommand& command) {
+    const BenchInputs& inputs = command.inputs;
+    PhotonBenchOptions options = command.options;
+    options.device = inputs.device;
+    if (!command.reference.empty())
+        options.reference = read_image(command.reference);
+    else if (options.box)
+        throw Error(ExitCode::usage, "--box: there is nothing to compare with; --reference names a picture");
+    check_writable(inputs.json);
+    Json json = {{"rows", Json::array()}, {"growth", Json::array()}};
+    std::vector<std::string> files = inputs.files;
+    if (files.empty()) files.emplace_back(kPhotonScene);
+    for (const std::string& file : files) {
+        bench_photons(name_of_file(file), photon_scene(command, file), options,
+                      [&](const std::vector<PhotonRow>& rows) {
+                          if (rows.front().series != "options")
+                              json["growth"].push_back(to_json(growth_of(rows)));
+                          print_rows(rows, inputs.json, json["rows"]);
+                      });
+    }
+    write_json(inputs.json, json);
     return static_cast<int>(ExitCode::done);
 }
 

@@ -1,40 +1,59 @@
 #pragma once
 
-#include "bench/ao_flags.h"
-#include "bench/photon_flags.h"
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "flags.h"
+#include "jobs/bench/ao_bench.h"
 #include "jobs/bench/march_bench.h"
+#include "jobs/bench/photon_bench.h"
+#include "scene_options.h"
 
 namespace voxilux {
 
-// The flags of `bench march` as typed.
-struct BenchMarchCommand {
-    BenchFlags flags;
-    std::vector<std::string> traversals;
+// What all benchmarks take.
+struct BenchInputs {
+    std::vector<std::string> files;  // none: the benchmark's own world or scene
+    glm::ivec2 size{640, 360};
+    std::uint32_t seed = 0;
     std::string device;
-    std::string build = "cpu";
+    std::string json;
 };
 
-// Parsing fills `march`, which must outlive the app.
-void add_march_flags(CLI::App& command, BenchMarchCommand& march);
-
-// Throws Error(usage) for a name that does not exist.
-[[nodiscard]] MarchBenchOptions march_options(const BenchMarchCommand& command);
-
-// The flags of all that `bench` measures.
-struct BenchCommand {
-    BenchMarchCommand march;
-    BenchAoCommand ao;
-    BenchPhotonsCommand photons;
+struct BenchMarchCommand {
+    BenchInputs inputs;
+    std::vector<int> extents;  // of procedural worlds; 256 and 512 where there are neither these nor files
+    MarchBenchOptions options;
 };
 
-// Declares the subcommand `bench` and what it measures; parsing fills `command`, which must outlive the app.
-CLI::App* add_bench(CLI::App& app, BenchCommand& command);
+struct BenchAoCommand {
+    BenchInputs inputs;
+    int extent = 256;  // of the procedural world, where there are no files
+    AoBenchOptions options;
+};
 
-// Runs what was asked for of a parsed `bench`. Returns the exit code; throws as the parts do.
-int run_bench(const CLI::App& bench, const BenchCommand& command);
+struct BenchPhotonsCommand {
+    BenchInputs inputs{.size = {256, 256}};
+    SettingsChanges photons;
+    int iterations = 64;
+    std::string reference;  // picture to measure errors against
+    PhotonBenchOptions options;
+};
 
-// Marches and prints what run_benchmark says. Returns the exit code. Throws Error(usage) for a flag that
-// cannot be read, Error(input_refused) for a file.
-int run_bench_march(const BenchMarchCommand& command);
+void add_bench_march_flags(Flags& flags, BenchMarchCommand& command);
+void add_bench_ao_flags(Flags& flags, BenchAoCommand& command);
+void add_bench_photons_flags(Flags& flags, BenchPhotonsCommand& command);
+
+// They measure and print the rows of every scene, as tables or as JSON. They return the exit code and throw
+// Error(input_refused) for a file.
+[[nodiscard]] int run_bench_march(const BenchMarchCommand& command);
+[[nodiscard]] int run_bench_ao(const BenchAoCommand& command);
+[[nodiscard]] int run_bench_photons(const BenchPhotonsCommand& command);
+
+// Prints what `measure` says of the scenes of `bench march`, one at a time.
+void bench_march_scenes(const BenchMarchCommand& command,
+                        const std::function<std::vector<BenchRow>(const BenchScene&)>& measure);
 
 }  // namespace voxilux

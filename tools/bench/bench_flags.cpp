@@ -1,88 +1,115 @@
-#include "bench/bench_flags.h"
-
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
-
 #include "base/error.h"
-#include "output_files.h"
+#include "bench/bench.h"
 #include "parse_values.h"
+#include "shared_flags.h"
 
 namespace voxilux {
 namespace {
 
-constexpr int kMostRounds = 1000;
+constexpr int kMaxRounds = 1000;
+constexpr int kMaxFrames = 4096;
+constexpr int kMaxIterations = 1 << 20;
+constexpr int kMaxReferenceRays = 65535;  // that a pixel takes for one sample
 
-std::vector<int> extents_of(const BenchFlags& flags) {
-    if (flags.extents.empty() && flags.inputs.empty()) return {256, 512};
-    for (const int extent : flags.extents) {
-        if (extent < kLeastExtent || extent > kMostExtent || extent % 16 != 0) {
-            throw Error(ExitCode::usage, fmt::format("--extent: {} is not a multiple of 16 from {} to {}",
-                                                     extent, kLeastExtent, kMostExtent));
+void add_input_flags(Flags& flags, BenchInputs& inputs, const std::string& files) {
+    flags.add("INPUT", "", inputs.files, files);
+    flags.add_parsed("--size", "WxH", inputs.size, parse_size,
+                     fmt::format("picture size in pixels (default {}x{})", inputs.size.x, inputs.size.y));
+    flags.add("--seed", "N", inputs.seed, "seed of every random stream (default 0)");
+    add_device_flag(flags, inputs.device);
+    add_json_flag(flags, inputs.json, "the rows");
+}
+
+// A whole number from 1 up to `max`.
+template <class T>
+void add_count(Flags& flags, const std::string& name, T& count, int max, const std::string& help) {
+    flags.on<std::int64_t>(
+        name, "N",
+        [&count, name, max](std::int64_t value) {
+            count = static_cast<T>(checked_range(name, value, 1, max));
+        },
+        fmt::format("{} (default {})", help, count));
+}
+
+Builder parse_builder(const std::string& name) {
+    if (name == "cpu") return Builder::cpu;
+    if (name == "device") return Builder::device;
+    if (name == "both") return Builder::both;
+    throw Error(ExitCode::usage, fmt::format("--build: '{}' is not cpu, device or both", name));
+}
+
+int checked_extent(int extent) {
+    if (extent >= kLeastExtent && extent <= kMostExtent && extent % 16 == 0) return extent;
+    throw Error(ExitCode::usage, fmt::format("--extent: {} is not a multiple of 16 from {} to {}", extent,
+                                             kLeastExtent, kMostExtent));
+}
+
+void add_growth_flag(Flags& flags, std::vector<std::string>& growth) {
+    const auto take = [&growth](const std::vector<std::string>& words) {
+        growth.clear();
+        for (const std::string& word : words) {
+            const bool is_known = std::ranges::find(photon_series(), word) != photon_series().end();
+            if (!is_known && word != "none")
+                throw Error(ExitCode::usage, fmt::format("--growth: there is no '{}'; there are {}, none",
+                                                         word, fmt::join(photon_series(), ", ")));
+            if (is_known && std::ranges::find(growth, word) == growth.end()) growth.push_back(word);
         }
-    }
-    return flags.extents;
+    };
+    flags
+        .on<std::vector<std::string>>("--growth", "NAME,...", take,
+                                      "what grows: photons, size, iterations, or none (default all)")
+        .split_at_commas();
 }
 
 }  // namespace
 
-void add_bench_flags(CLI::App& command, BenchFlags& flags) {
-    command.add_option("INPUT", flags.inputs, ".vox and scene files (default: procedural worlds)")
-        ->take_all()
-        ->type_name("");
-    command.add_option("--extent", flags.extents, "edges of procedural worlds, in voxels (default 256,512)")
-        ->delimiter(',')
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name("N,...");
-    add_word_list(command, "--rays", flags.rays, "primary, ao and long (default all)")->type_name("KIND,...");
-    command.add_option("--size", flags.size, "picture size in pixels (default 640x360)")->type_name("WxH");
-    command.add_option("--rounds", flags.rounds, "runs of which the best counts (default 5)")->type_name("N");
-    command.add_option("--seed", flags.seed, "seed of worlds and rays (default 0)")->type_name("N");
-    command.add_option("--json", flags.json, "write the rows as JSON; - is standard output")
-        ->type_name("FILE");
+void add_bench_march_flags(Flags& flags, BenchMarchCommand& command) {
+    MarchBenchOptions& options = command.options;
+    add_input_flags(flags, command.inputs, ".vox and scene files (default: procedural worlds)");
+    flags
+        .on<std::vector<int>>(
+            "--extent", "N,...",
+            [&command](const std::vector<int>& extents) {
+                for (const int extent : extents)
+                    command.extents.push_back(checked_extent(extent));
+            },
+            "edges of procedural worlds, in voxels (default 256,512)")
+        .split_at_commas();
+    flags.add_list("--rays", "KIND,...", options.kinds, ray_kind_named, "primary, ao and long (default all)");
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the best counts");
+    flags.add_list("--traversal", "NAME,...", options.traversals, traversal_named,
+                   "structures to march through (default all)");
+    flags.add_parsed("--build", "WHO", options.builder, parse_builder,
+                     "what builds the structures: cpu, device, or both to compare their bits (default cpu)");
 }
 
-CLI::Option* add_word_list(CLI::App& command, const std::string& flag, std::vector<std::string>& words,
-                           const std::string& help) {
-    return command.add_option(flag, words, help)->delimiter(',')->take_all()->allow_extra_args(false);
+void add_bench_ao_flags(Flags& flags, BenchAoCommand& command) {
+    AoBenchOptions& options = command.options;
+    add_input_flags(flags, command.inputs, ".vox and scene files (default: a procedural world)");
+    flags.on<int>(
+        "--extent", "N", [&command](int extent) { command.extent = checked_extent(extent); },
+        "edge of the procedural world, in voxels (default 256)");
+    flags.add_list("--variant", "NAME,...", options.variants, ao_variant_named,
+                   "what is compared (default all)");
+    flags.add_list("--motion", "NAME,...", options.motions, motion_named,
+                   "still, pan, walk and floor (default all but walk)");
+    add_count(flags, "--frames", options.frames, kMaxFrames, "of each motion but floor");
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the best gives the times");
+    add_count(flags, "--reference", options.reference_rays, kMaxReferenceRays, "rays per pixel of the truth");
 }
 
-BenchRequest bench_request(const BenchFlags& flags) {
-    if (flags.rounds < 1 || flags.rounds > kMostRounds)
-        throw Error(ExitCode::usage,
-                    fmt::format("--rounds: {} is not from 1 to {}", flags.rounds, kMostRounds));
-    BenchRequest request{
-        .size = parse_size("--size", flags.size), .rounds = flags.rounds, .seed = flags.seed};
-    for (const std::string& name : flags.rays) {
-        const RayKind kind = ray_kind_named(name);
-        if (std::ranges::find(request.kinds, kind) == request.kinds.end()) request.kinds.push_back(kind);
-    }
-    if (request.kinds.empty()) request.kinds.assign(kRayKinds.begin(), kRayKinds.end());
-    return request;
-}
-
-void run_benchmark(const BenchFlags& flags,
-                   const std::function<std::vector<BenchRow>(const BenchScene&)>& measure) {
-    const std::vector<int> extents = extents_of(flags);
-    const glm::ivec2 size = parse_size("--size", flags.size);
-    check_writable(flags.json);
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    const auto run = [&](const BenchScene& scene) {
-        const std::vector<BenchRow> rows = measure(scene);
-        for (const BenchRow& row : rows)
-            json.push_back(to_json(row));
-        if (flags.json == "-") return;
-        fmt::print("{}\n", describe(rows));
-        std::fflush(stdout);
-    };
-    for (const int extent : extents)
-        run(procedural_scene(extent, flags.seed));
-    for (const std::string& input : flags.inputs)
-        run(file_scene(input, size));
-    write_json(flags.json, json);
+void add_bench_photons_flags(Flags& flags, BenchPhotonsCommand& command) {
+    PhotonBenchOptions& options = command.options;
+    add_input_flags(flags, command.inputs, "scene files (default scenes/cornell.toml)");
+    add_photon_flags(flags, command.photons);
+    add_count(flags, "--iterations", command.iterations, kMaxIterations, "of each render");
+    flags.add_list("--variant", "NAME,...", options.variants, photon_variant_named,
+                   "gather, no-roulette, classic and scatter (default all)");
+    add_growth_flag(flags, options.growth);
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the fastest counts");
+    flags.add("--reference", "FILE", command.reference, "picture to measure errors against");
+    flags.add_parsed("--box", "X0,Y0,X1,Y1", options.box, parse_pixel_box,
+                     "where to measure the error of the blurred picture");
 }
 
 }  // namespace voxilux

@@ -3,16 +3,14 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "output_files.h"
+#include "shared_flags.h"
 #include "vk/device.h"
+#include "write_json.h"
 
 namespace voxilux {
 
-CLI::App* add_devices(CLI::App& app, DevicesCommand& command) {
-    CLI::App* devices = app.add_subcommand("devices", "Vulkan devices, which would be used, what each lacks");
-    devices->add_option("--json", command.json, "write the list as JSON; - is standard output")
-        ->type_name("FILE");
-    return devices;
+void add_devices_flags(Flags& flags, DevicesCommand& command) {
+    add_json_flag(flags, command.json, "the list");
 }
 
 int run_devices(const DevicesCommand& command) {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "flags.h"
 
 namespace voxilux {
 
@@ -9,7 +10,7 @@ struct DevicesCommand {
     std::string json;
 };
 
-CLI::App* add_devices(CLI::App& app, DevicesCommand& command);
+void add_devices_flags(Flags& flags, DevicesCommand& command);
 
 // Lists the Vulkan devices, which would be used, and what each lacks. no_device when none is usable.
 [[nodiscard]] int run_devices(const DevicesCommand& command);

@@ -2,20 +2,16 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-}
+#include "flags.h"
 
 namespace voxilux {
 
 struct InfoOptions {
     std::string file;
-    std::string
-        json;  // where the JSON object goes: a file, "-" for standard output instead of text, "" for nowhere
+    std::string json;  // where the facts go as JSON; "-": standard output, instead of text; empty: nowhere
 };
 
-// Declares the subcommand and its flags; parsing fills `options`, which must outlive the app.
-CLI::App* add_info(CLI::App& app, InfoOptions& options);
+void add_info_flags(Flags& flags, InfoOptions& options);
 
 // Prints what is in a .vox file, a scene file, an EXR or a PNG on standard output. Returns the exit code;
 // throws Error(input_refused) when the file is refused or of a kind that we do not know.

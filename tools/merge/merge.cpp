@@ -1,22 +1,12 @@
 #include "merge/merge.h"
 
 #include "base/error.h"
-#include "formats/png.h"
+#include "base/file.h"
 #include "jobs/merge_parts.h"
-#include "output_files.h"
-#include "render/render_output.h"
+#include "write_json.h"
 
 namespace voxilux {
 namespace {
-
-void check_outputs(const MergeCommand& command) {
-    for (const std::string& file : command.outputs) {
-        if (!has_ending(file, ".exr") && !has_ending(file, ".png"))
-            throw Error(ExitCode::usage, fmt::format("-o {}: the ending must be .exr or .png", file));
-        check_writable(file);
-    }
-    check_writable(command.json);
-}
 
 FilmPart read_and_add(const MergeCommand& command) {
     PartSum sum;
@@ -40,66 +30,51 @@ Image picture_to_write(const FilmPart& part) {
     return image;
 }
 
-void write_outputs(const MergeCommand& command, const FilmPart& part) {
+void write_outputs(const PictureFiles& pictures, const FilmPart& part) {
     ExrOptions options = part.file;
-    options.reproducible = command.reproducible;
+    options.reproducible = pictures.reproducible;
     options.software = "voxilux " VX_VERSION;
     const Image image = picture_to_write(part);
-    for (const std::string& file : command.outputs) {
-        if (has_ending(file, ".exr"))
-            (void)write_exr(file, image, options);
-        else
-            write_png(file, to_display(image, tone_options(command.tone, command.exposure_ev)).image);
-    }
+    WriteFaults ignored;  // the report has those of the parts
+    for (const std::string& file : pictures.files)
+        write_picture(file, image, options, image, pictures.tone, ignored);
 }
 
 void print_merge(const MergeCommand& command, const FilmPart& part) {
     for (const auto& [name, count] : part.report.at("faults").items()) {
         if (count != 0) fmt::print(stderr, "warning: fault {} counted {} times\n", name, count.dump());
     }
-    if (command.quiet || command.json == "-") return;
+    if (!command.report.prints()) return;
     fmt::print("merged    {} of {} shards, {} of {} samples per pixel\n", part.done.size(), part.shards,
                part.report.at("samples").dump(), part.spp);
     fmt::print("error     {}\n", part.report.at("error").at("estimate").dump());
-    for (const std::string& file : command.outputs)
+    for (const std::string& file : command.pictures.files)
         fmt::print("wrote     {}\n", file);
 }
 
 }  // namespace
 
-CLI::App* add_merge(CLI::App& app, MergeCommand& command) {
-    CLI::App* merge = app.add_subcommand("merge", "join the parts of one render that render --shard wrote");
-    merge->add_option("PART", command.parts, "EXR files of render --shard, in any order")
-        ->required()
-        ->type_name("");
-    merge->add_option("-o,--output", command.outputs, "picture to write, .exr or .png; may repeat")
-        ->required()
-        ->type_name("FILE")
-        ->take_all()
-        ->allow_extra_args(false);
-    merge->add_flag(
+void add_merge_flags(Flags& flags, MergeCommand& command) {
+    flags.add("PART", "", command.parts, "EXR files of render --shard, in any order").required();
+    add_picture_flag(flags, command.pictures.files, "picture to write, .exr or .png; may repeat").required();
+    flags.add_switch(
         "--partial", command.partial,
         "write the mean of what is there when shards are missing; an EXR of it can be merged again");
-    merge->add_flag("--reproducible", command.reproducible,
-                    "no date or times in the files: the bytes of an uninterrupted render");
-    merge->add_option("--tone", command.tone, "tone curve of a PNG: filmic or plain (default filmic)")
-        ->type_name("NAME");
-    merge->add_option("--exposure", command.exposure_ev, "exposure of a PNG in stops (default 0)")
-        ->type_name("EV");
-    merge->add_option("--json", command.json, "write the report as JSON; - is standard output")
-        ->type_name("FILE");
-    merge->add_flag("-q,--quiet", command.quiet, "print errors only");
-    return merge;
+    flags.add_switch("--reproducible", command.pictures.reproducible,
+                     "no date or times in the files: the bytes of an uninterrupted render");
+    add_tone_flags(flags, command.pictures.tone);
+    add_report_flags(flags, command.report);
 }
 
 int run_merge(const MergeCommand& command) {
-    (void)tone_options(command.tone, command.exposure_ev);
-    check_outputs(command);
+    for (const std::string& file : command.pictures.files)
+        check_writable(file);
+    check_writable(command.report.json);
     FilmPart part = read_and_add(command);
-    part.report = merged_report(part, command.reproducible);
-    write_outputs(command, part);
+    part.report = merged_report(part, command.pictures.reproducible);
+    write_outputs(command.pictures, part);
     print_merge(command, part);
-    write_json(command.json, part.report);
+    write_json(command.report.json, part.report);
     return static_cast<int>(ExitCode::done);
 }
 

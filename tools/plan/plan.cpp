@@ -3,13 +3,13 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "frame/footprint.h"
+#include "frame/frame.h"
 #include "jobs/forecast_history.h"
+#include "jobs/plan_forecast.h"
 #include "jobs/report.h"
-#include "output_files.h"
-#include "plan/plan_forecast.h"
-#include "render/render_output.h"
-#include "render/render_part.h"
+#include "write_json.h"
 
 namespace voxilux {
 namespace {
@@ -39,8 +39,8 @@ nlohmann::ordered_json frames_json(const FrameList& frames) {
 int print_plan(const RenderCommand& command, const FrameList& frames, const RenderPlan& plan,
                nlohmann::ordered_json json, const std::string& more) {
     if (frames.is_sequence) json["frames"] = frames_json(frames);
-    write_json(command.json, json);
-    if (command.quiet || command.json == "-") return 0;
+    write_json(command.report.json, json);
+    if (!command.report.prints()) return 0;
     fmt::print("{}", describe(plan));
     if (frames.is_sequence)
         fmt::print("frames    {}, this is the plan of frame {}\n", frames.count(), frames.first);
@@ -50,44 +50,39 @@ int print_plan(const RenderCommand& command, const FrameList& frames, const Rend
 
 int print_history(const RenderCommand& command) {
     const nlohmann::ordered_json judged = judge_history(read_history(history_file()), kHistoryRows);
-    write_json(command.json, judged);
-    if (!command.quiet && command.json != "-") fmt::print("{}", describe_history(judged));
+    write_json(command.report.json, judged);
+    if (command.report.prints()) fmt::print("{}", describe_history(judged));
     return 0;
 }
 
 }  // namespace
 
-CLI::App* add_plan(CLI::App& app, PlanCommand& command) {
-    CLI::App* plan =
-        app.add_subcommand("plan", "what render would do with the same flags, and what not and why");
-    add_render_flags(*plan, command.render);
-    plan->get_option("INPUT")->required(false);
-    plan->add_flag("--history", command.history,
-                   "how good the forecasts of past renders were; needs no INPUT");
-    return plan;
+void add_plan_flags(Flags& flags, PlanCommand& command) {
+    add_render_flags(flags, command.render);
+    flags.begin_group("");
+    flags.add_switch("--history", command.history,
+                     "how good the forecasts of past renders were; needs no INPUT");
 }
 
 int run_plan(const PlanCommand& plan_command) {
     const RenderCommand& command = plan_command.render;
-    check_writable(command.json);
+    check_writable(command.report.json);
     if (plan_command.history) return print_history(command);
     if (command.scene.input.empty()) throw Error(ExitCode::usage, "INPUT is required");
-    const std::vector<std::string> outputs = output_files(command);
-    check_part_flags(command, outputs);
-    PlanRequest request = request_of(command, outputs);
+    const Checkpoint checkpoint = checkpoint_of(command);
+    RenderOptions options = render_options(command);
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);
-    if (!command.quiet) print_frame_note(command.scene, animated);
-    request_frames(animated, frames, request);
-    if (command.error) {
-        RenderOptions options = render_options(command, outputs);
-        options.plan = request;
-        const PilotedPlan piloted = pilot_plan(command, animated, frames.first, options);
+    if (!command.report.quiet) print_frame_note(command.scene, animated);
+    request_frames(animated, frames, options.plan);
+    if (options.error_target) {
+        use_checkpoint(checkpoint, command.resume, options);
+        const PilotedPlan piloted = pilot_plan(animated, frames.first, options, checkpoint.pictures.files);
         return print_plan(command, frames, piloted.plan, piloted.json, piloted.text);
     }
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
-    const PreparedScene prepared = prepare_scene(scene, request, limits_for(command.device.selector));
+    const PreparedScene prepared = prepare_scene(scene, options.plan, limits_for(command.device.selector));
     return print_plan(command, frames, prepared.plan, plan_json(scene, prepared.plan),
                       command.verbose ? describe_first_frame(prepared, scene) : "");
 }

@@ -10,7 +10,8 @@ struct PlanCommand {
     bool history = false;
 };
 
-CLI::App* add_plan(CLI::App& app, PlanCommand& command);
+// Without --history INPUT is needed, too.
+void add_plan_flags(Flags& flags, PlanCommand& command);
 
 // Prints what render would do with the same flags, and what not and why. Needs a device for --error alone,
 // whose time, memory and samples a pilot tells.

@@ -1,118 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
 #include "base/error.h"
-#include "output_files.h"
+#include "parse_values.h"
 #include "render/render.h"
-#include "render/render_part.h"
 
 namespace voxilux {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr double kCheckpointEvery_s = 60.0;
 
-constexpr const char* kStop = "When to stop";
-constexpr const char* kOutput = "Output";
-constexpr const char* kParts = "Parts and checkpoints";
-
-void add_output_flags(CLI::App& command, RenderCommand& options) {
-    command
-        .add_option("-o,--output", options.outputs,
-                    "picture to write, .exr or .png; may repeat (default: INPUT's name .png, here)")
-        ->type_name("FILE")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->group(kOutput);
-    command.add_option("--json", options.json, "write the report as JSON; - is standard output")
-        ->type_name("FILE")
-        ->group(kOutput);
-    command.add_option("--tone", options.tone, "tone curve of a PNG: filmic or plain (default filmic)")
-        ->type_name("NAME")
-        ->group(kOutput);
-    command.add_option("--exposure", options.exposure_ev, "exposure of a PNG in stops (default 0)")
-        ->type_name("EV")
-        ->group(kOutput);
-    command
-        .add_flag("--reproducible", options.reproducible,
-                  "no date or times in the files: equal runs, equal bytes")
-        ->group(kOutput);
-    command
-        .add_option("--progress", options.progress,
-                    "progress on standard error: auto (if a terminal), never or json")
-        ->type_name("HOW")
-        ->group(kOutput);
-    command.add_flag("-q,--quiet", options.quiet, "print errors only")->group(kOutput);
-    command
-        .add_flag("-v,--verbose", options.verbose, "print the plan too (render), the first frame too (plan)")
-        ->group(kOutput);
+void add_output_flags(Flags& flags, RenderCommand& command) {
+    flags.begin_group("Output");
+    add_picture_flag(flags, command.pictures.files,
+                     "picture to write, .exr or .png; may repeat (default: INPUT's name .png, here)");
+    add_report_flags(flags, command.report);
+    add_tone_flags(flags, command.pictures.tone);
+    flags.add_switch("--reproducible", command.pictures.reproducible,
+                     "no date or times in the files: equal runs, equal bytes");
+    add_progress_flag(flags, command.progress);
+    flags.add_switch("-v,--verbose", command.verbose,
+                     "print the plan too (render), the first frame too (plan)");
 }
 
-void add_machine_flags(CLI::App& command, RenderCommand& options) {
-    add_device_flags(command, options.device, options.scene.memory_budget_mib, "the pipeline cache");
-    command
-        .add_option("--group-size", options.group_size, "workgroup of the passes over pixels (default 8x8)")
-        ->type_name("WxH")
-        ->group(kDeviceGroup);
+void add_stop_flags(Flags& flags, RenderCommand& command) {
+    flags.begin_group("When to stop");
+    flags.add_parsed("--error", "E", command.error_target, parse_error_target,
+                     "stop when the estimated error is below, such as 1%; --spp is the most");
+    flags.add_parsed("--time-limit", "T", command.time_limit_s, parse_duration,
+                     "stop in time, such as 90s, 2m or 1h30m; the picture is whole");
 }
 
-void add_part_flags(CLI::App& command, RenderCommand& options) {
-    command
-        .add_option("--shard", options.shard,
-                    "render every Nth sample from the Ith on, for voxilux merge; the EXR has its exact sums")
-        ->type_name("I/N")
-        ->group(kParts);
-    command
-        .add_option("--checkpoint", options.checkpoint_s,
-                    "write FILE.exr.part as often while FILE.exr is rendered; 0 is never (default 60)")
-        ->type_name("SECONDS")
-        ->group(kParts);
-    command
-        .add_flag("--resume", options.resume,
-                  "go on from FILE.exr.part, which a killed, interrupted or timed out render left")
-        ->group(kParts);
+double checked_interval(double seconds) {
+    if (seconds >= 0.0 && std::isfinite(seconds)) return seconds;
+    throw Error(ExitCode::usage,
+                fmt::format("--checkpoint: {} is not a number of seconds; 0 is none", seconds));
 }
 
-bool is_exr(const std::string& file) {
-    return has_ending(file, ".exr");
+void add_part_flags(Flags& flags, RenderCommand& command) {
+    flags.begin_group("Parts and checkpoints");
+    flags.add_parsed(
+        "--shard", "I/N", command.shard, parse_shard,
+        "render every Nth sample from the Ith on, for voxilux merge; the EXR has its exact sums");
+    flags.on<double>(
+        "--checkpoint", "SECONDS",
+        [&command](double seconds) { command.checkpoint_s = checked_interval(seconds); },
+        "write FILE.exr.part as often while FILE.exr is rendered; 0 is never (default 60)");
+    flags.add_switch("--resume", command.resume,
+                     "go on from FILE.exr.part, which a killed, interrupted or timed out render left");
+}
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw Error(ExitCode::usage, why);
+}
+
+void refuse_parts_of_a_range(const RenderCommand& command) {
+    const auto refuse_flag = [](const char* flag, const char* instead) {
+        refuse(fmt::format("{} is for one picture; {}", flag, instead));
+    };
+    if (command.shard) refuse_flag("--shard", "share a frame range by --frames A-B instead");
+    if (command.resume) refuse_flag("--resume", "go on with --frames from the first frame that is missing");
+    if (command.checkpoint_s) refuse_flag("--checkpoint", "a frame range keeps each frame that is finished");
+}
+
+void check_part_flags(const RenderCommand& command, bool writes_exr) {
+    if (command.scene.frames) refuse_parts_of_a_range(command);
+    if (command.shard && command.error_target)
+        refuse("--shard and --error: the error of the whole picture is not known before voxilux merge");
+    if (writes_exr) return;
+    if (command.shard) refuse("--shard: its part of the picture goes into an EXR; add -o FILE.exr");
+    if (command.resume || command.checkpoint_s.value_or(0.0) > 0.0)
+        refuse("--resume and --checkpoint: checkpoints lie beside an EXR; add -o FILE.exr");
 }
 
 }  // namespace
 
-void add_render_flags(CLI::App& command, RenderCommand& options) {
-    add_scene_flags(command, options.scene);
-    add_output_flags(command, options);
-    command
-        .add_option("--error", options.error,
-                    "stop when the estimated error is below, such as 1%; --spp is the most")
-        ->type_name("E")
-        ->group(kStop);
-    command
-        .add_option("--time-limit", options.time_limit,
-                    "stop in time, such as 90s, 2m or 1h30m; the picture is whole")
-        ->type_name("T")
-        ->group(kStop);
-    add_part_flags(command, options);
-    add_machine_flags(command, options);
+Flag add_render_flags(Flags& flags, RenderCommand& command) {
+    const Flag input = add_scene_flags(flags, command.scene);
+    add_output_flags(flags, command);
+    add_stop_flags(flags, command);
+    add_part_flags(flags, command);
+    add_device_flags(flags, command.device, command.scene.request.memory_budget_bytes, "the pipeline cache");
+    flags.add_parsed("--group-size", "WxH", command.group_size, parse_size,
+                     "workgroup of the passes over pixels (default 8x8)");
+    return input;
 }
 
-std::vector<std::string> output_files(const RenderCommand& command) {
-    if (command.outputs.empty()) return {fs::path(command.scene.input).stem().string() + ".png"};
-    for (const std::string& file : command.outputs) {
-        if (!is_exr(file) && !has_ending(file, ".png"))
-            throw Error(ExitCode::usage, fmt::format("-o {}: the ending must be .exr or .png", file));
-    }
-    return command.outputs;
+PictureFiles pictures_of(const RenderCommand& command) {
+    PictureFiles pictures = command.pictures;
+    const std::filesystem::path input = command.scene.input;
+    pictures.scene_name = input.filename().string();
+    if (pictures.files.empty()) pictures.files = {input.stem().string() + ".png"};
+    return pictures;
+}
+
+Checkpoint checkpoint_of(const RenderCommand& command) {
+    Checkpoint checkpoint{.pictures = pictures_of(command),
+                          .every_s = command.checkpoint_s.value_or(kCheckpointEvery_s)};
+    checkpoint.note = [quiet = command.report.quiet](const std::string& line) {
+        if (!quiet) fmt::print(stderr, "note: {}\n", line);
+    };
+    checkpoint.warn = [](const std::string& line) { fmt::print(stderr, "warning: {}\n", line); };
+    check_part_flags(command, std::ranges::any_of(checkpoint.pictures.files, is_exr));
+    if (!command.scene.frames) checkpoint.file = checkpoint_file(checkpoint.pictures);
+    return checkpoint;
 }
 
 Scene scene_to_render(const RenderCommand& command) {
     Scene scene = load_scene_with(command.scene);
-    if (command.error && !command.scene.spp && !command.scene.iterations)
-        scene.settings.spp = kMostSamplesForError;
+    if (command.error_target && !command.scene.spp) scene.settings.spp = kMaxSamplesForError;
     return scene;
 }
 
-PlanRequest request_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
-    PlanRequest request = plan_request(command.scene);
-    request.shard = shard_of(command);
-    request.effects.wants_aov = std::ranges::any_of(outputs, is_exr);
-    return request;
+RenderOptions render_options(const RenderCommand& command) {
+    RenderOptions options{.plan = command.scene.request,
+                          .device = command.device.request(),
+                          .time_limit_s = command.time_limit_s,
+                          .error_target = command.error_target};
+    options.plan.shard = command.shard.value_or(Shard{});
+    options.plan.effects.wants_aov = std::ranges::any_of(command.pictures.files, is_exr);
+    options.executor.cache_dir = command.device.cache_dir();
+    options.executor.group_size = {static_cast<std::uint32_t>(command.group_size.x),
+                                   static_cast<std::uint32_t>(command.group_size.y)};
+    return options;
 }
 
 }  // namespace voxilux

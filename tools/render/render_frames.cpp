@@ -1,54 +1,19 @@
-#include "render/render_frames.h"
-
-#include <algorithm>
 #include <set>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "frame/footprint.h"
 #include "jobs/report.h"
-#include "output_files.h"
-#include "render/render_output.h"
+#include "render/print_render.h"
+#include "render/render_job.h"
+#include "write_json.h"
 
 namespace voxilux {
 namespace {
 
-// Of a frame to come, over the mean of those so far.
-constexpr double kLeastPace = 0.8;
-constexpr double kMostPace = 1.25;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-std::optional<double> share_of_time(const RenderJob& job, std::int64_t index) {
-    if (!job.options.time_limit_s) return std::nullopt;
-    const double left = *job.options.time_limit_s - seconds_since(job.options.started);
-    return std::max(left, 0.0) / static_cast<double>(job.frames.count() - index);
-}
-
-// The progress of a frame as that of the whole range.
-std::function<void(const Progress&)> progress_of_range(const RenderJob& job, std::int64_t index) {
-    const auto show = job.progress.callback();
-    if (!show) return {};
-    const auto count = static_cast<double>(job.frames.count());
-    return [=, started = job.options.started](Progress progress) {
-        progress.frame = static_cast<std::uint32_t>(index + 1);
-        progress.frames = static_cast<std::uint32_t>(count);
-        const double done = progress.done;
-        progress.done = (static_cast<double>(index) + done) / count;
-        progress.elapsed_s = seconds_since(started);
-        const double frames_left = count - static_cast<double>(index + 1);
-        const double frame_s = progress.elapsed_s / (static_cast<double>(index) + done);
-        progress.remaining_s += frames_left * frame_s;
-        progress.remaining_low_s += frames_left * frame_s * kLeastPace;
-        progress.remaining_high_s += frames_left * frame_s * kMostPace;
-        show(progress);
-    };
-}
-
 void print_frame(const RenderCommand& command, std::int64_t frame, const std::vector<std::string>& files,
                  const RenderStatistics& statistics) {
-    if (command.quiet || command.json == "-") return;
+    if (!command.report.prints()) return;
     const std::string error =
         statistics.error.is_known() ? fmt::format("{:.3g}", statistics.error.estimate) : "unknown";
     fmt::print("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
@@ -57,10 +22,10 @@ void print_frame(const RenderCommand& command, std::int64_t frame, const std::ve
 }
 
 void print_end(const RenderCommand& command, const SequenceReport& report, std::size_t missed) {
-    if (!command.quiet && missed != 0)
+    if (!command.report.quiet && missed != 0)
         fmt::print(stderr, "warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
-                   report.frames.size(), *command.error);
-    if (!command.quiet && command.json != "-") fmt::print("{}", describe(report.total));
+                   report.frames.size(), target_text(command));
+    if (command.report.prints()) fmt::print("{}", describe(report.total));
 }
 
 // Says how to go on from an interrupted frame.
@@ -82,14 +47,16 @@ struct Rendered {
 // Renders and writes one frame; false when it was interrupted.
 bool render_frame(const RenderCommand& command, RenderSession& session, const RenderJob& job,
                   std::int64_t index, Rendered& done) try {
-    const std::int64_t frame = job.frames.at(index);
-    RenderOutcome outcome = session.render(frame, share_of_time(job, index), progress_of_range(job, index));
+    const std::int64_t frame = job.range.frames.at(index);
+    RenderOutcome outcome = session.render(frame, time_limit_of_frame(job.range, index),
+                                           progress_of_range(job.range, index, job.progress.callback()));
     job.progress.finish();
     if (outcome.statistics.stop == StopReason::interrupted) return false;
-    const std::vector<std::string> files = files_of_frame(job.outputs, job.frames, frame);
-    write_pictures(command, files, session.scene(), outcome);
-    if (index == 0 && command.verbose && !command.quiet && command.json != "-")
-        fmt::print("{}", describe(outcome.plan));
+    PictureFiles pictures = job.checkpoint.pictures;
+    pictures.files = files_of_frame(pictures.files, job.range.frames, frame);
+    const std::vector<std::string>& files = pictures.files;
+    write_pictures(pictures, session.scene(), outcome);
+    if (index == 0 && command.verbose && command.report.prints()) fmt::print("{}", describe(outcome.plan));
     print_validation(outcome);
     print_warnings(command, outcome, done.said);
     print_frame(command, frame, files, outcome.statistics);
@@ -99,34 +66,26 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
     return true;
 } catch (const Error& error) {
     if (index == 0) throw;
-    throw Error(error.code(), fmt::format("frame {}: {}; {} of {} frames are written", job.frames.at(index),
-                                          error.what(), index, job.frames.count()));
+    throw Error(error.code(),
+                fmt::format("frame {}: {}; {} of {} frames are written", job.range.frames.at(index),
+                            error.what(), index, job.range.frames.count()));
 }
 
 }  // namespace
 
-std::vector<std::string> files_of_frame(const std::vector<std::string>& outputs, const FrameList& frames,
-                                        std::int64_t frame) {
-    if (!frames.is_sequence) return outputs;
-    std::vector<std::string> files;
-    for (const std::string& output : outputs)
-        files.push_back(numbered(output, frame, frames.last).string());
-    return files;
-}
-
 int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
     Rendered done;
     std::int64_t index = 0;
-    while (index < job.frames.count() && render_frame(command, session, job, index, done))
+    while (index < job.range.frames.count() && render_frame(command, session, job, index, done))
         ++index;
-    const bool is_interrupted = index < job.frames.count();
+    const bool is_interrupted = index < job.range.frames.count();
     if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
     SequenceReport& report = done.report;
-    report.total.statistics.wall_s = seconds_since(job.options.started);
+    report.total.statistics.wall_s = seconds_since(job.range.started);
     print_faults(report.total);
     print_end(command, report, done.missed);
-    if (is_interrupted) print_interruption(job.frames, index);
-    write_json(command.json, sequence_json(session.scene(), job.scene_hash, report));
+    if (is_interrupted) print_interruption(job.range.frames, index);
+    write_json(command.report.json, sequence_json(session.scene(), job.scene_hash, report));
     return static_cast<int>(is_interrupted ? ExitCode::interrupted : done.code);
 }
 

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "tradeoff/page_source.h"
 
 extern char** environ;
 

@@ -1,27 +1,25 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
 
-#include "device_options.h"
 #include "scene_options.h"
+#include "shared_flags.h"
 
 namespace voxilux {
 
-// The flags of `tradeoff` as typed.
 struct TradeoffCommand {
     SceneOptions scene;
-    std::string output;
-    std::string json;
+    std::string output;  // folder
+    ReportOptions report;
     DeviceOptions device;
-    std::string time_limit = "120s";
-    std::string progress = "auto";
-    int repeats = 3;
+    double time_limit_s = 120.0;
+    ProgressMode progress = ProgressMode::automatic;
+    std::size_t repeats = 3;
     bool no_page = false;
-    bool quiet = false;
 };
 
-CLI::App* add_tradeoff(CLI::App& app, TradeoffCommand& command);
+void add_tradeoff_flags(Flags& flags, TradeoffCommand& command);
 
 // Measures the price list of a scene and writes it into a folder: JSON, CSV, pictures, and a page. Returns
 // the exit code. Throws Error.

@@ -1,86 +1,28 @@
 #include "voxelize/voxelize.h"
 
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
-
 #include "base/error.h"
-#include "output_files.h"
-#include "voxelize/voxelize_progress.h"
+#include "base/file.h"
+#include "interrupt.h"
+#include "parse_values.h"
 #include "voxelize/voxelize_report.h"
 #include "voxelizer/load_mesh.h"
 #include "voxelizer/vox_output.h"
+#include "write_json.h"
 
 namespace voxilux {
 namespace {
 
-namespace fs = std::filesystem;
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-// The first signal ends the work between two blocks, the second one the process.
-void on_interrupt(int signal) {
-    interrupted = true;
-    std::signal(signal, SIG_DFL);
-}
-
-fs::path output_of(const VoxelizeCommand& command) {
-    if (!command.output.empty()) {
-        if (!has_ending(command.output, ".vox"))
-            throw Error(ExitCode::usage, fmt::format("-o {}: a mesh is written as .vox", command.output));
-        return command.output;
-    }
-    const fs::path own = fs::path(command.mesh).stem().string() + ".vox";
-    if (fs::exists(own)) {
-        throw Error(ExitCode::usage, fmt::format("voxelize: no -o was given and {} is there already; -o {} "
-                                                 "overwrites it",
-                                                 own.string(), own.string()));
+std::string output_of(const VoxelizeCommand& command) {
+    if (!command.output.empty()) return command.output;
+    const std::string own = std::filesystem::path(command.mesh).stem().string() + ".vox";
+    if (std::filesystem::exists(own)) {
+        throw Error(
+            ExitCode::usage,
+            fmt::format("voxelize: no -o was given and {} is there already; -o {} overwrites it", own, own));
     }
     return own;
-}
-
-VoxelizeRequest request_of(const VoxelizeCommand& command) {
-    const auto up = parse_up(command.up);
-    if (!up) {
-        throw Error(ExitCode::usage, fmt::format("--up: '{}' is not x, y, z, -x, -y or -z", command.up));
-    }
-    if (command.turn_deg % 90 != 0)
-        throw Error(ExitCode::usage, fmt::format("--turn: {} is not a multiple of 90", command.turn_deg));
-    if (command.resolution < 1 || command.resolution > kMaxCells) {
-        throw Error(ExitCode::usage,
-                    fmt::format("--resolution: {} is not from 1 to {}", command.resolution, kMaxCells));
-    }
-    if (command.scale_m && !(*command.scale_m > 0.0 && *command.scale_m < 1e300))
-        throw Error(ExitCode::usage, fmt::format("--scale: {} is not above 0", *command.scale_m));
-    return {.grid = {.resolution = command.resolution,
-                     .metres_per_voxel = command.scale_m,
-                     .up = *up,
-                     .quarter_turns = command.turn_deg / 90},
-            .coverage = command.thin ? Coverage::thin : Coverage::conservative,
-            .is_solid = command.solid,
-            .threads = command.threads};
-}
-
-// What the user should know, one line each.
-std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set) {
-    std::vector<std::string> warnings = mesh.warnings;
-    if (set.dropped != 0)
-        warnings.push_back(
-            fmt::format("{} triangles with a vertex that is not finite are left out", set.dropped));
-    if (set.solid.open_edges + set.solid.open_rows != 0) {
-        warnings.push_back(
-            fmt::format("the mesh is open: {} edges have no partner, {} rows of voxels are not filled",
-                        set.solid.open_edges, set.solid.open_rows));
-    }
-    if (set.solid.disputed != 0) {
-        warnings.push_back(fmt::format(
-            "the mesh overlaps itself: parity and winding number disagree on {} voxels of the inside",
-            set.solid.disputed));
-    }
-    return warnings;
 }
 
 Mesh read_mesh(const VoxelizeCommand& command) {
@@ -97,58 +39,95 @@ void refuse_warnings(const VoxelizeCommand& command, const std::vector<std::stri
     throw Error(ExitCode::input_refused, fmt::format("{}: {} (--strict)", command.mesh, warnings.front()));
 }
 
+std::string progress_text(double done, double elapsed_s, bool as_json) {
+    const double left_s = done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0;
+    return as_json ? fmt::format("{{\"done\":{:.4f},\"elapsed_s\":{:.3f},\"remaining_s\":{:.3f}}}", done,
+                                 elapsed_s, left_s)
+                   : fmt::format("voxelize {:5.1f} %  {:.0f} s, about {:.0f} s left", 100.0 * done, elapsed_s,
+                                 left_s);
+}
+
+[[noreturn]] void refuse(const std::string& why) {
+    throw Error(ExitCode::usage, why);
+}
+
+std::string checked_output(const std::string& file) {
+    if (!has_ending(file, ".vox")) refuse(fmt::format("-o {}: a mesh is written as .vox", file));
+    return file;
+}
+
+UpAxis checked_up(const std::string& word) {
+    if (const auto up = parse_up(word)) return *up;
+    refuse(fmt::format("--up: '{}' is not x, y, z, -x, -y or -z", word));
+}
+
+int quarter_turns(int degrees) {
+    if (degrees % 90 != 0) refuse(fmt::format("--turn: {} is not a multiple of 90", degrees));
+    return degrees / 90;
+}
+
+double checked_scale(double metres) {
+    if (!(metres > 0.0 && metres < 1e300)) refuse(fmt::format("--scale: {} is not above 0", metres));
+    return metres;
+}
+
+void add_grid_flags(Flags& flags, GridRequest& grid) {
+    flags
+        .on<int>(
+            "--resolution", "N",
+            [&grid](int cells) {
+                grid.resolution = static_cast<int>(checked_range("--resolution", cells, 1, kMaxCells));
+            },
+            "voxels along the longest side of the scene")
+        .shows(fmt::format("{}", grid.resolution));
+    flags
+        .on<double>(
+            "--scale", "METRES", [&grid](double metres) { grid.metres_per_voxel = checked_scale(metres); },
+            "metres per voxel, instead of --resolution")
+        .excludes("--resolution");
+    flags
+        .add_parsed("--up", "AXIS", grid.up, checked_up,
+                    "the mesh's axis that points up: x, y, z, -x, -y or -z")
+        .shows(std::string(name_of(grid.up)));
+    flags.on<int>(
+        "--turn", "DEG", [&grid](int degrees) { grid.quarter_turns = quarter_turns(degrees); },
+        "turn about the vertical by a multiple of 90 degrees, counter-clockwise from above");
+}
+
 }  // namespace
 
-CLI::App* add_voxelize(CLI::App& app, VoxelizeCommand& command) {
-    CLI::App* sub = app.add_subcommand("voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file");
-    sub->add_option("MESH", command.mesh, "a .gltf, .glb or .obj file")->required()->type_name("");
-    sub->add_option("-o,--output", command.output, "the .vox file; default: named as MESH, in this folder")
-        ->type_name("FILE");
-    CLI::Option* resolution =
-        sub->add_option("--resolution", command.resolution, "voxels along the longest side of the scene")
-            ->type_name("N")
-            ->capture_default_str();
-    sub->add_option("--scale", command.scale_m, "metres per voxel, instead of --resolution")
-        ->type_name("METRES")
-        ->excludes(resolution);
-    sub->add_option("--up", command.up, "the mesh's axis that points up: x, y, z, -x, -y or -z")
-        ->type_name("AXIS")
-        ->capture_default_str();
-    sub->add_option("--turn", command.turn_deg,
-                    "turn about the vertical by a multiple of 90 degrees, counter-clockwise from above")
-        ->type_name("DEG");
-    sub->add_flag("--thin", command.thin,
-                  "fewest voxels without a hole (6-separating), instead of all that the surface touches");
-    sub->add_flag("--solid", command.solid, "fill the inside; the report says when the mesh is open");
-    sub->add_flag("--dither", command.dither, "mix palette colours by place");
-    sub->add_flag("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
-    sub->add_option("--scene", command.scene, "which scene of a glTF file, from 0; default: the file's own")
-        ->type_name("N");
-    sub->add_flag("--strict", command.strict, "what would be a warning is an error");
-    sub->add_option("--threads", command.threads, "default: all; the file is the same for any number")
-        ->type_name("N");
-    sub->add_option("--json", command.json, "write the report as JSON; - is standard output")
-        ->type_name("FILE");
-    sub->add_option("--progress", command.progress, "auto, never or json, on standard error")
-        ->type_name("MODE")
-        ->capture_default_str();
-    sub->add_flag("-q,--quiet", command.quiet, "print no facts and no progress");
-    return sub;
+void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
+    VoxelizeRequest& request = command.request;
+    flags.add("MESH", "", command.mesh, "a .gltf, .glb or .obj file").required();
+    flags.add_parsed("-o,--output", "FILE", command.output, checked_output,
+                     "the .vox file; default: named as MESH, in this folder");
+    add_grid_flags(flags, request.grid);
+    flags.add_switch("--thin", command.thin,
+                     "fewest voxels without a hole (6-separating), instead of all that the surface touches");
+    flags.add_switch("--solid", request.is_solid, "fill the inside; the report says when the mesh is open");
+    flags.add_switch("--dither", command.dither, "mix palette colours by place");
+    flags.add_switch("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
+    flags.add("--scene", "N", command.scene, "which scene of a glTF file, from 0; default: the file's own");
+    flags.add_switch("--strict", command.strict, "what would be a warning is an error");
+    flags.add("--threads", "N", request.threads, "default: all; the file is the same for any number");
+    add_report_flags(flags, command.report);
+    add_progress_flag(flags, command.progress);
 }
 
 int run_voxelize(const VoxelizeCommand& command) {
     StepTimes times;
-    VoxelizeRequest request = request_of(command);
-    const fs::path output = output_of(command);
+    VoxelizeRequest request = command.request;
+    if (command.thin) request.coverage = Coverage::thin;
+    const std::string output = output_of(command);
     check_writable(output);
-    check_writable(command.json);
-    VoxelizeProgress progress(command.progress, command.quiet);
+    check_writable(command.report.json);
+    ProgressLine progress(command.progress, command.report.quiet);
+    const std::atomic<bool>& interrupted = interrupted_by_signal();
     request.progress = [&](double done) {
         if (interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was written");
-        progress.show(done);
+        const double elapsed_s = times.total().wall;
+        progress.show(done, elapsed_s, [=](bool as_json) { return progress_text(done, elapsed_s, as_json); });
     };
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
 
     const Mesh mesh = read_mesh(command);
     times.end_step("load");
@@ -160,14 +139,14 @@ int run_voxelize(const VoxelizeCommand& command) {
     const VoxelPalette palette(set, command.dither);
     times.end_step("palette");
     const VoxOutput written =
-        write_voxels(output, set, palette, mesh, fs::path(command.mesh).stem().string());
+        write_voxels(output, set, palette, mesh, std::filesystem::path(command.mesh).stem().string());
     times.end_step("write");
 
-    const VoxelizeFacts facts{command, request, mesh, set, palette, written, times, warnings, output};
+    const VoxelizeFacts facts{command, mesh, set, palette, written, times, warnings, output};
     for (const std::string& warning : warnings)
         fmt::print(stderr, "voxilux: warning: {}\n", warning);
-    if (!command.quiet && command.json != "-") fmt::print("{}", describe(facts));
-    write_json(command.json, report_json(facts));
+    if (command.report.prints()) fmt::print("{}", describe(facts));
+    write_json(command.report.json, report_json(facts));
     return static_cast<int>(ExitCode::done);
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <chrono>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "base/stopwatch.h"
 #include "voxelize/voxelize.h"
 #include "voxelizer/vox_output.h"
 
@@ -17,33 +16,32 @@ class StepTimes {
   public:
     struct Step {
         std::string label;
-        double wall_s = 0.0;
-        double cpu_s = 0.0;  // of all threads
+        Seconds time;
     };
 
-    StepTimes();
     // The step that began where the last one ended.
-    void end_step(const std::string& label);
+    void end_step(const std::string& label) {
+        steps_.push_back({label, step_.elapsed()});
+        step_ = Stopwatch();
+    }
     [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
-    [[nodiscard]] double wall_s() const;
+    [[nodiscard]] Seconds total() const { return all_.elapsed(); }
 
   private:
-    std::chrono::steady_clock::time_point start_, last_;
-    double last_cpu_s_ = 0.0;
+    Stopwatch all_, step_;
     std::vector<Step> steps_;
 };
 
 // All that a report is made from. Refers to what must outlive it.
 struct VoxelizeFacts {
     const VoxelizeCommand& command;
-    const VoxelizeRequest& request;
     const Mesh& mesh;
     const VoxelSet& set;
     const VoxelPalette& palette;
     const VoxOutput& written;
     const StepTimes& times;
     const std::vector<std::string>& warnings;
-    const std::filesystem::path& output;
+    const std::string& output;
 };
 
 // The lines for people.

@@ -4,6 +4,9 @@
 #include <limits>
 #include <tuple>
 
+#include "base/median.h"
+#include "jobs/bench/contest.h"
+
 namespace voxilux {
 namespace {
 
@@ -78,9 +81,9 @@ void take_times(AoRow& row, const AoFootage& footage) {
         for (const AoPassTime& pass : footage.passes[i])
             ms[pass.label].push_back(pass.ms);
     }
-    row.cpu_ms = std::min(row.cpu_ms, median_of(cpu_ms));
+    row.cpu_ms = std::min(row.cpu_ms, median(cpu_ms));
     for (const auto& [label, times] : ms) {
-        const double time = median_of(times);
+        const double time = median(times);
         const auto known = std::ranges::find(row.passes, label, &AoPassTime::label);
         if (known == row.passes.end())
             row.passes.push_back({label, time});
@@ -114,25 +117,29 @@ AoRow measure(const AoTake& take, AoStage& stage, References& references) {
     return row;
 }
 
+struct AoContestant {
+    AoTake take;
+    AoStage& stage;
+    References& references;
+    AoRow row;
+
+    void warm_up() { row = measure(take, stage, references); }
+    void take_turn() { take_times(row, stage.play(take)); }
+};
+
 }  // namespace
 
 std::vector<AoRow> bench_ao(const std::string& name, AoStage& stage, const AoBenchOptions& options) {
     References references(stage, options.reference_rays);
     std::vector<AoRow> rows;
     for (const Motion motion : options.motions) {
-        std::vector<AoTake> takes;
+        std::vector<AoContestant> contestants;
         for (const AoVariant& variant : options.variants) {
             if (motion == Motion::floor && !sets_only_width(variant)) continue;
-            takes.push_back(take_of(variant, motion, options));
+            contestants.push_back({take_of(variant, motion, options), stage, references, {}});
         }
-        const std::size_t first = rows.size();
-        for (const AoTake& take : takes)
-            rows.push_back(measure(take, stage, references));
-        const int rounds = motion == Motion::floor ? 1 : options.rounds;
-        for (int round = 1; round < rounds; ++round) {
-            for (std::size_t i = 0; i < takes.size(); ++i)
-                take_times(rows[first + i], stage.play(takes[i]));
-        }
+        run_contest(contestants, motion == Motion::floor ? 0 : options.rounds - 1);
+        std::ranges::move(rows_of(contestants), std::back_inserter(rows));
     }
     for (AoRow& row : rows)
         row.scene = name;

@@ -9,8 +9,8 @@
 namespace voxilux {
 
 struct AoBenchOptions {
-    std::vector<AoVariant> variants;
-    std::vector<Motion> motions;
+    std::vector<AoVariant> variants = ao_variants();
+    std::vector<Motion> motions{Motion::still, Motion::pan, Motion::floor};
     int frames = 64;
     int rounds = 2;  // the best of them gives the times
     std::uint32_t reference_rays = 4096;

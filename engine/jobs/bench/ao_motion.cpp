@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "jobs/bench/item_named.h"
 #include "scene/scene_camera.h"
 
 namespace voxilux {
@@ -21,10 +21,7 @@ std::string_view name_of(Motion motion) {
 }
 
 Motion motion_named(std::string_view name) {
-    for (const Motion motion : kMotions) {
-        if (name_of(motion) == name) return motion;
-    }
-    throw Error(ExitCode::usage, fmt::format("no motion '{}'; there are {}", name, fmt::join(kNames, ", ")));
+    return item_named("motion", name, kMotions, [](Motion motion) { return name_of(motion); });
 }
 
 Camera moved_camera(const Camera& start, Motion motion, int frame, int height) {

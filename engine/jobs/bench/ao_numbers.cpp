@@ -68,11 +68,4 @@ double probes_per_search(const AoWork& work) {
     return ratio(work.mean(gpu::kWorkAoProbes), work.mean(gpu::kWorkAoSearches));
 }
 
-double median_of(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 }  // namespace voxilux

@@ -50,7 +50,4 @@ struct AoWork {
 // Keys looked at per search; 0 without one.
 [[nodiscard]] double probes_per_search(const AoWork& work);
 
-// The value in the middle, the upper one of two; 0 of nothing.
-[[nodiscard]] double median_of(std::vector<double> values);
-
 }  // namespace voxilux

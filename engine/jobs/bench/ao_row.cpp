@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "jobs/or_null.h"
+
 namespace voxilux {
 namespace {
 
@@ -65,26 +67,24 @@ nlohmann::ordered_json to_json(const AoRow& row) {
     nlohmann::ordered_json errors = nlohmann::ordered_json::array();
     for (const AoError& error : row.errors)
         errors.push_back({{"frame", error.frame}, {"rmse", error.rmse}});
-    nlohmann::ordered_json json = {{"scene", row.scene},
-                                   {"motion", row.motion},
-                                   {"variant", row.variant},
-                                   {"frames", row.frames},
-                                   {"rays_per_pixel", row.rays_per_pixel},
-                                   {"ao_ms", row.ao_ms()},
-                                   {"passes_ms", std::move(passes)},
-                                   {"cpu_ms", row.cpu_ms},
-                                   {"rays", row.rays},
-                                   {"searched_percent", row.searched_percent},
-                                   {"probes_per_search", row.probes_per_search},
-                                   {"atomics", row.atomics},
-                                   {"table_full", row.table_full},
-                                   {"cells", row.cells},
-                                   {"load", row.load},
-                                   {"errors", std::move(errors)},
-                                   {"reference_noise", row.reference_noise},
-                                   {"flicker", nullptr}};
-    if (row.flicker) json["flicker"] = *row.flicker;
-    return json;
+    return {{"scene", row.scene},
+            {"motion", row.motion},
+            {"variant", row.variant},
+            {"frames", row.frames},
+            {"rays_per_pixel", row.rays_per_pixel},
+            {"ao_ms", row.ao_ms()},
+            {"passes_ms", std::move(passes)},
+            {"cpu_ms", row.cpu_ms},
+            {"rays", row.rays},
+            {"searched_percent", row.searched_percent},
+            {"probes_per_search", row.probes_per_search},
+            {"atomics", row.atomics},
+            {"table_full", row.table_full},
+            {"cells", row.cells},
+            {"load", row.load},
+            {"errors", std::move(errors)},
+            {"reference_noise", row.reference_noise},
+            {"flicker", or_null(row.flicker)}};
 }
 
 std::string describe(std::span<const AoRow> rows) {

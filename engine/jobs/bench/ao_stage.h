@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "jobs/bench/ao_motion.h"
 #include "jobs/bench/ao_numbers.h"
 #include "jobs/bench/ao_row.h"
 #include "jobs/bench/ao_variant.h"
-#include "jobs/bench/stopwatch.h"
 #include "jobs/render_session.h"
 #include "shared/gpu_types.h"
 

@@ -1,8 +1,6 @@
 #include "jobs/bench/ao_variant.h"
 
-#include <algorithm>
-
-#include "base/error.h"
+#include "jobs/bench/item_named.h"
 
 namespace voxilux {
 namespace {
@@ -40,15 +38,6 @@ std::vector<AoVariant> make_variants() {
     return variants;
 }
 
-const AoVariant& variant_named(const std::string& name) {
-    const auto found = std::ranges::find(ao_variants(), name, &AoVariant::name);
-    if (found != ao_variants().end()) return *found;
-    std::vector<std::string> known;
-    for (const AoVariant& variant : ao_variants())
-        known.push_back(variant.name);
-    throw Error(ExitCode::usage, fmt::format("no variant '{}'; there are {}", name, fmt::join(known, ", ")));
-}
-
 }  // namespace
 
 const std::vector<AoVariant>& ao_variants() {
@@ -56,14 +45,8 @@ const std::vector<AoVariant>& ao_variants() {
     return variants;
 }
 
-std::vector<AoVariant> ao_variants_named(std::span<const std::string> names) {
-    if (names.empty()) return ao_variants();
-    std::vector<AoVariant> variants;
-    for (const std::string& name : names) {
-        if (std::ranges::find(variants, name, &AoVariant::name) == variants.end())
-            variants.push_back(variant_named(name));
-    }
-    return variants;
+const AoVariant& ao_variant_named(std::string_view name) {
+    return item_named("variant", name, ao_variants(), &AoVariant::name);
 }
 
 bool sets_only_width(const AoVariant& variant) {

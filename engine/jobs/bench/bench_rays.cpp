@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
+#include "jobs/bench/item_named.h"
 #include "scene/scene_camera.h"
 #include "world/world_view.h"  // gives camera.h the world that it marches
 
@@ -60,10 +60,7 @@ std::string_view name_of(RayKind kind) {
 }
 
 RayKind ray_kind_named(std::string_view name) {
-    for (const RayKind kind : kRayKinds) {
-        if (name_of(kind) == name) return kind;
-    }
-    throw Error(ExitCode::usage, fmt::format("no rays '{}'; there are {}", name, fmt::join(kRayNames, ", ")));
+    return item_named("rays", name, kRayKinds, [](RayKind kind) { return name_of(kind); });
 }
 
 std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guide, RayKind kind,

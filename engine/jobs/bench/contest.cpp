@@ -2,52 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace voxilux {
 namespace {
 
-constexpr double kLeastRunCpuS = 0.1;  // a measured run repeats its rays until it takes this
-constexpr double kMostRepeats = 256;
-
-struct Standing {
-    const Contestant* contestant = nullptr;
-    std::uint32_t repeats = 1;
-    Seconds best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-};
-
-Standing warm_up(const Contestant& contestant) {
-    const double once = std::max(contestant.run(1).cpu, 1e-9);
-    const double repeats = std::clamp(std::ceil(kLeastRunCpuS / once), 1.0, kMostRepeats);
-    return {.contestant = &contestant, .repeats = static_cast<std::uint32_t>(repeats)};
-}
-
-BenchRow final_row(const Standing& standing) {
-    BenchRow row = standing.contestant->row;
-    const double million = static_cast<double>(row.count) * 1e-6;
-    row.mrays_per_cpu_s = million / standing.best.cpu;
-    row.mrays_per_s = million / standing.best.wall;
-    return row;
-}
+constexpr double kMinTurnCpuS = 0.1;  // a turn repeats its rays until it takes this
+constexpr double kMaxRepeats = 256;
 
 }  // namespace
 
-std::vector<BenchRow> run_contest(const std::vector<Contestant>& contestants, int rounds) {
-    std::vector<Standing> standings;
-    for (const Contestant& contestant : contestants)
-        standings.push_back(contestant.run ? warm_up(contestant) : Standing{.contestant = &contestant});
-    for (int round = 0; round < rounds; ++round) {
-        for (Standing& standing : standings) {
-            if (!standing.contestant->run) continue;
-            const Seconds taken = standing.contestant->run(standing.repeats);
-            standing.best.cpu = std::min(standing.best.cpu, taken.cpu / standing.repeats);
-            standing.best.wall = std::min(standing.best.wall, taken.wall / standing.repeats);
-        }
-    }
-    std::vector<BenchRow> rows;
-    for (const Standing& standing : standings)
-        rows.push_back(standing.contestant->run ? final_row(standing) : standing.contestant->row);
-    return rows;
+void MarchContestant::warm_up() {
+    if (!run) return;
+    const double once = std::max(run(1).cpu, 1e-9);
+    repeats = static_cast<std::uint32_t>(std::clamp(std::ceil(kMinTurnCpuS / once), 1.0, kMaxRepeats));
+}
+
+void MarchContestant::take_turn() {
+    if (!run) return;
+    const Seconds taken = run(repeats);
+    const double million = static_cast<double>(row.count) * 1e-6 * repeats;
+    row.mrays_per_cpu_s = std::max(row.mrays_per_cpu_s, million / taken.cpu);
+    row.mrays_per_s = std::max(row.mrays_per_s, million / taken.wall);
 }
 
 }  // namespace voxilux

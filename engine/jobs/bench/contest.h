@@ -4,20 +4,40 @@
 #include <functional>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "jobs/bench/bench_row.h"
-#include "jobs/bench/stopwatch.h"
 
 namespace voxilux {
 
-// A row to be measured. `run` runs its rays `repeats` times and returns what that took; empty when the row
-// has a reason or no rays.
-struct Contestant {
+// Warms all contestants up, then lets each have its turn, `rounds` times: ratios of their times hold although
+// the load of the machine changes. A contestant keeps the best of its turns.
+template <class Contestant>
+void run_contest(std::vector<Contestant>& contestants, int rounds) {
+    for (Contestant& contestant : contestants)
+        contestant.warm_up();
+    for (int round = 0; round < rounds; ++round)
+        for (Contestant& contestant : contestants)
+            contestant.take_turn();
+}
+
+// The rows of contestants, in their order.
+template <class Contestant>
+[[nodiscard]] auto rows_of(const std::vector<Contestant>& contestants) {
+    std::vector<decltype(Contestant::row)> rows;
+    for (const Contestant& contestant : contestants)
+        rows.push_back(contestant.row);
+    return rows;
+}
+
+// Rays through a structure, with the best rates so far. `run` runs them `repeats` times and returns what that
+// took; empty when the row has a reason or no rays.
+struct MarchContestant {
     BenchRow row;
     std::function<Seconds(std::uint32_t repeats)> run;
-};
+    std::uint32_t repeats = 1;  // in a turn, which is too short to be timed without
 
-// Sets the rates of all rows, each from the best of `rounds` runs. The rounds take turns, so that ratios of
-// rates hold although the load of the machine changes.
-[[nodiscard]] std::vector<BenchRow> run_contest(const std::vector<Contestant>& contestants, int rounds);
+    void warm_up();
+    void take_turn();
+};
 
 }  // namespace voxilux

@@ -23,13 +23,12 @@ BufferProxy hits_buffer(RayKind kind, std::uint32_t count) {
 
 }  // namespace
 
-MarchBench::MarchBench(const BenchScene& scene, const MarchBenchOptions& options, const BenchRequest& request,
-                       Device& device)
+MarchBench::MarchBench(const BenchScene& scene, const MarchBenchOptions& options, Device& device)
     : scene_(scene), executor_(device, pass_shaders(), {.time_dispatches = false}) {
     {
         const MarchWorld guide = build_march_world(scene.world);
-        for (const RayKind kind : request.kinds)
-            rays_.push_back(place_rays(kind, bench_rays(scene, guide, kind, request.size, request.seed),
+        for (const RayKind kind : options.kinds)
+            rays_.push_back(place_rays(kind, bench_rays(scene, guide, kind, options.size, options.seed),
                                        device.limits()));
     }
     for (const Traversal traversal : options.traversals)
@@ -54,11 +53,11 @@ MarchBench::RayList MarchBench::place_rays(RayKind kind, const std::vector<gpu::
     return {.kind = kind, .count = count, .verdicts = judge_rays(scene_.world, rays, kJudgedCells)};
 }
 
-std::vector<Contestant> MarchBench::contestants() {
-    std::vector<Contestant> all;
+std::vector<MarchContestant> MarchBench::contestants() {
+    std::vector<MarchContestant> all;
     for (const PlacedStructure& structure : structures_) {
         for (const RayList& rays : rays_) {
-            Contestant contestant{.row = row_of(structure, rays)};
+            MarchContestant contestant{.row = row_of(structure, rays)};
             if (structure.reason.empty() && rays.count > 0) {
                 judge(contestant.row, structure, rays);
                 contestant.run = [this, &structure, &rays](std::uint32_t repeats) {
@@ -124,10 +123,11 @@ Recording MarchBench::record_march(const PlacedStructure& structure, const RayLi
     return recording;
 }
 
-std::vector<BenchRow> bench_march(const BenchScene& scene, const MarchBenchOptions& options,
-                                  const BenchRequest& request, Device& device) {
-    MarchBench bench(scene, options, request, device);
-    return run_contest(bench.contestants(), request.rounds);
+std::vector<BenchRow> bench_march(const BenchScene& scene, const MarchBenchOptions& options, Device& device) {
+    MarchBench bench(scene, options, device);
+    std::vector<MarchContestant> contestants = bench.contestants();
+    run_contest(contestants, options.rounds);
+    return rows_of(contestants);
 }
 
 }  // namespace voxilux

@@ -12,13 +12,9 @@
 namespace voxilux {
 
 struct MarchBenchOptions {
-    std::vector<Traversal> traversals;
+    std::vector<Traversal> traversals{all_traversals().begin(), all_traversals().end()};
+    std::vector<RayKind> kinds{kRayKinds.begin(), kRayKinds.end()};
     Builder builder = Builder::cpu;
-};
-
-// What to measure of each scene.
-struct BenchRequest {
-    std::vector<RayKind> kinds;
     glm::ivec2 size{640, 360};  // pixels
     int rounds = 5;             // each row takes the best of them
     std::uint32_t seed = 0;
@@ -28,12 +24,11 @@ struct BenchRequest {
 class MarchBench {
   public:
     // Throws Error(out_of_memory) when the device cannot bind the rays.
-    MarchBench(const BenchScene& scene, const MarchBenchOptions& options, const BenchRequest& request,
-               Device& device);
+    MarchBench(const BenchScene& scene, const MarchBenchOptions& options, Device& device);
 
     // A row for each structure and kind of rays, its hits judged; structures that the device cannot bind give
     // rows with a reason. They must not outlive this.
-    [[nodiscard]] std::vector<Contestant> contestants();
+    [[nodiscard]] std::vector<MarchContestant> contestants();
 
   private:
     // The rays of a kind, on the device, with what some of them must meet.
@@ -59,6 +54,6 @@ class MarchBench {
 
 // Marches all of it and returns the rows.
 [[nodiscard]] std::vector<BenchRow> bench_march(const BenchScene& scene, const MarchBenchOptions& options,
-                                                const BenchRequest& request, Device& device);
+                                                Device& device);
 
 }  // namespace voxilux

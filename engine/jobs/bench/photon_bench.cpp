@@ -5,7 +5,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "jobs/bench/stopwatch.h"
+#include "base/stopwatch.h"
+#include "jobs/bench/contest.h"
 #include "jobs/render_session.h"
 
 namespace voxilux {
@@ -21,17 +22,21 @@ constexpr std::uint32_t kGrowthIterations = 16;
 constexpr double kNoTime = 1e-9;
 
 // A row and what renders it.
-struct Contestant {
+struct PhotonContestant {
+    const PhotonBenchOptions& options;
     PhotonRow row;
     std::unique_ptr<RenderSession> session;
+
+    void warm_up();
+    void take_turn();
 };
 
-Contestant enter(const Scene& base, const PhotonVariant& variant, const PhotonBenchOptions& options) {
+PhotonContestant enter(const Scene& base, const PhotonVariant& variant, const PhotonBenchOptions& options) {
     Scene scene = base;
     RenderSettings& settings = scene.settings;
     settings.photons = settings_of(variant, settings.photons);
     settings.spp = iterations_of(variant, settings.spp);
-    Contestant contestant;
+    PhotonContestant contestant{.options = options};
     contestant.row = {.variant = variant,
                       .size = settings.size,
                       .iterations = settings.spp,
@@ -43,14 +48,14 @@ Contestant enter(const Scene& base, const PhotonVariant& variant, const PhotonBe
 }
 
 // One iteration, which compiles the shaders.
-void warm_up(Contestant& contestant) {
-    const RenderOutcome outcome = contestant.session->render(0, kNoTime);
+void PhotonContestant::warm_up() {
+    const RenderOutcome outcome = session->render(0, kNoTime);
     if (!outcome.plan.has_photons()) {
         const auto& state = outcome.plan.effects[static_cast<std::size_t>(Effect::indirect)];
         throw Error(ExitCode::input_refused, fmt::format("no photons are called for: {}", state.reason));
     }
-    contestant.row.photons = outcome.plan.photons.count();
-    contestant.row.radius = outcome.plan.photons.radius;
+    row.photons = outcome.plan.photons.count();
+    row.radius = outcome.plan.photons.radius;
 }
 
 std::uint64_t count_of(const RenderOutcome& outcome, const char* name) {
@@ -58,10 +63,9 @@ std::uint64_t count_of(const RenderOutcome& outcome, const char* name) {
     return found == outcome.statistics.work.end() ? 0 : found->second;
 }
 
-void take_turn(Contestant& contestant, const PhotonBenchOptions& options) {
-    PhotonRow& row = contestant.row;
+void PhotonContestant::take_turn() {
     const Stopwatch watch;
-    const RenderOutcome outcome = contestant.session->render(0, std::nullopt);
+    const RenderOutcome outcome = session->render(0, std::nullopt);
     const Seconds seconds = watch.elapsed();
     if (seconds.wall >= row.wall_s) return;
     row.wall_s = seconds.wall;
@@ -79,18 +83,13 @@ void take_turn(Contestant& contestant, const PhotonBenchOptions& options) {
         row.errors = photon_errors(*reference, outcome.image, options.box);
 }
 
-std::vector<PhotonRow> run_rounds(std::vector<Contestant>& contestants, const std::string& name,
-                                  const std::string& series, const PhotonBenchOptions& options) {
-    for (Contestant& contestant : contestants)
-        warm_up(contestant);
-    for (int round = 0; round < options.rounds; ++round)
-        for (Contestant& contestant : contestants)
-            take_turn(contestant, options);
-    std::vector<PhotonRow> rows;
-    for (Contestant& contestant : contestants) {
-        contestant.row.scene = name;
-        contestant.row.series = series;
-        rows.push_back(contestant.row);
+std::vector<PhotonRow> run_series(std::vector<PhotonContestant>& contestants, const std::string& name,
+                                  const std::string& series) {
+    run_contest(contestants, contestants.front().options.rounds);
+    std::vector<PhotonRow> rows = rows_of(contestants);
+    for (PhotonRow& row : rows) {
+        row.scene = name;
+        row.series = series;
     }
     return rows;
 }
@@ -131,15 +130,15 @@ const std::vector<std::string>& photon_series() {
 void bench_photons(const std::string& name, const Scene& scene, const PhotonBenchOptions& options,
                    const std::function<void(const std::vector<PhotonRow>&)>& on_rows) {
     VX_ASSERT(!options.variants.empty());
-    std::vector<Contestant> contestants;
+    std::vector<PhotonContestant> contestants;
     for (const PhotonVariant& variant : options.variants)
         contestants.push_back(enter(scene, variant, options));
-    on_rows(run_rounds(contestants, name, "options", options));
+    on_rows(run_series(contestants, name, "options"));
     for (const std::string& series : options.growth) {
         contestants.clear();
         for (const Scene& job : grow(scene, series))
             contestants.push_back(enter(job, options.variants.front(), options));
-        on_rows(run_rounds(contestants, name, series, options));
+        on_rows(run_series(contestants, name, series));
     }
 }
 

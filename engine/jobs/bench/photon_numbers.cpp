@@ -105,23 +105,4 @@ PhotonErrors photon_errors(const Image& reference, const Image& test, const std:
     return errors;
 }
 
-std::optional<double> growth_exponent(std::span<const double> x, std::span<const double> y) {
-    VX_ASSERT_EQ(x.size(), y.size());
-    const auto count = static_cast<double>(x.size());
-    double sum_x = 0.0, sum_y = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (!(x[i] > 0.0 && y[i] > 0.0)) return {};
-        sum_x += std::log(x[i]);
-        sum_y += std::log(y[i]);
-    }
-    double xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double dx = std::log(x[i]) - sum_x / count;
-        xx += dx * dx;
-        xy += dx * (std::log(y[i]) - sum_y / count);
-    }
-    if (!(xx > 0.0)) return {};
-    return xy / xx;
-}
-
 }  // namespace voxilux

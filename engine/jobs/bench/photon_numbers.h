@@ -34,8 +34,4 @@ struct PhotonErrors {
 [[nodiscard]] PhotonErrors photon_errors(const Image& reference, const Image& test,
                                          const std::optional<PixelBox>& box);
 
-// The exponent p of y = c x^p that fits best: the least-squares slope of log y over log x. Nothing for fewer
-// than two values of x and for values that have no logarithm.
-[[nodiscard]] std::optional<double> growth_exponent(std::span<const double> x, std::span<const double> y);
-
 }  // namespace voxilux

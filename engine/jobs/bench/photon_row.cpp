@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "estimators/log_line.h"
+#include "jobs/or_null.h"
 
 namespace voxilux {
 namespace {
@@ -90,8 +92,9 @@ double grown(const PhotonRow& row) {
     return static_cast<double>(row.size.x) * row.size.y;
 }
 
-nlohmann::ordered_json or_null(const std::optional<double>& value) {
-    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+std::optional<double> exponent_of(std::span<const double> x, std::span<const double> y) {
+    const std::optional<LogLine> line = fit_log_line(x, y);
+    return line ? std::optional(line->slope) : std::nullopt;
 }
 
 }  // namespace
@@ -112,10 +115,10 @@ PhotonGrowth growth_of(std::span<const PhotonRow> rows) {
             times[label].push_back(ms * row.iterations);
     }
     if (growth.series == "options") return growth;
-    growth.wall = growth_exponent(sizes, walls);
+    growth.wall = exponent_of(sizes, walls);
     for (const auto& [label, ms] : times) {
         if (ms.size() != sizes.size()) continue;
-        if (const auto exponent = growth_exponent(sizes, ms)) growth.passes[label] = *exponent;
+        if (const auto exponent = exponent_of(sizes, ms)) growth.passes[label] = *exponent;
     }
     return growth;
 }

@@ -3,8 +3,8 @@
 // The ways of tracing photons that `bench photons` compares.
 
 #include <cstdint>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/photon_settings.h"
@@ -17,14 +17,15 @@ struct PhotonVariant {
     bool classic = false;
     bool roulette = true;
     std::uint32_t slowness = 1;  // it takes so many times fewer iterations
+
+    bool operator==(const PhotonVariant&) const = default;
 };
 
 // The default first, then the others with one option changed.
 [[nodiscard]] const std::vector<PhotonVariant>& photon_variants();
 
-// The variants of these names, each once; all of them for no name. Throws Error(usage) for a name that does
-// not exist.
-[[nodiscard]] std::vector<PhotonVariant> photon_variants_named(std::span<const std::string> names);
+// The variant of that name; Error(usage) with the known names when there is none.
+[[nodiscard]] const PhotonVariant& photon_variant_named(std::string_view name);
 
 // The settings with the options of a variant.
 [[nodiscard]] PhotonSettings settings_of(const PhotonVariant& variant, PhotonSettings settings);

@@ -128,13 +128,6 @@ void place_from_cpu(PlacedStructure& placed, const VoxelWorld& world, const Devi
 
 }  // namespace
 
-Builder builder_named(std::string_view name) {
-    if (name == "cpu") return Builder::cpu;
-    if (name == "device") return Builder::device;
-    if (name == "both") return Builder::both;
-    throw Error(ExitCode::usage, fmt::format("--build: '{}' is not cpu, device or both", name));
-}
-
 PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Builder builder,
                                 const DeviceLimits& limits, Executor& executor) {
     PlacedStructure placed{.traversal = traversal,

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "jobs/bench/stopwatch.h"
+#include "base/stopwatch.h"
 #include "record/recording.h"
 #include "vk/executor.h"
 #include "world/structure_bytes.h"
@@ -14,9 +14,6 @@ namespace voxilux {
 
 // What builds a structure: one thread of the CPU, the device, or both for a comparison of the bits.
 enum class Builder : std::uint8_t { cpu, device, both };
-
-// The builder of that name; Error(usage) with the known names when there is none.
-[[nodiscard]] Builder builder_named(std::string_view name);
 
 struct PlacedStructure {
     Traversal traversal;

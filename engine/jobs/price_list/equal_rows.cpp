@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
+
 namespace voxilux {
 namespace {
 
@@ -42,12 +44,12 @@ const Level& level_of(const MeasuredWay& way, std::uint32_t samples) {
 }
 
 double seconds_per_sample(const MeasuredWay& way) {
-    return middle_of(way.levels.back().times_s) / way.levels.back().samples;
+    return median(way.levels.back().times_s) / way.levels.back().samples;
 }
 
 EqualPicture of_level(const Level& level) {
     return {.samples = level.samples,
-            .time_s = middle_of(level.times_s),
+            .time_s = median(level.times_s),
             .error = level.error.total,
             .picture = level.picture};
 }
@@ -62,6 +64,26 @@ EqualPicture render(const Workshop& workshop, const MeasuredWay& way, double sam
     const double square = relative_square(result.picture, *workshop.reference) - workshop.noise.square;
     result.error = std::sqrt(std::max(square, 0.0));
     return result;
+}
+
+// The level `base` of way 0, and a picture of every chosen way with so many samples as `samples_of` says. One
+// is reached when its `member` is near the target or below.
+template <class SamplesOf>
+EqualRow make_row(const Workshop& workshop, const KnobDesign& design, const std::vector<MeasuredWay>& ways,
+                  const Level& base, double target, const SamplesOf& samples_of,
+                  double EqualPicture::*member) {
+    EqualRow row{.target = target};
+    row.pictures.push_back(of_level(base));
+    for (const auto& [knob, setting] : chosen(design, ways)) {
+        if (workshop.left_s() <= 0.0) break;
+        const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
+        EqualPicture picture = render(workshop, way, samples_of(way));
+        picture.knob = knob;
+        picture.setting = setting;
+        picture.is_reached = picture.*member <= kNear * target;
+        row.pictures.push_back(std::move(picture));
+    }
+    return row;
 }
 
 }  // namespace
@@ -83,37 +105,22 @@ double samples_for_error(const std::vector<Level>& levels, double error) {
 EqualRow equal_time_row(const Workshop& workshop, const KnobDesign& design,
                         const std::vector<MeasuredWay>& ways, std::uint32_t samples) {
     const Level& base = level_of(ways.front(), samples);
-    EqualRow row{.target = middle_of(base.times_s)};
-    row.pictures.push_back(of_level(base));
-    for (const auto& [knob, setting] : chosen(design, ways)) {
-        if (workshop.left_s() <= 0.0) break;
-        const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
-        EqualPicture picture = render(workshop, way, row.target / seconds_per_sample(way));
-        picture.knob = knob;
-        picture.setting = setting;
-        picture.is_reached = picture.time_s <= kNear * row.target;
-        row.pictures.push_back(std::move(picture));
-    }
-    return row;
+    const double target = median(base.times_s);
+    return make_row(
+        workshop, design, ways, base, target,
+        [&](const MeasuredWay& way) { return target / seconds_per_sample(way); }, &EqualPicture::time_s);
 }
 
 EqualRow equal_error_row(const Workshop& workshop, const KnobDesign& design,
                          const std::vector<MeasuredWay>& ways, std::uint32_t samples, double most_s) {
     const Level& base = level_of(ways.front(), samples);
-    EqualRow row{.target = base.error.total};
-    row.pictures.push_back(of_level(base));
-    for (const auto& [knob, setting] : chosen(design, ways)) {
-        if (workshop.left_s() <= 0.0) break;
-        const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
-        const double most = most_s / seconds_per_sample(way);
-        EqualPicture picture =
-            render(workshop, way, std::min(samples_for_error(way.levels, row.target), most));
-        picture.knob = knob;
-        picture.setting = setting;
-        picture.is_reached = picture.error <= kNear * row.target;
-        row.pictures.push_back(std::move(picture));
-    }
-    return row;
+    const double target = base.error.total;
+    return make_row(
+        workshop, design, ways, base, target,
+        [&](const MeasuredWay& way) {
+            return std::min(samples_for_error(way.levels, target), most_s / seconds_per_sample(way));
+        },
+        &EqualPicture::error);
 }
 
 }  // namespace voxilux

@@ -108,11 +108,6 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
                      [&](Way& way) { way.settings.ao_rays = factor * rays; });
 }
 
-std::string photon_method(const PhotonSettings& photons) {
-    if (photons.classic) return "classic";
-    return photons.scatter ? "scatter" : "gather";
-}
-
 void set_photon_method(const std::string& method, PhotonSettings& photons) {
     photons.classic = method == "classic";
     photons.scatter = method == "scatter";
@@ -209,6 +204,11 @@ void name_fixed(const RenderPlan& plan, Designer& designer) {
 }
 
 }  // namespace
+
+std::string photon_method(const PhotonSettings& photons) {
+    if (photons.classic) return "classic";
+    return photons.scatter ? "scatter" : "gather";
+}
 
 KnobDesign design_knobs(const RenderPlan& plan, const Way& base) {
     Designer designer(base);

@@ -52,6 +52,9 @@ struct KnobDesign {
     std::vector<FixedChoice> fixed;
 };
 
+// "gather", "scatter" or "classic".
+[[nodiscard]] std::string photon_method(const PhotonSettings& photons);
+
 // The knobs of what the plan uses, one changed at a time. `base` is what the plan was made of, with the
 // radius of photons that its pilot found.
 [[nodiscard]] KnobDesign design_knobs(const RenderPlan& plan, const Way& base);

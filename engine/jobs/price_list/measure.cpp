@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -20,11 +21,6 @@ constexpr double kMostShare = 0.12;
 
 std::uint32_t seed_of(const Workshop& workshop, std::size_t repeat, std::uint32_t samples) {
     return workshop.seed + static_cast<std::uint32_t>(repeat + 1) * kRepeatStep + (samples + 7) * kLevelStep;
-}
-
-const char* method_of(const PhotonSettings& photons) {
-    if (photons.classic) return "classic";
-    return photons.scatter ? "scatter" : "gather";
 }
 
 void warm_up(const Workshop& workshop, MeasuredWay& way) {
@@ -139,18 +135,12 @@ std::vector<MeasuredWay*> leading_ways(std::vector<MeasuredWay>& ways, std::uint
     for (MeasuredWay& way : ways) {
         if (way.levels.empty() || way.levels.back().samples != samples) continue;
         leading.push_back(&way);
-        per_sample_s += middle_of(way.levels.back().times_s) / samples;
+        per_sample_s += median(way.levels.back().times_s) / samples;
     }
     return leading;
 }
 
 }  // namespace
-
-double middle_of(std::vector<double> values) {
-    VX_ASSERT(!values.empty());
-    std::ranges::sort(values);
-    return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
-}
 
 Image colours_of(Image image) {
     std::erase_if(image.channels, [](const auto& channel) {
@@ -176,13 +166,13 @@ Json settings_json(const Way& way, const RenderPlan& plan, std::uint32_t samples
     if (plan.has(Effect::ao)) {
         json["ao"] = plan.ao.uses_cells() ? "hash" : "brute";
         json["ao_rays"] = way.settings.ao_rays;
-        json["ao_cell_px"] = plan.ao.uses_cells() ? Json(way.settings.ao.cell_px) : Json(nullptr);
+        json["ao_cell_px"] = plan.ao.uses_cells() ? Json(way.settings.ao.cell_px) : Json();
     }
     if (plan.has_photons()) {
         json["photons"] = plan.photons.count();
         json["radius"] = plan.photons.radius;
         json["alpha"] = way.settings.photons.alpha;
-        json["gather"] = method_of(way.settings.photons);
+        json["gather"] = photon_method(way.settings.photons);
         json["paths"] = way.settings.photons.roulette ? std::string("roulette")
                                                       : fmt::format("depth {}", way.settings.photons.depth);
     }
@@ -261,7 +251,7 @@ std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan, s
         reached = next;
         workshop.on_progress(0.9, reached);
     }
-    const double base_s = middle_of(ways.front().levels.back().times_s);
+    const double base_s = median(ways.front().levels.back().times_s);
     if (2.0 * times * base_s < workshop.left_s()) measure_level(workshop, {&ways.front()}, 2 * reached);
     return reached;
 }

@@ -100,7 +100,4 @@ struct SamplePlan {
 [[nodiscard]] std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan,
                                            std::uint32_t asked, std::vector<MeasuredWay>& ways);
 
-// The median.
-[[nodiscard]] double middle_of(std::vector<double> values);
-
 }  // namespace voxilux

@@ -1,4 +1,4 @@
-#include "jobs/price_list/price_files.h"
+#include "jobs/price_list/price_list.h"
 
 #include <span>
 
@@ -6,7 +6,6 @@
 #include "film/tonemap.h"
 #include "formats/png.h"
 #include "jobs/price_list/difference_map.h"
-#include "jobs/price_list/price_list_json.h"
 
 namespace voxilux {
 namespace {

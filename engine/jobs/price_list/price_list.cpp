@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "frame/footprint.h"
 
 namespace voxilux {
@@ -25,7 +26,7 @@ std::vector<PricePoint> points_of(const MeasuredWay& way, bool by_samples) {
     std::vector<PricePoint> points;
     for (const Level& level : way.levels) {
         if (level.error.is_limited) continue;
-        const double x = by_samples ? level.samples : middle_of(level.times_s);
+        const double x = by_samples ? level.samples : median(level.times_s);
         for (const double square : level.error.squares)
             points.push_back({x, std::sqrt(std::max(square, 0.0))});
     }
@@ -55,7 +56,7 @@ std::vector<PricedRun> front_of(const PriceList& list, const std::vector<PricedR
     const std::vector<PricedRun> marks = distinct(list, runs);
     std::vector<PricePoint> points;
     for (const PricedRun& run : marks)
-        points.push_back({middle_of(level_of(list, run).times_s), level_of(list, run).error.total});
+        points.push_back({median(level_of(list, run).times_s), level_of(list, run).error.total});
     std::vector<PricedRun> front;
     for (const std::size_t i : pareto_front(points))
         front.push_back(marks[i]);
@@ -108,7 +109,7 @@ std::vector<PricedRun> list_runs(const PriceList& list) {
                             .is_default = setting.way == 0});
         }
         std::stable_sort(runs.begin() + first, runs.end(), [&](const PricedRun& a, const PricedRun& b) {
-            return middle_of(level_of(list, a).times_s) < middle_of(level_of(list, b).times_s);
+            return median(level_of(list, a).times_s) < median(level_of(list, b).times_s);
         });
     }
     return runs;
@@ -131,7 +132,7 @@ std::string to_csv(const PriceList& list) {
             const SplitError& error = level.error;
             text += fmt::format(
                 "{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.4g}\n", knob,
-                setting, &way == &list.ways.front() ? 1 : 0, level.samples, middle_of(level.times_s),
+                setting, &way == &list.ways.front() ? 1 : 0, level.samples, median(level.times_s),
                 std::ranges::min(level.times_s), std::ranges::max(level.times_s), error.total, error.noise,
                 error.bias, error.bias_low, error.bias_high, error.is_limited ? 1 : 0,
                 footprint(way.plan).total_bytes(), way.load_s);
@@ -159,7 +160,7 @@ std::string describe(const PriceList& list) {
                                      ? fmt::format("bias {:.3g} %", 100.0 * level.error.bias)
                                      : fmt::format("no bias over {:.3g} %", 100.0 * level.error.bias_high);
         text += fmt::format("run       {:<22} {:>9.4f} s   error {:>7.3f} %, noise {:>7.3f} %, {}{}\n",
-                            run.id, middle_of(level.times_s), 100.0 * level.error.total,
+                            run.id, median(level.times_s), 100.0 * level.error.total,
                             100.0 * level.error.noise, bias, run.is_default ? "  (default)" : "");
     }
     if (const std::optional<Slope> slope = slope_of(list.ways.front()))

@@ -2,6 +2,8 @@
 
 // What was measured, and what it says.
 
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,13 @@ struct PricedRun {
 
 // A line for each way and number of samples, under a line of names.
 [[nodiscard]] std::string to_csv(const PriceList& list);
+
+// All of it as JSON, with the pictures as write_price_list names them.
+[[nodiscard]] nlohmann::ordered_json to_json(const PriceList& list);
+
+// Writes tradeoff.json, tradeoff.csv and the pictures into a folder that is there, with a folder `pictures`
+// in it; each file appears whole or not at all. Throws Error(cannot_write).
+void write_price_list(const PriceList& list, const std::filesystem::path& folder);
 
 // A summary for people: knobs with slopes, and the front.
 [[nodiscard]] std::string describe(const PriceList& list);

@@ -1,4 +1,4 @@
-#include "jobs/price_list/price_list_json.h"
+#include "jobs/price_list/price_list.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "base/median.h"
 #include "frame/footprint.h"
+#include "jobs/or_null.h"
 #include "jobs/price_list/difference_map.h"
 #include "jobs/report.h"
 
@@ -25,8 +27,7 @@ Json to_json(const std::optional<Slope>& slope, const char* of) {
 }
 
 Json times_json(const std::vector<double>& times) {
-    return {
-        {"median", middle_of(times)}, {"low", std::ranges::min(times)}, {"high", std::ranges::max(times)}};
+    return {{"median", median(times)}, {"low", std::ranges::min(times)}, {"high", std::ranges::max(times)}};
 }
 
 Json to_json(const SplitError& error) {
@@ -36,9 +37,7 @@ Json to_json(const SplitError& error) {
 
 Json claimed_json(const ErrorEstimate& claimed) {
     if (!claimed.is_known() || !std::isfinite(claimed.estimate)) return nullptr;
-    Json json = {{"estimate", claimed.estimate}, {"low", claimed.low}};
-    json["high"] = std::isfinite(claimed.high) ? Json(claimed.high) : Json(nullptr);
-    return json;
+    return {{"estimate", claimed.estimate}, {"low", claimed.low}, {"high", finite_or_null(claimed.high)}};
 }
 
 Json curve_json(const MeasuredWay& way) {
@@ -68,7 +67,7 @@ Json run_json(const PriceList& list, const PricedRun& run) {
                  {"claimed", claimed_json(level.claimed)},
                  {"picture", has_picture ? Json(picture) : Json(nullptr)},
                  {"difference", has_picture ? Json(difference_of(picture)) : Json(nullptr)}};
-    json["differing_pixels"] = way.other_pixels ? Json(*way.other_pixels) : Json(nullptr);
+    json["differing_pixels"] = or_null(way.other_pixels);
     if (list.design.knobs[run.knob].name == "samples") return json;
     json["slope"] = to_json(slope_of(way), "error against time");
     json["slope_of_samples"] = to_json(slope_of_samples(way), "error against samples");
@@ -159,14 +158,10 @@ Json machine_json() {
 }
 
 Json reference_json(const Reference& reference) {
-    return {{"picture", "pictures/reference.png"},
-            {"samples", reference.samples},
-            {"settings", reference.settings},
-            {"time_s", reference.time_s},
-            {"cached", reference.is_cached},
-            {"noise", std::sqrt(reference.noise().square)},
-            {"bias", reference.error.bias ? Json(*reference.error.bias) : Json(nullptr)},
-            {"error", error_json(reference.error)}};
+    return {{"picture", "pictures/reference.png"},   {"samples", reference.samples},
+            {"settings", reference.settings},        {"time_s", reference.time_s},
+            {"cached", reference.is_cached},         {"noise", std::sqrt(reference.noise().square)},
+            {"bias", or_null(reference.error.bias)}, {"error", error_json(reference.error)}};
 }
 
 // Five stops of the scale of difference maps, evenly spaced in logarithms.

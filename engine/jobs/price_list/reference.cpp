@@ -7,6 +7,7 @@
 #include "estimators/film_error.h"
 #include "film/film_sums.h"
 #include "frame/footprint.h"
+#include "jobs/or_null.h"
 #include "jobs/price_list/measure.h"
 #include "jobs/price_list/reference_cache.h"
 #include "scene/scene_hash.h"
@@ -53,14 +54,10 @@ FilmSums joined(FilmSums a, FilmSums b) {
 
 Json facts_of(const Reference& reference) {
     const ErrorEstimate& error = reference.error;
-    Json facts = {{"samples", reference.samples},
-                  {"time_s", reference.time_s},
-                  {"estimate", error.estimate},
-                  {"low", error.low}};
-    facts["high"] = std::isfinite(error.high) ? Json(error.high) : Json(nullptr);
-    facts["noise"] = error.noise.value_or(error.estimate);
-    facts["bias"] = error.bias ? Json(*error.bias) : Json(nullptr);
-    return facts;
+    return {{"samples", reference.samples},       {"time_s", reference.time_s},
+            {"estimate", error.estimate},         {"low", error.low},
+            {"high", finite_or_null(error.high)}, {"noise", error.noise.value_or(error.estimate)},
+            {"bias", or_null(error.bias)}};
 }
 
 std::optional<Reference> from_cache(const ReferenceJob& job, const std::string& key, glm::ivec2 size) {

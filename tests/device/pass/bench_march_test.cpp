@@ -6,14 +6,18 @@
 namespace voxilux {
 namespace {
 
-const BenchRequest kSmall{
-    .kinds = {kRayKinds.begin(), kRayKinds.end()}, .size = {32, 18}, .rounds = 1, .seed = 1};
+MarchBenchOptions small_bench(std::vector<Traversal> traversals) {
+    return {.traversals = std::move(traversals),
+            .builder = Builder::both,
+            .size = {32, 18},
+            .rounds = 1,
+            .seed = 1};
+}
 
 TEST(BenchMarch, every_structure_meets_what_the_plain_walk_meets) {
     const BenchScene scene = procedural_scene(kLeastExtent, 1);
-    const MarchBenchOptions options{.traversals = {all_traversals().begin(), all_traversals().end()},
-                                    .builder = Builder::both};
-    const std::vector<BenchRow> rows = bench_march(scene, options, kSmall, test_device());
+    const MarchBenchOptions options = small_bench({all_traversals().begin(), all_traversals().end()});
+    const std::vector<BenchRow> rows = bench_march(scene, options, test_device());
     ASSERT_EQ(rows.size(), all_traversals().size() * kRayKinds.size());
     for (const BenchRow& row : rows) {
         EXPECT_EQ(row.reason, "");
@@ -32,8 +36,7 @@ TEST(BenchMarch, camera_that_sees_no_voxel_leaves_rows_without_rays) {
     BenchScene scene = procedural_scene(kLeastExtent, 1);
     scene.camera.pitch_deg = 90.0;
     scene.camera.position.z = 1000.0;
-    const std::vector<BenchRow> rows =
-        bench_march(scene, {.traversals = {Traversal::naadf}}, kSmall, test_device());
+    const std::vector<BenchRow> rows = bench_march(scene, small_bench({Traversal::naadf}), test_device());
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[0].count, 32u * 18u);
     EXPECT_EQ(rows[0].mismatches, 0u);

@@ -8,10 +8,10 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
+#include "scene/scene_hash.h"
 
 namespace voxilux {
 namespace {

@@ -76,22 +76,6 @@ TEST(PhotonErrors, box_outside_and_other_sizes_are_refused) {
     EXPECT_THROW((void)photon_errors(reference, grey(9, 8, 1.0f), std::nullopt), Error);
 }
 
-TEST(GrowthExponent, power_laws_give_their_power) {
-    const std::vector<double> x = {1.0, 2.0, 4.0, 8.0};
-    for (const double power : {0.0, 0.5, 1.0, 2.0}) {
-        std::vector<double> y;
-        for (const double value : x)
-            y.push_back(3.0 * std::pow(value, power));
-        EXPECT_NEAR(growth_exponent(x, y).value(), power, 1e-12);
-    }
-}
-
-TEST(GrowthExponent, nothing_can_be_said_of_one_value_or_of_zero) {
-    EXPECT_FALSE(growth_exponent(std::vector{2.0}, std::vector{3.0}));
-    EXPECT_FALSE(growth_exponent(std::vector{2.0, 2.0}, std::vector{3.0, 4.0}));
-    EXPECT_FALSE(growth_exponent(std::vector{1.0, 2.0}, std::vector{0.0, 4.0}));
-}
-
 PhotonRow row_of(std::uint32_t photons, double wall_s) {
     return {.scene = "a.toml",
             .series = "photons",
@@ -143,13 +127,10 @@ TEST(PhotonVariants, first_is_the_default_and_the_others_change_one_option) {
     EXPECT_EQ(iterations_of({.slowness = 16}, 8), 1u);
 }
 
-TEST(PhotonVariants, names_pick_each_once) {
-    const std::vector<std::string> names = {"classic", "gather", "classic"};
-    const auto variants = photon_variants_named(names);
-    ASSERT_EQ(variants.size(), 2u);
-    EXPECT_TRUE(variants[0].classic);
-    EXPECT_EQ(photon_variants_named({}).size(), photon_variants().size());
-    EXPECT_THROW((void)photon_variants_named(std::vector<std::string>{"gathr"}), Error);
+TEST(PhotonVariants, name_picks_one_and_an_unknown_one_is_refused) {
+    EXPECT_TRUE(photon_variant_named("classic").classic);
+    EXPECT_FALSE(photon_variant_named("gather").classic);
+    EXPECT_THROW((void)photon_variant_named("gathr"), Error);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "jobs/price_list/price_list.h"
-#include "jobs/price_list/price_list_json.h"
 
 namespace voxilux {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "scene/scene_camera.h"
+#include "scene/scene_hash.h"
 #include "scene/vox_scene.h"
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"

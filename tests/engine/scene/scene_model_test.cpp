@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "scene/scene_hash.h"
 #include "formats/scene_toml.h"
 #include "formats/vox_write.h"
 #include "scene/scene_camera.h"
+#include "scene/scene_hash.h"
 #include "scene/vox_scene.h"
 #include "support/scratch_folder.h"
 

@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
+#include <map>
 #include <random>
+#include <regex>
+#include <sstream>
+#include <string>
 #include <string_view>
 
 #include "base/assert.h"
@@ -13,6 +19,8 @@
 
 namespace voxilux {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Words = std::vector<std::uint32_t>;
 
@@ -108,6 +116,57 @@ TEST(Reflect, local_size_is_fixed_or_specialized) {
     EXPECT_EQ(info.local_size[0].spec_id, 77u);
     EXPECT_EQ(info.local_size[1].size, 2u);
     EXPECT_FALSE(info.local_size[1].spec_id.has_value());
+}
+
+// Constants "a" and "b" of the given numbers.
+Assembler module_with_constants(std::uint32_t a, std::uint32_t b) {
+    Assembler module = small_module();
+    module.op(kName, {90}, "a").op(kName, {91}, "b").op(kDecorate, {90, 1, a}).op(kDecorate, {91, 1, b});
+    return module.op(kSpecConstant, {11, 90, 5}).op(kSpecConstant, {11, 91, 6});
+}
+
+TEST(Reflect, constants_that_share_a_number_are_refused) {
+    const ProgramInfo info = reflect(module_with_constants(3, 4).words);
+    EXPECT_EQ(info.find_constant("a")->id, 3u);
+    EXPECT_EQ(info.find_constant("b")->default_value, 6u);
+    EXPECT_THROW((void)reflect(module_with_constants(3, 3).words), InternalError);
+}
+
+// The build numbers constants by their names, so that no shader picks a number that another has.
+std::vector<std::string> numbers_by_hand(const std::string& shader) {
+    static const std::regex by_hand("constant_id *= *[0-9]+");
+    return {std::sregex_token_iterator(shader.begin(), shader.end(), by_hand), std::sregex_token_iterator()};
+}
+
+TEST(ConstantNumbers, no_shader_picks_one) {
+    int shaders = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(VX_SOURCE_DIR) / "shaders")) {
+        const auto extension = entry.path().extension();
+        if (extension != ".comp" && extension != ".glsl") continue;
+        ++shaders;
+        std::ostringstream text;
+        text << std::ifstream(entry.path()).rdbuf();
+        EXPECT_TRUE(numbers_by_hand(text.str()).empty()) << entry.path();
+    }
+    EXPECT_GT(shaders, 50);
+    EXPECT_EQ(numbers_by_hand("layout(constant_id = 3) const uint a = 1u;").size(), 1u);
+}
+
+// One name has one number in all shaders, and none is that of a local size.
+TEST(ConstantNumbers, name_and_number_belong_together) {
+    std::map<std::string, std::uint32_t> number_of;
+    std::map<std::uint32_t, std::string> name_of;
+    for (const auto shaders : {pass_shaders(), probe_shaders()}) {
+        for (const EmbeddedShader& shader : shaders) {
+            for (const SpecConstant& constant : reflect(shader.spirv).constants) {
+                if (constant.name.empty()) continue;
+                EXPECT_EQ(number_of.emplace(constant.name, constant.id).first->second, constant.id);
+                EXPECT_EQ(name_of.emplace(constant.id, constant.name).first->second, constant.name);
+                EXPECT_LT(constant.id, 100u) << constant.name;
+            }
+        }
+    }
+    EXPECT_GT(number_of.size(), 20u);
 }
 
 TEST(Reflect, push_struct_has_its_size_and_members) {
@@ -216,7 +275,8 @@ TEST(Reflect, compiled_probe_shows_blocks_constants_and_push) {
     EXPECT_EQ(info.local_size[0].spec_id, 100u);
     ASSERT_NE(info.find_constant("step"), nullptr);
     EXPECT_EQ(info.find_constant("step")->default_value, 1u);
-    EXPECT_EQ(info.find_constant("is_negative")->id, 1u);
+    ASSERT_NE(info.find_constant("is_negative"), nullptr);
+    EXPECT_NE(info.find_constant("is_negative")->id, info.find_constant("step")->id);
     EXPECT_EQ(reflect(probe("count_invocations").spirv).blocks[0].readable, true);
     EXPECT_EQ(reflect(probe("count_invocations").spirv).blocks[0].writable, true);
 }

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/error.h"
-#include "output_files.h"
-#include "render/progress_line.h"
+#include "jobs/frame_list.h"
+#include "progress_line.h"
 
 namespace voxilux {
 namespace {

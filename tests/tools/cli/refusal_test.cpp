@@ -190,21 +190,33 @@ INSTANTIATE_TEST_SUITE_P(later, UsageError,
 INSTANTIATE_TEST_SUITE_P(
     photons, UsageError,
     testing::Values(
-        Refused{"photons_negative", with({"--photons=-1"}), "--photons: -1 is not from 0 to 16777216"},
-        Refused{"photons_too_many", with({"--photons", "16777217"}), "--photons: 16777217 is not from 0 to"},
+        Refused{"photons_negative", with({"--photons=-1"}), "--photons: -1 is not in [0, 16777216]"},
+        Refused{"photons_too_many", with({"--photons", "16777217"}), "--photons: 16777217 is not in [0, "},
         Refused{"photons_no_number", with({"--photons", "many"}), "--photons"},
         Refused{"radius_0", with({"--radius", "0"}), "--radius: '0' is neither auto nor a number of voxels"},
         Refused{"radius_negative", with({"--radius=-2"}), "--radius: '-2' is neither auto"},
-        Refused{"radius_too_large", with({"--radius", "65537"}), "above 0 and up to 65536"},
+        Refused{"radius_too_large", with({"--radius", "65537"}), "a number of voxels in (0, 65536]"},
         Refused{"radius_no_number", with({"--radius", "2x"}), "--radius: '2x' is neither auto"},
         Refused{"radius_nan", with({"--radius", "nan"}), "--radius: 'nan' is neither auto"},
-        Refused{"alpha_0", with({"--alpha", "0"}), "--alpha: 0 is not above 0 and up to 1"},
-        Refused{"alpha_too_large", with({"--alpha", "1.01"}), "--alpha: 1.01 is not above 0 and up to 1"},
-        Refused{"alpha_nan", with({"--alpha", "nan"}), "--alpha: nan is not above 0 and up to 1"},
+        Refused{"alpha_0", with({"--alpha", "0"}), "--alpha: 0 is not in (0, 1]"},
+        Refused{"alpha_too_large", with({"--alpha", "1.01"}), "--alpha: 1.01 is not in (0, 1]"},
+        Refused{"alpha_nan", with({"--alpha", "nan"}), "--alpha: nan is not in (0, 1]"},
         Refused{"photons_before_the_file",
                 {"plan", "no_such_file.toml", "--photons=-1"},
-                "--photons: -1 is not from 0 to"},
+                "--photons: -1 is not in [0, "},
+        Refused{"no_iterations", with({"--iterations", "0"}), "--iterations: 0 is not in [1, 4294967295]"},
         Refused{"iterations_and_spp", with({"--iterations", "2", "--spp", "2"}), "--spp"}),
+    name_of);
+
+// Flags have the ranges of the keys that they set.
+INSTANTIATE_TEST_SUITE_P(
+    ranges, UsageError,
+    testing::Values(
+        Refused{"no_samples", with({"--spp", "0"}), "--spp: 0 is not in [1, 4294967295]"},
+        Refused{"no_rays", with({"--ao-rays", "0"}), "--ao-rays: 0 is not in [1, 65535]"},
+        Refused{"too_many_rays", with({"--ao-rays", "4294967295"}), "--ao-rays: 4294967295 is not in [1, "},
+        Refused{"no_reach", with({"--ao-radius", "-3"}), "--ao-radius: -3 is not in (0, 65536]"},
+        Refused{"endless_reach", with({"--ao-radius", "inf"}), "--ao-radius: inf is not in (0, 65536]"}),
     name_of);
 
 TEST(UsageErrorOf, unnamed_picture_never_replaces_a_file) {
@@ -245,9 +257,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"picture_of_nothing", with({"-D", "render.size=[0, 9]"}), "size"},
                     Refused{"too_many_pixels", with({"--size", "65536x65536"}), "over 2^32 pixels"},
                     Refused{"crop_outside", with({"--crop", "0,0,641,9"}), "leaves the picture of 640x360"},
-                    Refused{"no_samples", with({"--spp", "0"}), "spp must be at least 1"},
-                    Refused{"no_rays", with({"--ao-rays", "0"}), "ao_rays must be at least 1"},
-                    Refused{"no_reach", with({"--ao-radius", "-3"}), "ao_radius -3 must be above 0"},
                     Refused{"info_broken_vox", {"info", "broken.vox"}, "broken.vox"},
                     Refused{"info_broken_exr", {"info", "broken.exr"}, "broken.exr"},
                     Refused{"info_broken_png", {"info", "broken.png"}, "broken.png"},

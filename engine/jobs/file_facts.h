@@ -1,0 +1,21 @@
+#pragma once
+
+// What is said about one file: lines for people, an object for programs.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace voxilux {
+
+struct FileFacts {
+    std::string text;
+    nlohmann::json json;
+};
+
+// What is in a .vox file, what a scene file makes (facts, lights, camera, settings), or the size, channels
+// with their ranges and text attributes of an EXR, a checkpoint or a PNG, by the ending of the name. Throws
+// Error(input_refused).
+[[nodiscard]] FileFacts file_facts(const std::filesystem::path& path);
+
+}  // namespace voxilux

@@ -1,0 +1,89 @@
+#include "jobs/picture_files.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/file.h"
+#include "formats/png.h"
+#include "jobs/report.h"
+#include "scene/scene_camera.h"
+
+namespace voxilux {
+namespace {
+
+// Acting on scene points: the camera's right, up and backward axes, as OpenEXR's worldToCamera.
+glm::dmat4 world_to_camera(const Camera& camera) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const glm::dmat3 axes(basis[0], basis[1], -basis[2]);
+    glm::dmat4 matrix(glm::transpose(axes));
+    matrix[3] = glm::dvec4(-(glm::transpose(axes) * camera.position), 1.0);
+    return matrix;
+}
+
+// Acting on camera points: x and y in [-1, 1] over the picture after the division by w, z up to 1 far away.
+glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+    const double up = 1.0 / std::tan(glm::radians(camera.fov_y_deg) / 2.0);
+    glm::dmat4 matrix(0.0);
+    matrix[0][0] = up * static_cast<double>(size.y) / static_cast<double>(size.x);
+    matrix[1][1] = up;
+    matrix[2][2] = -1.0;
+    matrix[2][3] = -1.0;
+    matrix[3][2] = -1.0;  // the near plane, z = -1, is one voxel away
+    return matrix;
+}
+
+ExrOptions exr_options(const PictureFiles& pictures, const Scene& scene, const RenderPlan& plan) {
+    const Camera camera = camera_of(scene);
+    const glm::dmat4 to_camera = world_to_camera(camera);
+    return {.window = {plan.first_pixel.x, plan.first_pixel.y, plan.image_size.x, plan.image_size.y},
+            .reproducible = pictures.reproducible,
+            .software = "voxilux " VX_VERSION,
+            .comments = pictures.scene_name,
+            .world_to_camera = glm::mat4(to_camera),
+            .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
+}
+
+nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Scene& scene,
+                                         const RenderOutcome& outcome) {
+    return pictures.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
+}
+
+}  // namespace
+
+bool is_exr(const std::filesystem::path& file) {
+    return has_ending(file, ".exr");
+}
+
+bool is_png(const std::filesystem::path& file) {
+    return has_ending(file, ".png");
+}
+
+void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
+                   const Image& png, const ToneMapOptions& tone, WriteFaults& faults) {
+    if (is_exr(file)) {
+        const WriteReport written = write_exr(file, exr, options);
+        faults["exr_clamped"] += written.clamped;
+        faults["exr_non_finite"] += written.non_finite;
+    } else {
+        const DisplayImage display = to_display(png, tone);
+        faults["png_nan"] += display.nan;
+        write_png(file, display.image);
+    }
+}
+
+void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome) {
+    outcome.image.attributes[kReportAttribute] = report_of_picture(pictures, scene, outcome).dump();
+    const bool is_whole = outcome.plan.shard.is_whole();
+    const Image part = is_whole ? Image{} : image_of(part_to_write(pictures, scene, outcome));
+    for (const std::string& file : pictures.files)
+        write_picture(file, is_whole ? outcome.image : part, exr_options(pictures, scene, outcome.plan),
+                      outcome.image, pictures.tone, outcome.statistics.faults);
+}
+
+FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome) {
+    nlohmann::ordered_json report = report_of_picture(pictures, scene, outcome);
+    const ExrOptions file = exr_options(pictures, scene, outcome.plan);
+    return part_of(scene, std::move(outcome), std::move(report), file);
+}
+
+}  // namespace voxilux

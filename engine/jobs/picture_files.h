@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "film/tonemap.h"
+#include "formats/exr.h"
+#include "jobs/film_part.h"
+
+namespace voxilux {
+
+// The files that a picture is written into, and how.
+struct PictureFiles {
+    std::vector<std::string> files;  // .exr or .png
+    ToneMapOptions tone;             // of PNGs
+    bool reproducible = false;       // no date and no times: equal runs give equal bytes
+    std::string scene_name;          // for people: the name of the scene's file
+};
+
+// Values that had no place in a file, by the name of the fault.
+using WriteFaults = std::map<std::string, std::uint64_t>;
+
+[[nodiscard]] bool is_exr(const std::filesystem::path& file);
+[[nodiscard]] bool is_png(const std::filesystem::path& file);
+
+// Writes `exr` or `png`, by the ending of the file.
+void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
+                   const Image& png, const ToneMapOptions& tone, WriteFaults& faults);
+
+// Writes the picture into every file, a shard with its exact sums, and counts what did not fit their formats
+// among the faults. `scene` is the still one that was rendered.
+void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome);
+
+// The outcome as a part, with the report that its picture has.
+[[nodiscard]] FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome);
+
+}  // namespace voxilux

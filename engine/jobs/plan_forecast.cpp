@@ -1,0 +1,124 @@
+#include "jobs/plan_forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/clock.h"
+#include "jobs/effect_price.h"
+#include "jobs/forecast_report.h"
+#include "jobs/frame_run.h"
+#include "jobs/memory_forecast.h"
+#include "jobs/report.h"
+
+namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Errors beside the one asked for, over it: what a finer and a coarser picture would take.
+constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
+// Relative: files and pipelines that are in a cache the second time, or no more.
+constexpr double kPilotDoubt = 0.4;
+
+PictureUse use_of(const std::vector<std::string>& files, const RenderOptions& options, double high_s) {
+    return {.writes_exr = std::ranges::any_of(files, is_exr),
+            .writes_png = std::ranges::any_of(files, is_png),
+            .keeps_film = options.keeps_film,
+            .writes_checkpoint = options.checkpoint_s > 0.0 && high_s > options.checkpoint_s};
+}
+
+std::string forecast_line(const Forecast& forecast) {
+    const std::string error = percent_text(forecast.error);
+    if (!forecast.is_reachable)
+        return fmt::format("forecast  {:<8} out of reach: {}; {} of up to {} after {} samples, {}\n", error,
+                           forecast.reason, "an error", percent_text(forecast.claimed), forecast.samples,
+                           time_range_text(forecast.low_s, forecast.high_s));
+    const std::string samples = forecast.samples == forecast.samples_high
+                                    ? fmt::format("{}", forecast.samples)
+                                    : fmt::format("{} to {}", forecast.samples, forecast.samples_high);
+    return fmt::format("forecast  {:<8} {} samples, {}\n", error, samples,
+                       time_range_text(forecast.low_s, forecast.high_s));
+}
+
+std::string mib_text(std::uint64_t bytes) {
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 0x1p20);
+}
+
+// The effects that the picture would be another one with, but for the user.
+std::vector<Effect> forced_off(const RenderPlan& plan, const PlanRequest& request) {
+    std::vector<Effect> effects;
+    for (const auto& [effect, choice] : request.effects.switches)
+        if (choice == Switch::off && plan.effects[static_cast<std::size_t>(effect)].by_choice)
+            effects.push_back(effect);
+    return effects;
+}
+
+void add_price(const EffectPrice& price, PilotedPlan& result) {
+    const std::string name(name_of(price.effect));
+    for (Json& row : result.json["effects"]) {
+        if (row["name"] != name) continue;
+        row["error_without"] = {{"estimate", price.error},
+                                {"low", price.error_low},
+                                {"high", price.error_high},
+                                {"beyond_noise", price.is_beyond_noise}};
+        row["ms_per_sample"] = price.ms_per_sample;
+    }
+    result.text += fmt::format(
+        "without   {:<10} the picture is off by {} ({} to {}); with it a sample takes {:.1f} ms more\n", name,
+        percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
+        price.ms_per_sample);
+}
+
+// What the user's choices cost in error: a session of its own, which stops at no error.
+void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOptions& options,
+                      PilotedPlan& result) {
+    const std::vector<Effect> effects = forced_off(result.plan, options.plan);
+    if (effects.empty()) return;
+    RenderOptions unlimited{.plan = options.plan, .device = options.device, .executor = options.executor};
+    RenderSession session(scene, unlimited);
+    const PriceJob job{
+        .frame = frame, .settings = scene.settings, .request = options.plan, .effects = effects};
+    for (const EffectPrice& price : price_effects(session, job))
+        add_price(price, result);
+}
+
+}  // namespace
+
+PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options,
+                       const std::vector<std::string>& files) {
+    RenderSession session(animated, options);
+    const std::optional<ErrorPilot> pilot = session.pilot(frame);
+    PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
+    if (!pilot) {
+        result.text =
+            "forecast  unknown: samples depend on those before, so that their error cannot be told\n";
+        return result;
+    }
+    const double error = *options.error_target;
+    ForecastNeeds needs{.most_samples = result.plan.samples(),
+                        .pilot_s = seconds_since(options.started),
+                        .pilot_doubt = kPilotDoubt,
+                        .film_values = film_values(result.plan),
+                        .time_limit_s = options.time_limit_s};
+    const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);
+    result.json["forecast"] = forecast_json(asked);
+    result.text =
+        asked ? forecast_line(*asked) : "forecast  unknown: the picture has no noise yet to tell from\n";
+    result.json["forecasts"] = Json::array({forecast_json(asked)});
+    for (const double factor : kOtherErrors) {
+        const std::optional<Forecast> other = make_forecast(*pilot, factor * error, needs);
+        result.json["forecasts"].push_back(forecast_json(other));
+        if (other) result.text += forecast_line(*other);
+    }
+    const MemoryForecast memory =
+        forecast_memory(result.plan, use_of(files, options, asked ? asked->high_s : 0.0));
+    result.json["memory_total"] = {{"device_bytes", memory.device_bytes},
+                                   {"peak_rss_mib", static_cast<double>(memory.peak_rss_bytes) / 0x1p20}};
+    result.text += fmt::format("memory    {} on the device, {} of the process at most\n",
+                               mib_text(memory.device_bytes), mib_text(memory.peak_rss_bytes));
+    price_forced_off(animated, frame, options, result);
+    return result;
+}
+
+}  // namespace voxilux

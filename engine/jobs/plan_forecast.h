@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "jobs/picture_files.h"
+#include "jobs/render_session.h"
+
+namespace voxilux {
+
+// A plan with what a pilot on the device tells of it.
+struct PilotedPlan {
+    RenderPlan plan;
+    nlohmann::ordered_json json;  // plan_json() with `forecast`, `forecasts` and `memory_total`
+    std::string text;             // lines for people, to follow the plan
+};
+
+// Runs the pilot of a frame for the error target, as a render into these files would, and finds what the
+// picture loses by effects that the user has switched off.
+[[nodiscard]] PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options,
+                                     const std::vector<std::string>& files);
+
+}  // namespace voxilux

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "jobs/frame_range.h"
+#include "progress_line.h"
+#include "render/render.h"
+
+namespace voxilux {
+
+// What a command line asks of a session.
+struct RenderJob {
+    const Checkpoint& checkpoint;
+    FrameRangeJob range;  // of one frame for a picture
+    ProgressLine& progress;
+    std::uint64_t scene_hash = 0;  // of the animated scene
+};
+
+// Renders a frame range and writes each frame as it ends; every frame gets an equal share of the time that is
+// left. An interrupted frame is not written. Returns done, time_limit (some frame ended before its error
+// target) or interrupted.
+[[nodiscard]] int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job);
+
+}  // namespace voxilux

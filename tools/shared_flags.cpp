@@ -1,0 +1,72 @@
+#include "shared_flags.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+#include "base/user_folders.h"
+#include "jobs/picture_files.h"
+#include "parse_values.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint64_t kMaxMib = std::numeric_limits<std::uint64_t>::max() >> 20;
+
+}  // namespace
+
+void add_json_flag(Flags& flags, std::string& json, const std::string& what) {
+    flags.add("--json", "FILE", json, fmt::format("write {} as JSON; - is standard output", what));
+}
+
+void add_report_flags(Flags& flags, ReportOptions& report) {
+    add_json_flag(flags, report.json, "the report");
+    flags.add_switch("-q,--quiet", report.quiet, "print errors only");
+}
+
+void add_progress_flag(Flags& flags, ProgressMode& mode) {
+    flags.add_parsed("--progress", "HOW", mode, parse_progress,
+                     "progress on standard error: auto (if a terminal), never or json");
+}
+
+Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::string& help) {
+    const auto take = [&files](const std::vector<std::string>& given) {
+        for (const std::string& file : given) {
+            if (!is_exr(file) && !is_png(file))
+                throw Error(ExitCode::usage, fmt::format("-o {}: the ending must be .exr or .png", file));
+        }
+        files = given;
+    };
+    return flags.on<std::vector<std::string>>("-o,--output", "FILE", take, help);
+}
+
+void add_tone_flags(Flags& flags, ToneMapOptions& tone) {
+    flags.add_parsed("--tone", "NAME", tone.curve, parse_tone,
+                     "tone curve of a PNG: filmic or plain (default filmic)");
+    flags.on<float>(
+        "--exposure", "EV", [&tone](float ev) { tone.exposure_ev = checked_exposure(ev); },
+        "exposure of a PNG in stops (default 0)");
+}
+
+std::filesystem::path DeviceOptions::cache_dir() const {
+    return no_cache ? std::filesystem::path() : cache_folder();
+}
+
+void add_device_flag(Flags& flags, std::string& selector) {
+    flags.add("--device", "NAME", selector, "index or part of the name, see voxilux devices");
+}
+
+void add_device_flags(Flags& flags, DeviceOptions& options, std::uint64_t& memory_budget_bytes,
+                      const std::string& caches) {
+    flags.begin_group("Device");
+    add_device_flag(flags, options.selector);
+    flags.on<std::uint64_t>(
+        "--memory-budget", "N",
+        [&memory_budget_bytes](std::uint64_t mib) { memory_budget_bytes = std::min(mib, kMaxMib) << 20; },
+        "most memory on the device, in MiB; 0 is no limit (default 0)");
+    flags.add_switch("--no-cache", options.no_cache, fmt::format("neither read nor write {}", caches));
+    flags.add_switch("--validation", options.validation, "run under the Vulkan validation layers");
+    flags.add_switch("--no-validation", options.no_validation, "run without them");
+}
+
+}  // namespace voxilux
