@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kOcclusionReach = 32.0f;  // voxels
 constexpr int kTile = 8;                  // pixels
-constexpr std::array<std::string_view, kRayKinds.size()> kNames = {"primary", "ao", "long"};
+constexpr std::array<std::string_view, kRayKinds.size()> kRayNames = {"primary", "ao", "long"};
 
 // What camera_ray reads of the parameters.
 gpu::FrameParams camera_params(const BenchScene& scene, glm::ivec2 size, std::uint32_t seed) {
@@ -56,7 +56,7 @@ void for_each_pixel(glm::ivec2 size, const Visit& visit) {
 }  // namespace
 
 std::string_view name_of(RayKind kind) {
-    return kNames[static_cast<std::size_t>(kind)];
+    return kRayNames[static_cast<std::size_t>(kind)];
 }
 
 RayKind ray_kind_named(std::string_view name) {
