@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* kBless = "VOXILUX_BLESS";
 
 fs::path golden_folder() {
-    return fs::path(VX_SOURCE_DIR) / "tests" / "plan" / "golden";
+    return fs::path(VX_SOURCE_DIR) / "tests/engine/plan/golden";
 }
 
 std::string text_of(const fs::path& path) {
