@@ -7,6 +7,7 @@
 #include <random>
 
 #include "estimators/error_estimate.h"
+#include "estimators/film_error.h"
 #include "estimators/metrics.h"
 #include "film/film_sums.h"
 #include "support/interval_coverage.h"

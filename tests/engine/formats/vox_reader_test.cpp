@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/vox_read.h"
 #include "scene/vox_cells.h"
 #include "scene/vox_file.h"
 #include "support/vox_builder.h"

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "estimators/film_error.h"
 #include "jobs/merge_parts.h"
 #include "jobs/report.h"
 #include "plan/shard.h"
