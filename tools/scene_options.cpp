@@ -11,6 +11,7 @@
 #include "scene/animation.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
+#include "technique_options.h"
 
 namespace voxilux {
 namespace {
@@ -61,18 +62,20 @@ std::vector<std::string> overrides_with_quality(const SceneOptions& options) {
     return overrides;
 }
 
-bool has_photons(const Scene& scene, const SceneOptions& options) {
-    const EffectStates effects = decide_effects(measure_scene(scene), plan_request(options).effects);
+bool needs_iterations(const Scene& scene, const SceneOptions& options) {
+    const EffectRequest request =
+        with_techniques(plan_request(options).effects, with_techniques(scene.settings, options.techniques));
+    const EffectStates effects = decide_effects(measure_scene(scene), request);
     return std::ranges::any_of(effects, [](const EffectState& state) {
         return state.on && (state.effect == Effect::caustics || state.effect == Effect::indirect);
     });
 }
 
-// Samples of the preset in a scene with photons, unless an override says how many.
+// Samples of the preset in a scene that iterations of photons light, unless an override says how many.
 void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
     if (!options.quality) return;
     const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
-    if (std::ranges::none_of(options.overrides, sets_samples) && has_photons(scene, options))
+    if (std::ranges::none_of(options.overrides, sets_samples) && needs_iterations(scene, options))
         scene.settings.spp = quality_named(*options.quality).lamps.samples;
 }
 
@@ -106,6 +109,11 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->take_all()
         ->allow_extra_args(false)
         ->group(kScene);
+    command.add_option("--technique", options.techniques, technique_help())
+        ->type_name("EFFECT=NAME")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->group(kScene);
     command
         .add_option("-D", options.overrides,
                     "set a key of the scene file, such as sun.elevation=10; may repeat")
@@ -127,6 +135,7 @@ Scene load_scene_with(const SceneOptions& options) {
     std::optional<AoMethod> ao;
     if (options.ao) ao = parse_ao_method(*options.ao);
     (void)with_photons({}, options.photons);
+    (void)with_techniques(RenderSettings{}, options.techniques);
 
     Scene scene = load_scene(options.input, {.overrides = overrides_with_quality(options)});
     set_iterations_of_quality(options, scene);
@@ -139,6 +148,7 @@ Scene load_scene_with(const SceneOptions& options) {
     settings.sequence = sequence.value_or(settings.sequence);
     settings.ao.method = ao.value_or(settings.ao.method);
     settings.photons = with_photons(settings.photons, options.photons);
+    settings = with_techniques(settings, options.techniques);
     if (view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
         scene.camera = framing_camera(scene, *view, fov_y_deg);

@@ -27,10 +27,11 @@ struct SceneOptions {
     std::optional<float> ao_radius;
     std::optional<std::uint32_t> seed;
     std::optional<std::string> sequence;
-    std::vector<std::string> effects;    // NAME=on|off|auto
-    std::vector<std::string> overrides;  // -D key=value
-    std::optional<std::int64_t> frame;   // one picture
-    std::optional<std::string> frames;   // a picture for each
+    std::vector<std::string> effects;     // NAME=on|off|auto
+    std::vector<std::string> techniques;  // EFFECT=NAME
+    std::vector<std::string> overrides;   // -D key=value
+    std::optional<std::int64_t> frame;    // one picture
+    std::optional<std::string> frames;    // a picture for each
     std::optional<std::string> crop;
     std::optional<std::string> ao;
     std::optional<std::string> traversal;

@@ -158,6 +158,8 @@ void add_photons(Hasher& hasher, const PhotonSettings& photons) {
     hasher.add(photons.classic);
     hasher.add(photons.roulette);
     hasher.add(photons.depth);
+    hasher.add(photons.caustics);
+    hasher.add(photons.indirect);
 }
 
 void add_camera(Hasher& hasher, const Camera& camera) {

@@ -96,13 +96,14 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         toml::table tree = parse_override(option);
         merge(root, tree);
     }
-    const TomlSection sections(
-        root, "the scene",
-        {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
+    const TomlSection sections(root, "the scene",
+                               {"render", "ao", "photons", "technique", "camera", "sun", "sky", "material",
+                                "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     read_render(in);
     read_ao(in);
     read_photons(in);
+    read_technique(in);
     read_sun(in);
     read_sky(in);
     read_materials(in);

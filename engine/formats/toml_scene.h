@@ -28,6 +28,7 @@ struct TomlScene {
 void read_render(TomlScene& in);
 void read_ao(TomlScene& in);
 void read_photons(TomlScene& in);
+void read_technique(TomlScene& in);  // after those whose settings it may change
 void read_sun(TomlScene& in);
 void read_sky(TomlScene& in);
 void read_materials(TomlScene& in);

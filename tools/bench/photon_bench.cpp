@@ -45,7 +45,7 @@ Contestant enter(const Scene& base, const PhotonVariant& variant, const PhotonBe
 // One iteration, which compiles the shaders.
 void warm_up(Contestant& contestant) {
     const RenderOutcome outcome = contestant.session->render(0, kNoTime);
-    if (!outcome.plan.has_photons()) {
+    if (!outcome.plan.photons.runs()) {
         const auto& state = outcome.plan.effects[static_cast<std::size_t>(Effect::indirect)];
         throw Error(ExitCode::input_refused, fmt::format("no photons are called for: {}", state.reason));
     }

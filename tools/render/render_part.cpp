@@ -32,7 +32,7 @@ bool is_finished(const RenderOutcome& outcome) {
 // on those before cannot be gone on from.
 void save_checkpoint(const RenderCommand& command, const fs::path& file, const Scene& scene,
                      RenderOutcome outcome) {
-    if (outcome.plan.has_ao_cells() || outcome.plan.has_own_radii()) return;
+    if (outcome.plan.any(&Technique::keeps_state)) return;
     try {
         FilmPart part = part_to_write(command, scene, std::move(outcome));
         const ExrOptions options = part.file;
@@ -58,13 +58,9 @@ void check_goes_on(const FilmPart& part, const Scene& scene, const RenderPlan& p
 
 FilmStart resume_from(const RenderCommand& command, const fs::path& file, const Scene& scene,
                       const RenderPlan& plan) {
-    if (plan.has_ao_cells()) {
-        throw Error(ExitCode::usage,
-                    "--resume: pixels that share occlusion cannot go on from a checkpoint; use --ao brute");
-    }
-    if (plan.has_own_radii()) {
-        throw Error(ExitCode::usage,
-                    "--resume: classic radii of photons are not in a checkpoint; use photons.classic=false");
+    for (const ChosenTechnique& chosen : plan.techniques) {
+        if (!chosen.technique->mergeable())
+            throw Error(ExitCode::usage, fmt::format("--resume: {}", chosen.technique->state));
     }
     if (!fs::exists(file)) {
         if (!command.quiet)
