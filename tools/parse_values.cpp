@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/settings.h"
 #include "base/nearest_name.h"
+#include "scene/settings.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {
@@ -225,7 +225,8 @@ std::optional<double> parse_photon_radius(std::string_view text) {
     const auto number = leading_number(text);
     const Range range = setting_of<PhotonSettings>("radius").range;
     if (number && number->second.empty() && range.holds(number->first)) return number->first;
-    refuse(fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}", text, to_string(range)));
+    refuse(
+        fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}", text, to_string(range)));
 }
 
 }  // namespace voxilux

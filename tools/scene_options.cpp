@@ -7,8 +7,10 @@
 #include "formats/scene_toml.h"
 #include "in_range.h"
 #include "parse_values.h"
+#include "plan/techniques.h"
 #include "scene/animation.h"
 #include "scene/facts.h"
+#include "scene/scene_camera.h"
 
 namespace voxilux {
 namespace {
@@ -74,13 +76,16 @@ void add_sampling_flags(Flags& flags, SceneOptions& options) {
 }
 
 bool has_photons(const Scene& scene, const SceneOptions& options) {
-    const EffectStates effects = decide_effects(measure_scene(scene), options.request.effects);
+    RenderSettings settings = scene.settings;
+    choose_techniques(options.techniques, settings);
+    const EffectStates effects =
+        decide_effects(measure_scene(scene), with_techniques(options.request.effects, settings));
     return std::ranges::any_of(effects, [](const EffectState& state) {
         return state.on && (state.effect == Effect::caustics || state.effect == Effect::indirect);
     });
 }
 
-// Samples of the preset in a scene with photons, unless an override says how many.
+// Samples of the preset in a scene that iterations of photons light, unless an override says how many.
 void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
     if (options.quality == nullptr) return;
     const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
@@ -136,6 +141,15 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options) {
             }
         },
         "override the plan: on, off or auto; may repeat");
+    flags.on<std::vector<std::string>>(
+        "--technique", "EFFECT=NAME",
+        [&options](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts)
+                options.techniques.push_back(parse_technique(text));
+            RenderSettings settings;
+            choose_techniques(options.techniques, settings);
+        },
+        technique_help());
     flags.add("-D", "KEY=VALUE", options.overrides,
               "set a key of the scene file, such as sun.elevation=10; may repeat");
     add_sampling_flags(flags, options);
@@ -151,6 +165,7 @@ Scene load_scene_with(const SceneOptions& options) {
     set_iterations_of_quality(options, scene);
     for (const auto& change : options.changes)
         change(scene.settings);
+    choose_techniques(options.techniques, scene.settings);
     scene.settings.spp = options.spp.value_or(scene.settings.spp);
     if (options.view) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;

@@ -14,6 +14,7 @@
 #include "quality.h"
 #include "scene/scene.h"
 #include "scene/scene_camera.h"
+#include "technique_flag.h"
 
 namespace voxilux {
 
@@ -25,6 +26,7 @@ struct SceneOptions {
     const QualityPreset* quality = nullptr;
     std::vector<std::string> overrides;  // -D: KEY=VALUE of a scene file
     SettingsChanges changes;
+    std::vector<NamedTechnique> techniques;
     std::optional<std::uint32_t> spp;  // or iterations
     std::optional<View> view;
     std::optional<std::int64_t> frame;  // one picture

@@ -95,14 +95,15 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         toml::table tree = parse_override(option);
         merge(root, tree);
     }
-    const TomlSection sections(
-        root, "the scene",
-        {"render", "ao", "photons", "camera", "sun", "sky", "material", "model", "shape", "sphere"});
+    const TomlSection sections(root, "the scene",
+                               {"render", "ao", "photons", "technique", "camera", "sun", "sky", "material",
+                                "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     visit_sections(scene, [&](std::string_view name, auto& settings) {
         if (const toml::table* table = find_section(in, name))
             (void)read_settings(*table, fmt::format("[{}]", name), settings);
     });
+    read_technique(in);
     read_materials(in);
     read_models(in);
     read_shapes(in);

@@ -24,6 +24,7 @@ struct TomlScene {
 
 // Each reads one kind of section into the scene, in this order, and refuses what is wrong with
 // Error(input_refused).
+void read_technique(TomlScene& in);  // after the sections whose settings it may change
 void read_materials(TomlScene& in);
 void read_models(TomlScene& in);
 void read_shapes(TomlScene& in);

@@ -1,20 +1,18 @@
 #include "frame/frame.h"
 
-#include "passes/ao.h"
-#include "passes/aov.h"
-#include "passes/direct.h"
-#include "passes/film_add.h"
-#include "passes/photon.h"
-#include "passes/photon_trace.h"
-#include "passes/primary.h"
-#include "passes/shade.h"
-#include "passes/specular.h"
-#include "passes/sphere.h"
-#include "passes/sun.h"
+#include "passes/ao/ao.h"
+#include "passes/film/aov.h"
+#include "passes/film/film_add.h"
+#include "passes/film/shade.h"
+#include "passes/light/direct.h"
+#include "passes/light/sun.h"
+#include "passes/photons/photons.h"
+#include "passes/primary/primary.h"
+#include "passes/primary/sphere.h"
+#include "passes/specular/specular.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
 #include "shared/hash.h"
-#include "shared/sppm.h"
 
 namespace voxilux {
 namespace {
@@ -25,7 +23,7 @@ namespace {
 // replicate: such halves fill each other's gaps and disagree by far more than their mean errs by.
 // Cells of occlusion have sequences of their own, and no halves.
 void number_sample(const RenderPlan& plan, std::uint32_t sample, gpu::FrameParams& params) {
-    const bool halves = !plan.has_ao_cells();
+    const bool halves = !plan.any(&Technique::shares_samples);
     params.sample_index = halves ? sample / 2 : sample;
     if (halves && sample % 2 == 1) params.seed = gpu::pcg_hash(params.seed);
 }
@@ -54,46 +52,11 @@ gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, 
                           static_cast<float>(params.height)};
 }
 
-struct NumberedParams {
-    const gpu::FrameParams& params;
-    const SampleNumber& number;
-};
-
-AoStep ao_step(const RenderPlan& plan, NumberedParams now) {
-    const FrameState& state = now.number.state;
-    return {.params = ao_params(plan, now.params, now.number),
-            .sweeps = now.number.sample == 0 && state.samples_done > 0 &&
+AoStep ao_step(const RenderPlan& plan, const gpu::FrameParams& params, const SampleNumber& number) {
+    const FrameState& state = number.state;
+    return {.params = ao_params(plan, params, number),
+            .sweeps = number.sample == 0 && state.samples_done > 0 &&
                       is_sweep_frame(plan, state.frames_done, state.live_cells)};
-}
-
-Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, NumberedParams now,
-                Recording& rec) {
-    if (!plan.has_ao_cells()) return record_ao_trace(plan, slice, hits, rec);
-    return record_ao_cells(plan, slice, hits, ao_step(plan, now), rec);
-}
-
-PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                            std::uint32_t iteration, Recording& rec) {
-    if (!plan.has_photons()) return {constant_value(0.0f, rec, 3), constant_value(0.0f, rec, 3)};
-    const PhotonSettings& settings = plan.settings.photons;
-    const double radius = settings.classic
-                              ? plan.photons.radius
-                              : gpu::photon_radius(plan.photons.radius, settings.alpha, iteration);
-    const gpu::PhotonParams params = photon_params({.radius = radius,
-                                                    .extent = plan.world.lights.extent,
-                                                    .most_power = plan.photons.most_power,
-                                                    .buckets = plan.photons.buckets,
-                                                    .capacity = plan.photons.capacity,
-                                                    .iteration = iteration,
-                                                    .alpha = settings.alpha});
-    record_photon_clear(plan, params, rec);
-    record_photon_mark(plan, slice, hits, rec);
-    record_photon_emit(plan, rec);
-    record_photon_trace(plan, rec);
-    if (settings.scatter) return record_photon_splat(plan, params, slice, hits, rec);
-    record_photon_sort(plan, params, rec);
-    return record_photon_gather(plan, slice, hits, settings.classic ? PhotonRadii::own : PhotonRadii::common,
-                                rec);
 }
 
 }  // namespace
@@ -115,8 +78,9 @@ void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams p
     const SpecularPlanes seen = plan.has(Effect::specular)
                                     ? record_specular_trace(plan, slice, hits, rec)
                                     : SpecularPlanes{hits, constant_value(1.0f, rec, 3)};
-    const Plane ao = plan.has(Effect::ao) ? record_ao(plan, slice, seen.hits, {params, number}, rec)
-                                          : constant_value(1.0f, rec);
+    const Plane ao = plan.has(Effect::ao)
+                         ? record_ao(plan, slice, seen.hits, ao_step(plan, params, number), rec)
+                         : constant_value(1.0f, rec);
     const Plane sun =
         plan.has(Effect::sun) ? record_sun_trace(plan, slice, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, slice, seen.hits, rec)

@@ -24,10 +24,12 @@ std::string describe(const RenderPlan& plan) {
     for (const EffectState& state : plan.effects)
         text += fmt::format("effect    {:<10} {:<4} {}\n", name_of(state.effect), state.on ? "on" : "off",
                             state.reason);
-    if (plan.has(Effect::ao)) {
-        text += fmt::format("occlusion {:<10} {}\n", plan.ao.uses_cells() ? "hash" : "brute", plan.ao.reason);
+    for (const auto& [technique, reason] : plan.techniques) {
+        if (plan.has(technique->effect))
+            text += fmt::format("technique {:<10} {:<11} {}\n", name_of(technique->effect), technique->name,
+                                reason);
     }
-    if (plan.has_photons())
+    if (plan.photons.runs())
         text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
                             plan.photons.count(), plan.photons.capacity,
                             plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),

@@ -19,7 +19,7 @@ bool is_finished(const RenderOutcome& outcome) {
 // The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that depend
 // on those before cannot be resumed.
 void save_checkpoint(const Checkpoint& checkpoint, const Scene& scene, RenderOutcome outcome) {
-    if (outcome.plan.has_ao_cells() || outcome.plan.has_own_radii()) return;
+    if (outcome.plan.any(&Technique::keeps_state)) return;
     try {
         FilmPart part = part_to_write(checkpoint.pictures, scene, std::move(outcome));
         const ExrOptions options = part.file;
@@ -44,13 +44,9 @@ void check_resumable(const FilmPart& part, const Scene& scene, const RenderPlan&
 }
 
 FilmStart resume_from(const Checkpoint& checkpoint, const Scene& scene, const RenderPlan& plan) {
-    if (plan.has_ao_cells()) {
-        throw Error(ExitCode::usage,
-                    "--resume: pixels that share occlusion cannot go on from a checkpoint; use --ao brute");
-    }
-    if (plan.has_own_radii()) {
-        throw Error(ExitCode::usage,
-                    "--resume: classic radii of photons are not in a checkpoint; use photons.classic=false");
+    for (const ChosenTechnique& chosen : plan.techniques) {
+        if (!chosen.technique->mergeable())
+            throw Error(ExitCode::usage, fmt::format("--resume: {}", chosen.technique->state));
     }
     if (!fs::exists(checkpoint.file)) {
         checkpoint.note(fmt::format("there is no {}: the render starts anew", checkpoint.file.string()));

@@ -54,7 +54,7 @@ RenderPlan warm_up(RenderSession& session, const PriceJob& job, Entry& entry) {
     RenderSettings settings = job.settings;
     settings.spp = 1;
     RenderPlan plan = render(session, job, entry, settings).plan;
-    if (plan.has_photons() && !entry.radius) entry.radius = plan.photons.radius;
+    if (plan.needs_pilot()) entry.radius = plan.photons.radius;
     return plan;
 }
 

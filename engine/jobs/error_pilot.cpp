@@ -12,8 +12,8 @@ namespace voxilux {
 namespace {
 
 constexpr std::uint32_t kFirstPilotLook = 4;  // samples: with fewer a film hardly knows its own brightness
-// Discs of photons shrink, and with them the time of a sample: this many at half and at the end of the render
-// that is expected are timed, too.
+// Where the time of a sample depends on its number, as discs of photons shrink: this many at half and at the
+// end of the render that is expected are timed, too.
 constexpr std::uint32_t kLateSamples = 2;
 
 double samples_needed(const ErrorPilot& pilot, double error) {
@@ -23,7 +23,7 @@ double samples_needed(const ErrorPilot& pilot, double error) {
 }
 
 void time_late_samples(const PilotJob& job, PilotFilm& film, ErrorPilot& pilot) {
-    if (!job.prepared.plan.has_photons()) return;
+    if (!job.prepared.plan.any(&Technique::uneven_samples)) return;
     const auto needed = static_cast<std::uint32_t>(samples_needed(pilot, job.error));
     for (const std::uint32_t number : {needed / 2, needed}) {
         if (number < 2 * pilot.samples) continue;
@@ -45,7 +45,7 @@ bool doubles_pilot(std::uint32_t samples, double pixels, double needed) {
 
 ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor) {
     const RenderPlan& plan = job.prepared.plan;
-    VX_ASSERT(!plan.has_ao_cells() && !plan.has_own_radii());
+    VX_ASSERT(!plan.any(&Technique::keeps_state));
     ErrorPilot pilot{.law = error_law(plan)};
     PilotFilm film(plan, job.prepared, job.scene, executor, job.is_cpu);
     const double pixels =

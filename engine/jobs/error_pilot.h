@@ -45,8 +45,7 @@ inline constexpr std::uint32_t kMostPilotSamples = 256;
 [[nodiscard]] bool doubles_pilot(std::uint32_t samples, double pixels, double needed);
 
 // Takes samples of the whole picture that no picture is made of, on a device that holds the world. The film
-// is left dirty. The samples of the plan must not depend on those before (RenderPlan::has_ao_cells,
-// has_own_radii).
+// is left dirty. The samples of the plan must not depend on those before (Technique::keeps_state).
 [[nodiscard]] ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor);
 
 }  // namespace voxilux

@@ -104,7 +104,7 @@ ErrorEstimate FrameRun::measure_error() {
 
 // What people are shown decides nothing.
 void FrameRun::measure_for_progress(const FrameCalls& calls) {
-    if (!calls.on_progress || plan_.has_ao_cells()) return;
+    if (!calls.on_progress || plan_.any(&Technique::shares_samples)) return;
     const bool is_due = seconds_since(inputs_.start) - looked_s_ >= kLookEvery_s;
     if (is_due && statistics_.samples >= std::max(2 * looked_at_, kFirstLook)) (void)measure_error();
 }
@@ -172,8 +172,8 @@ RenderOutcome FrameRun::outcome() {
     FilmSums film = with_start(read_film(plan_, executor_));
     RenderOutcome outcome{.image = picture_of(film), .plan = plan_, .statistics = statistics_};
     RenderStatistics& statistics = outcome.statistics;
-    // Halves that share occlusion cells are not independent: they agree better than they are right.
-    statistics.error = plan_.has_ao_cells() ? unknown_error() : error_of(film);
+    // Halves that share samples are not independent: they agree better than they are right.
+    statistics.error = plan_.any(&Technique::shares_samples) ? unknown_error() : error_of(film);
     add_outlook(statistics);
     statistics.live_cells = state_.live_cells;
     statistics.memory = executor_.memory();
@@ -242,7 +242,7 @@ void FrameRun::add_tally(const RunResult& result, const Slice& slice) {
         table[gpu::kTallyNames[i]] += tally[i];
     }
     state_.live_cells += std::uint64_t{tally[gpu::kWorkAoClaimed]} - tally[gpu::kWorkAoEvicted];
-    if (plan_.has_photons()) statistics_.work["photons_emitted"] += plan_.photons.count();
+    if (plan_.photons.runs()) statistics_.work["photons_emitted"] += plan_.photons.count();
     if (plan_.rays.primary != 0)
         statistics_.work["primary_rays"] += std::uint64_t{inputs_.params.column_count} * slice.row_count;
 }

@@ -44,7 +44,7 @@ std::string_view ao_method(const RenderPlan& plan) {
 Json planned_occlusion_json(const RenderPlan& plan) {
     if (!plan.has(Effect::ao)) return nullptr;
     Json json = {{"method", ao_method(plan)}, {"reason", plan.ao.reason}, {"slots", nullptr}};
-    if (plan.has_ao_cells()) json["slots"] = plan.ao.slots;
+    if (plan.ao.uses_cells()) json["slots"] = plan.ao.slots;
     return json;
 }
 
@@ -53,7 +53,7 @@ Json occlusion_json(const RenderPlan& plan, const RenderStatistics& statistics) 
     if (json.is_null()) return json;
     for (const char* number : {"live_cells", "load", "probes_per_search", "reused_share"})
         json[number] = nullptr;
-    if (!plan.has_ao_cells()) return json;
+    if (!plan.ao.uses_cells()) return json;
     const TableUse use = table_use(plan, statistics);
     json["live_cells"] = statistics.live_cells;
     json["load"] = use.load;
@@ -63,7 +63,7 @@ Json occlusion_json(const RenderPlan& plan, const RenderStatistics& statistics) 
 }
 
 std::string occlusion_text(const RenderPlan& plan, const RenderStatistics& statistics) {
-    if (!plan.has_ao_cells()) return {};
+    if (!plan.ao.uses_cells()) return {};
     const TableUse use = table_use(plan, statistics);
     return fmt::format(
         "occlusion {} cells in {} slots, {:.3g} probes per search, {:.1f} % of hits without one\n",

@@ -3,7 +3,7 @@
 namespace voxilux {
 
 nlohmann::ordered_json photons_json(const RenderPlan& plan) {
-    if (!plan.has_photons()) return nullptr;
+    if (!plan.photons.runs()) return nullptr;
     const PhotonSettings& settings = plan.settings.photons;
     nlohmann::ordered_json json = {{"per_iteration", plan.photons.count()},
                                    {"of_lamps", plan.photons.lamp_photons},

@@ -110,8 +110,7 @@ void RenderSession::choose_radius(const Recording& upload) {
 }
 
 std::optional<ErrorPilot> RenderSession::run_pilot(Recording& upload, const std::function<bool()>& stops) {
-    if (!options_.error_target || prepared_->plan.has_ao_cells() || prepared_->plan.has_own_radii())
-        return {};
+    if (!options_.error_target || prepared_->plan.any(&Technique::keeps_state)) return {};
     (void)executor_->run(std::exchange(upload, Recording{}));
     const bool is_cpu = device_.limits().is_cpu;
     ErrorPilot pilot = run_error_pilot({.prepared = *prepared_,

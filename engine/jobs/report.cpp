@@ -50,6 +50,23 @@ Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
     return rows;
 }
 
+Json techniques_json(const RenderPlan& plan) {
+    Json rows = Json::array();
+    for (const auto& [technique, reason] : plan.techniques) {
+        rows.push_back({{"effect", name_of(technique->effect)},
+                        {"technique", technique->name},
+                        {"reason", reason},
+                        {"what", technique->sentence},
+                        {"biased", technique->biased},
+                        {"independent_samples", technique->independent_samples},
+                        {"whole_frame", technique->whole_frame},
+                        {"keeps_state", technique->keeps_state()},
+                        {"mergeable", technique->mergeable()},
+                        {"needs_pilot", technique->needs_pilot}});
+    }
+    return rows;
+}
+
 Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) {
     const glm::ivec2 first = plan.first_pixel;
     const glm::ivec2 size = plan.settings.size;
@@ -252,6 +269,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["occlusion"] = planned_occlusion_json(plan);
     json["photons"] = photons_json(plan);
     json["effects"] = effects_json(plan, nullptr);
+    json["techniques"] = techniques_json(plan);
     const Footprint needs = footprint(plan);
     json["passes"] = planned_passes_json(needs);
     json["memory"] = planned_memory_json(needs);
@@ -273,7 +291,7 @@ std::string describe(const RenderOutcome& outcome) {
     for (const PassTime& pass : s.passes)
         text += fmt::format("pass      {:<14} {:>6} x {:>10.1f} ms\n", pass.label, pass.count, pass.ms);
     text += occlusion_text(outcome.plan, s);
-    if (outcome.plan.has_photons())
+    if (outcome.plan.photons.runs())
         text += fmt::format("photons   {} per iteration, first radius {:.3g}\n", outcome.plan.photons.count(),
                             outcome.plan.photons.radius);
     if (s.error.is_known()) {

@@ -39,6 +39,7 @@ struct PhotonPlan {
 
     bool operator==(const PhotonPlan&) const = default;
     [[nodiscard]] std::uint32_t count() const { return lamp_photons + sun_photons; }
+    [[nodiscard]] bool runs() const { return count() != 0; }
 };
 
 // What the plan of photons depends on beside the settings.

@@ -59,14 +59,9 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
 
 void check_shard(const RenderPlan& plan) {
     if (plan.shard.is_whole()) return;
-    if (plan.has_ao_cells()) {
-        throw Error(ExitCode::usage,
-                    "--shard: samples that share occlusion depend on those before; use --ao brute");
-    }
-    if (plan.has_own_radii()) {
-        throw Error(
-            ExitCode::usage,
-            "--shard: classic radii of photons depend on the samples before; use photons.classic=false");
+    for (const ChosenTechnique& chosen : plan.techniques) {
+        if (!chosen.technique->mergeable())
+            throw Error(ExitCode::usage, fmt::format("--shard: {}", chosen.technique->state));
     }
     if (plan.samples() == 0) {
         throw Error(ExitCode::usage, fmt::format("--shard {}/{}: a render of {} samples has no such shard",
@@ -74,11 +69,18 @@ void check_shard(const RenderPlan& plan) {
     }
 }
 
+// Which techniques compute the effects that are on, and nothing for those that are off.
+void decide_techniques(RenderPlan& plan) {
+    if (!plan.has(Effect::ao)) plan.ao = {};
+    if (!plan.has(Effect::caustics) && !plan.has(Effect::indirect)) plan.photons = {};
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
+}
+
 // What the film sums for errors beside the picture.
 void decide_sums(RenderPlan& plan, bool wants_error) {
     const bool decides = wants_error && plan.has_independent_samples();
-    plan.sums_squares = !plan.has_ao_cells() && (plan.has(Effect::aov) || decides);
-    plan.sums_bias = plan.has_photons() && (plan.has(Effect::aov) || wants_error);
+    plan.sums_squares = !plan.any(&Technique::shares_samples) && (plan.has(Effect::aov) || decides);
+    plan.sums_bias = plan.any(&Technique::tells_bias) && (plan.has(Effect::aov) || wants_error);
 }
 
 // One dispatch takes at most so many rows.
@@ -87,8 +89,9 @@ void split_image(RenderPlan& plan, std::uint32_t most_rows) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint64_t rows =
         std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
-    plan.band_rows =
-        plan.has_ao_cells() ? height : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
+    plan.band_rows = plan.any(&Technique::whole_frame)
+                         ? height
+                         : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
     plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
     plan.slice_rows = std::min(plan.band_rows, most_rows);  // groups may be one row high
 }
@@ -145,14 +148,14 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.settings = scene.settings;
     plan.shard = request.shard;
     place_window(plan, request.crop);
-    plan.effects = decide_effects(facts, request.effects);
+    plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
     plan.material_count =
         checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
-    if (plan.has_photons()) {
+    if (plan.has(Effect::caustics) || plan.has(Effect::indirect)) {
         plan.photons = plan_photons(plan.settings.photons,
                                     {.lights = world.lights,
                                      .has_lamps = plan.has(Effect::emission),
@@ -172,6 +175,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .moves_voxels = request.moves_voxels,
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
+    decide_techniques(plan);
     check_shard(plan);
     decide_sums(plan, request.wants_error);
     split_image(plan, limits.max_groups[1]);
@@ -183,6 +187,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
 RenderPlan plan_without(RenderPlan plan, Effect effect) {
     plan.effects[static_cast<std::size_t>(effect)].on = false;
     plan.effects[static_cast<std::size_t>(Effect::aov)].on = false;
+    decide_techniques(plan);
     decide_sums(plan, false);
     return plan;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "plan/plan_ao.h"
 #include "plan/plan_photons.h"
 #include "plan/shard.h"
+#include "plan/techniques.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
 #include "shared/gpu_types.h"
@@ -59,7 +62,8 @@ struct RenderPlan {
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
     EffectStates effects;
-    AoPlan ao;  // of no meaning when the effect is off
+    std::vector<ChosenTechnique> techniques;
+    AoPlan ao;  // the default when the effect is off
     WorldFacts world;
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
@@ -77,20 +81,24 @@ struct RenderPlan {
     bool operator==(const RenderPlan&) const = default;
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
-    [[nodiscard]] bool has_ao_cells() const { return has(Effect::ao) && ao.uses_cells(); }
-    [[nodiscard]] bool has_photons() const { return has(Effect::caustics) || has(Effect::indirect); }
-    // Radii of photons that outlive a sample: it depends on those before.
-    [[nodiscard]] bool has_own_radii() const { return has_photons() && settings.photons.classic; }
+    // Whether a technique of the plan has a property, such as &Technique::shares_samples.
+    template <class Property>
+    [[nodiscard]] bool any(Property property) const {
+        return std::ranges::any_of(techniques, [&](const ChosenTechnique& chosen) {
+            return std::invoke(property, *chosen.technique);
+        });
+    }
     // Whether samples of a pixel are independent of each other, so that their variance tells the error of
     // their mean. Those of a low-discrepancy sequence are not: their mean errs less. (Its two halves are.)
-    // Iterations of photons are independent whatever leads the camera's rays.
     [[nodiscard]] bool has_independent_samples() const {
-        return settings.sequence == Sequence::white || has_photons();
+        return settings.sequence == Sequence::white || any(&Technique::independent_samples);
     }
     // Samples per pixel that this render takes: those of its shard.
     [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
     // Whether the render itself has to find the first radius of photons.
-    [[nodiscard]] bool needs_pilot() const { return has_photons() && !settings.photons.radius; }
+    [[nodiscard]] bool needs_pilot() const {
+        return any(&Technique::needs_pilot) && !settings.photons.radius;
+    }
     [[nodiscard]] std::uint64_t slice_pixels() const {
         return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
     }

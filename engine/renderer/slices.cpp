@@ -23,9 +23,7 @@ SliceGovernor::SliceGovernor(const RenderPlan& plan, bool is_cpu)
       target_ms_(is_cpu ? kCpuTargetMs : kGpuTargetMs) {
     const std::uint64_t rays_per_pixel = 2 + (plan.has(Effect::ao) ? plan.settings.ao_rays : 0);
     const std::uint64_t rays_per_row = rays_per_pixel * static_cast<std::uint64_t>(plan.settings.size.x);
-    // With occlusion in a hash every pass runs over the whole picture: pixels far apart add to one cell.
-    // Photons are traced anew for each slice.
-    keeps_whole_ = plan.has_ao_cells() || plan.has_photons();
+    keeps_whole_ = plan.any(&Technique::whole_frame) || plan.any(&Technique::whole_slices);
     if (keeps_whole_) {
         rows_ = height_;
         return;

@@ -127,7 +127,7 @@ void visit_settings(AoSettings& settings, auto&& visit) {
 }
 
 void visit_settings(PhotonSettings& settings, auto&& visit) {
-    auto& [count, radius, alpha, scatter, classic, roulette, depth] = settings;
+    auto& [count, radius, alpha, scatter, classic, roulette, depth, caustics, indirect] = settings;
     visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one for each pixel"}, count);
     visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
     visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
@@ -135,6 +135,8 @@ void visit_settings(PhotonSettings& settings, auto&& visit) {
     visit({"classic", {}, "a radius for each pixel, which shrinks as photons arrive"}, classic);
     visit({"roulette", {}, "chance ends paths, without bias; false: `depth` does"}, roulette);
     visit({"depth", {1, 4096}, "surfaces on a path without roulette"}, depth);
+    visit({"caustics", {}, "false: nothing finds them, as with the technique `none`"}, caustics);
+    visit({"indirect", {}, "likewise indirect light"}, indirect);
 }
 
 void visit_settings(Sun& sun, auto&& visit) {

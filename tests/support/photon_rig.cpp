@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "passes/photon_buffers.h"
+#include "passes/photons/photon_buffers.h"
 #include "plan/plan_photons.h"
 
 namespace voxilux::test {

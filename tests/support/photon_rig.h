@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/photon.h"
+#include "passes/photons/photon.h"
 #include "probe/photon_functions.h"
 #include "shared/tally.h"
 #include "support/device_fixture.h"

@@ -8,9 +8,9 @@
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "jobs/bench/bench_scene.h"
-#include "passes/ao.h"
-#include "passes/primary.h"
-#include "passes/sphere.h"
+#include "passes/ao/ao.h"
+#include "passes/primary/primary.h"
+#include "passes/primary/sphere.h"
 #include "passes/upload.h"
 #include "scene/scene_camera.h"
 #include "shared/sequence.h"
@@ -34,7 +34,7 @@ PlanRequest occlusion_request(int frames) {
 
 // The last buffer that holds the openness of a frame.
 std::string openness_buffer(const RenderPlan& plan) {
-    return plan.has_ao_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.open";
+    return plan.ao.uses_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.open";
 }
 
 // Of the slice, not of the buffer: that has room for the largest slice.

@@ -50,7 +50,7 @@ PhotonContestant enter(const Scene& base, const PhotonVariant& variant, const Ph
 // One iteration, which compiles the shaders.
 void PhotonContestant::warm_up() {
     const RenderOutcome outcome = session->render(0, kNoTime);
-    if (!outcome.plan.has_photons()) {
+    if (!outcome.plan.photons.runs()) {
         const auto& state = outcome.plan.effects[static_cast<std::size_t>(Effect::indirect)];
         throw Error(ExitCode::input_refused, fmt::format("no photons are called for: {}", state.reason));
     }

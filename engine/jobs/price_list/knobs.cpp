@@ -214,13 +214,13 @@ KnobDesign design_knobs(const RenderPlan& plan, const Way& base) {
     Designer designer(base);
     designer.begin({.name = "samples",
                     .label = "samples",
-                    .axis = plan.has_photons() ? "iterations: samples per pixel" : "samples per pixel",
+                    .axis = plan.photons.runs() ? "iterations: samples per pixel" : "samples per pixel",
                     .why = "A pixel is a mean over so many samples; their noise falls with the root of their "
                            "number."});
     design_sequence(designer);
     if (plan.has(Effect::voxels)) design_traversal(plan, designer);
     if (plan.has(Effect::ao)) design_occlusion(plan, designer);
-    if (plan.has_photons()) {
+    if (plan.photons.runs()) {
         design_photon_numbers(plan, designer);
         design_photon_methods(designer);
     }

@@ -76,7 +76,7 @@ Measured first_picture(RenderSession& session, const Scene& scene, const Worksho
 // All ways have the radius of photons that the first picture found, so that they differ in one thing.
 Way base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& plan) {
     Way base{.settings = scene.settings, .request = workshop.options.plan};
-    if (plan.has_photons()) base.settings.photons.radius = plan.photons.radius;
+    if (plan.photons.runs()) base.settings.photons.radius = plan.photons.radius;
     return base;
 }
 

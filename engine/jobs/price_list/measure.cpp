@@ -168,7 +168,7 @@ Json settings_json(const Way& way, const RenderPlan& plan, std::uint32_t samples
         json["ao_rays"] = way.settings.ao_rays;
         json["ao_cell_px"] = plan.ao.uses_cells() ? Json(way.settings.ao.cell_px) : Json();
     }
-    if (plan.has_photons()) {
+    if (plan.photons.runs()) {
         json["photons"] = plan.photons.count();
         json["radius"] = plan.photons.radius;
         json["alpha"] = way.settings.photons.alpha;

@@ -130,7 +130,7 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     request.wants_error = true;
     Measured first =
         measure_once(session, {.way = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
-    const bool has_photons = first.outcome.plan.has_photons();
+    const bool has_photons = first.outcome.plan.photons.runs();
     Way way{.settings = reference_settings(job.base, has_photons), .request = request};
     if (has_photons)
         way.settings.photons.count = most_photons(session, job, way, first.outcome.plan.photons.count());

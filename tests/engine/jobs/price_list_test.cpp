@@ -16,6 +16,7 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
         plan.effects[i].effect = static_cast<Effect>(i);
     for (const Effect effect : effects)
         plan.effects[static_cast<std::size_t>(effect)].on = true;
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
     plan.settings.size = {4, 3};
     return plan;
 }

@@ -217,6 +217,8 @@ TEST(SceneHash, every_field_changes_the_hash) {
         [](Scene& s) { s.settings.ao.filter = 1; },
         [](Scene& s) { s.settings.ao.sample_limit = 1; },
         [](Scene& s) { s.settings.ao.slots = 1; },
+        [](Scene& s) { s.settings.photons.caustics = false; },
+        [](Scene& s) { s.settings.photons.indirect = false; },
     };
     std::set<std::uint64_t> hashes{scene_hash(small_scene())};
     for (std::size_t i = 0; i < std::size(changes); ++i) {

@@ -1,4 +1,4 @@
-#include "passes/aov.h"
+#include "passes/film/aov.h"
 
 #include "plan/film_planes.h"
 

@@ -1,7 +1,7 @@
-#include "passes/photon_trace.h"
+#include "passes/photons/photon_trace.h"
 
-#include "passes/photon_buffers.h"
-#include "passes/specular.h"
+#include "passes/photons/photon_buffers.h"
+#include "passes/specular/specular.h"
 
 namespace voxilux {
 namespace {

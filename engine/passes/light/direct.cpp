@@ -1,6 +1,6 @@
-#include "passes/direct.h"
+#include "passes/light/direct.h"
 
-#include "passes/specular.h"
+#include "passes/specular/specular.h"
 
 namespace voxilux {
 

@@ -1,4 +1,4 @@
-#include "passes/specular.h"
+#include "passes/specular/specular.h"
 
 namespace voxilux {
 

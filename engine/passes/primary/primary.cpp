@@ -1,4 +1,4 @@
-#include "passes/primary.h"
+#include "passes/primary/primary.h"
 
 #include "shared/gpu_types.h"
 

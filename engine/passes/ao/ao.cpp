@@ -1,4 +1,4 @@
-#include "passes/ao.h"
+#include "passes/ao/ao.h"
 
 #include <algorithm>
 
@@ -231,6 +231,12 @@ Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& h
     const Resolved resolved = record_ao_resolve(plan, slice, planes, recording);
     if (plan.settings.ao.filter == 0) return {resolved.openness};
     return record_ao_filter(plan, slice, hits, resolved, recording);
+}
+
+Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,
+                Recording& recording) {
+    if (plan.ao.uses_cells()) return record_ao_cells(plan, slice, hits, step, recording);
+    return record_ao_trace(plan, slice, hits, recording);
 }
 
 }  // namespace voxilux

@@ -1,4 +1,4 @@
-#include "passes/film_add.h"
+#include "passes/film/film_add.h"
 
 #include "base/checked_cast.h"
 #include "shared/gpu_types.h"

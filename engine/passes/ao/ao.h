@@ -23,6 +23,10 @@ struct AoStep {
 [[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
                                     const AoStep& step, Recording& recording);
 
+// The openness by the technique of the plan; `step` is of cells alone.
+[[nodiscard]] Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                              const AoStep& step, Recording& recording);
+
 // How long cells stay unseen, frames, when so many are in the table: kCellMaxAge while they take up to a
 // quarter of it, then in proportion less, but not below kCellMinAge.
 [[nodiscard]] std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells);

@@ -1,4 +1,4 @@
-#include "passes/sphere.h"
+#include "passes/primary/sphere.h"
 
 namespace voxilux {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "passes/plane.h"
-#include "passes/specular.h"
+#include "passes/specular/specular.h"
 #include "shared/photon_types.h"
 
 namespace voxilux {

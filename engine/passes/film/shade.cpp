@@ -1,4 +1,4 @@
-#include "passes/shade.h"
+#include "passes/film/shade.h"
 
 namespace voxilux {
 

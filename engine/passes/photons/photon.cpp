@@ -1,11 +1,11 @@
-#include "passes/photon.h"
+#include "passes/photons/photon.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
 
-#include "passes/photon_buffers.h"
+#include "passes/photons/photon_buffers.h"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 

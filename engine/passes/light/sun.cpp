@@ -1,4 +1,4 @@
-#include "passes/sun.h"
+#include "passes/light/sun.h"
 
 namespace voxilux {
 

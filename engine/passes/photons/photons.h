@@ -1,0 +1,12 @@
+#pragma once
+
+#include "passes/photons/photon.h"
+
+namespace voxilux {
+
+// The light of photons at each hit by the technique of the plan, in an iteration counted from 1; none without
+// photons. The slice is the whole picture.
+[[nodiscard]] PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+                                          std::uint32_t iteration, Recording& recording);
+
+}  // namespace voxilux

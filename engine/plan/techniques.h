@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "estimators/error_curve.h"
+#include "plan/effects.h"
+#include "plan/plan_ao.h"
+#include "scene/scene.h"
+
+namespace voxilux {
+
+// A way to compute an effect. Callers ask for a property, not for a name.
+struct Technique {
+    Effect effect = Effect::voxels;
+    std::string_view name;             // as in scene/technique_choice.h
+    std::string_view sentence;         // for the user
+    bool biased = false;               // more samples do not remove all of its error
+    bool tells_bias = false;           // the film can sum by how much it is off
+    bool independent_samples = false;  // of a pixel, whatever sequence leads the camera's rays
+    bool shares_samples = false;       // between pixels, so that halves of the film tell no error
+    bool whole_frame = false;          // each pass covers the image before the next: one band and one slice
+    bool whole_slices = false;         // a slice costs nearly as much as a band
+    bool uneven_samples = false;       // the time of a sample depends on its number
+    bool needs_pilot = false;          // to find parameters that the settings leave open
+    std::optional<NoiseLaw> noise;     // where it rules that of the picture
+    std::string_view
+        state;  // why samples depend on those before, and what to use instead; empty: they do not
+
+    // State on the device outlives a sample, and with it the frame.
+    [[nodiscard]] constexpr bool keeps_state() const { return !state.empty(); }
+    // Samples may be taken anywhere and in any order, and their sums added up.
+    [[nodiscard]] constexpr bool mergeable() const { return !keeps_state(); }
+};
+
+// All of them, those of an effect together.
+[[nodiscard]] std::span<const Technique> all_techniques();
+
+// Which technique computes an effect, and why.
+struct ChosenTechnique {
+    const Technique* technique = nullptr;  // of all_techniques()
+    std::string reason;                    // one clause, shown to the user
+
+    bool operator==(const ChosenTechnique&) const = default;
+};
+
+// One for each effect that has techniques and is on, or off for want of one (`none`).
+[[nodiscard]] std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
+                                                             const PhotonSettings& photons);
+
+// The request with those effects off for which the settings choose `none`, unless it has them on.
+[[nodiscard]] EffectRequest with_techniques(EffectRequest request, const RenderSettings& settings);
+
+}  // namespace voxilux

@@ -1,0 +1,78 @@
+#include "scene/technique_choice.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/assert.h"
+
+namespace voxilux {
+namespace {
+
+template <AoMethod kMethod>
+void choose_ao(RenderSettings& settings) {
+    settings.ao.method = kMethod;
+}
+
+template <bool PhotonSettings::*kFound, bool kScatter, bool kClassic>
+void choose_photons(RenderSettings& settings) {
+    settings.photons.*kFound = true;
+    settings.photons.scatter = kScatter;
+    settings.photons.classic = kClassic;
+}
+
+template <bool PhotonSettings::*kFound>
+void choose_none(RenderSettings& settings) {
+    settings.photons.*kFound = false;
+}
+
+constexpr bool PhotonSettings::*kCaustics = &PhotonSettings::caustics;
+constexpr bool PhotonSettings::*kIndirect = &PhotonSettings::indirect;
+
+constexpr std::array kChoices{
+    TechniqueChoice{"ao", "auto", choose_ao<AoMethod::automatic>},
+    TechniqueChoice{"ao", "brute", choose_ao<AoMethod::brute>},
+    TechniqueChoice{"ao", "hash", choose_ao<AoMethod::hash>},
+    TechniqueChoice{"caustics", "photons", choose_photons<kCaustics, false, false>},
+    TechniqueChoice{"caustics", "splatting", choose_photons<kCaustics, true, false>},
+    TechniqueChoice{"caustics", "pixel_radii", choose_photons<kCaustics, false, true>},
+    TechniqueChoice{"caustics", "none", choose_none<kCaustics>},
+    TechniqueChoice{"indirect", "photons", choose_photons<kIndirect, false, false>},
+    TechniqueChoice{"indirect", "splatting", choose_photons<kIndirect, true, false>},
+    TechniqueChoice{"indirect", "pixel_radii", choose_photons<kIndirect, false, true>},
+    TechniqueChoice{"indirect", "none", choose_none<kIndirect>},
+};
+
+}  // namespace
+
+std::span<const TechniqueChoice> technique_choices() {
+    return kChoices;
+}
+
+std::vector<std::string_view> effects_with_techniques() {
+    std::vector<std::string_view> effects;
+    for (const TechniqueChoice& row : kChoices)
+        if (effects.empty() || effects.back() != row.effect) effects.push_back(row.effect);
+    return effects;
+}
+
+std::vector<std::string_view> technique_names(std::string_view effect) {
+    std::vector<std::string_view> names;
+    for (const TechniqueChoice& row : kChoices)
+        if (row.effect == effect) names.push_back(row.name);
+    return names;
+}
+
+void choose_technique(std::string_view effect, std::string_view name, RenderSettings& settings) {
+    const auto row = std::ranges::find_if(
+        kChoices, [&](const TechniqueChoice& one) { return one.effect == effect && one.name == name; });
+    VX_ASSERT(row != kChoices.end());
+    row->choose(settings);
+}
+
+bool is_chosen(std::string_view effect, std::string_view name, const RenderSettings& settings) {
+    RenderSettings again = settings;
+    choose_technique(effect, name, again);
+    return again == settings;
+}
+
+}  // namespace voxilux

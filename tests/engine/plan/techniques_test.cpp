@@ -1,0 +1,155 @@
+// Which technique computes an effect: the table, its names in files and flags, and what its properties
+// promise.
+
+#include "plan/techniques.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "base/error.h"
+#include "engine/plan/plan_scenes.h"
+#include "jobs/report.h"
+#include "scene/technique_choice.h"
+
+namespace voxilux {
+namespace {
+
+// A scene with both techniques of photons and occlusion of voxels; overrides as -D gives them.
+RenderPlan plan_with(std::vector<std::string> overrides, const PlanRequest& request = test::exr_request()) {
+    overrides.emplace_back("render.spp=4");
+    return test::plan_of(test::repository_scene("emitters", overrides), request);
+}
+
+std::string override_of(const Technique& technique) {
+    return fmt::format("technique.{}={}", name_of(technique.effect), technique.name);
+}
+
+std::map<std::string, std::string> chosen_by(const RenderPlan& plan) {
+    std::map<std::string, std::string> chosen;
+    for (const auto& [technique, reason] : plan.techniques) {
+        EXPECT_FALSE(reason.empty());
+        chosen.emplace(name_of(technique->effect), technique->name);
+    }
+    return chosen;
+}
+
+const Technique& chosen_of(const RenderPlan& plan, Effect effect) {
+    const auto found = std::ranges::find_if(
+        plan.techniques, [&](const ChosenTechnique& chosen) { return chosen.technique->effect == effect; });
+    VX_ASSERT(found != plan.techniques.end());
+    return *found->technique;
+}
+
+TEST(Techniques, files_and_flags_name_each_row_of_the_table) {
+    std::vector<std::string> rows, names;
+    for (const Technique& technique : all_techniques())
+        rows.push_back(override_of(technique));
+    for (const TechniqueChoice& choice : technique_choices())
+        if (choice.name != "auto")
+            names.push_back(fmt::format("technique.{}={}", choice.effect, choice.name));
+    EXPECT_EQ(rows, names);
+}
+
+TEST(Techniques, technique_that_a_file_names_is_the_one_of_the_plan) {
+    for (const Technique& technique : all_techniques()) {
+        if (technique.effect == Effect::caustics) continue;  // the scene has neither mirror nor glass
+        const RenderPlan plan = plan_with({override_of(technique)});
+        EXPECT_EQ(&chosen_of(plan, technique.effect), &technique) << override_of(technique);
+    }
+    const RenderPlan glass =
+        test::plan_of(test::repository_scene("cornell", {"technique.caustics=splatting"}), {});
+    EXPECT_EQ(chosen_by(glass),
+              (std::map<std::string, std::string>{{"caustics", "splatting"}, {"indirect", "splatting"}}))
+        << "photons are shared";
+}
+
+TEST(Techniques, older_keys_are_other_names_of_the_same_choice) {
+    const std::map<std::string, std::string> same = {
+        {"technique.ao=hash", "ao.method=hash"},
+        {"technique.ao=brute", "ao.method=brute"},
+        {"technique.ao=auto", "ao.method=auto"},
+        {"technique.indirect=splatting", "photons.scatter=true"},
+        {"technique.indirect=pixel_radii", "photons.classic=true"},
+        {"technique.indirect=photons", "photons.scatter=false"}};
+    for (const auto& [technique, older] : same)
+        EXPECT_EQ(plan_with({technique}), plan_with({older})) << technique;
+    EXPECT_NE(plan_with({"technique.ao=hash"}), plan_with({"technique.ao=brute"}));
+}
+
+// `none` is the effect switched off, unless the user has it on.
+TEST(Techniques, none_leaves_the_effect_out) {
+    const RenderPlan none = plan_with({"technique.indirect=none"});
+    EXPECT_FALSE(none.has(Effect::indirect));
+    EXPECT_FALSE(none.photons.runs());
+    const RenderPlan off =
+        plan_with({}, test::with_switch(test::exr_request(), Effect::indirect, Switch::off));
+    EXPECT_EQ(footprint(none), footprint(off));
+    EXPECT_EQ(chosen_by(none), chosen_by(off));
+    const RenderPlan on = plan_with({"technique.indirect=none"},
+                                    test::with_switch(test::exr_request(), Effect::indirect, Switch::on));
+    EXPECT_EQ(chosen_of(on, Effect::indirect).name, "photons");
+}
+
+bool takes_a_shard(const Technique& technique) {
+    PlanRequest request = test::exr_request();
+    request.shard = {0, 2};
+    try {
+        (void)plan_with({override_of(technique)}, request);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::usage) << error.what();
+        return false;
+    }
+    return true;
+}
+
+TEST(Techniques, properties_are_those_of_the_plan) {
+    for (const Technique& technique : all_techniques()) {
+        if (technique.effect == Effect::caustics) continue;
+        SCOPED_TRACE(override_of(technique));
+        const RenderPlan plan = plan_with({override_of(technique), "render.size=[1024, 1032]"});
+        EXPECT_EQ(takes_a_shard(technique), technique.mergeable());
+        EXPECT_EQ(plan.any(&Technique::keeps_state), !technique.mergeable());
+        EXPECT_EQ(plan.band_count == 1, technique.whole_frame);
+        if (technique.effect != Effect::indirect) continue;
+        EXPECT_EQ(plan.needs_pilot(), technique.needs_pilot);
+        EXPECT_EQ(plan.has_independent_samples(), technique.independent_samples);
+        EXPECT_EQ(plan.sums_bias, technique.tells_bias);
+    }
+}
+
+// State that outlives a sample is a persistent buffer beside the scene and the film.
+TEST(Techniques, technique_that_keeps_state_has_a_persistent_buffer_of_its_own) {
+    for (const Technique& technique : all_techniques()) {
+        if (technique.effect == Effect::caustics) continue;
+        const Footprint needs = footprint(plan_with({override_of(technique), "photons.radius=1"}));
+        const bool has_state = std::ranges::any_of(needs.buffers, [](const PlannedBuffer& planned) {
+            const auto starts = [&](const char* prefix) { return planned.buffer.starts_with(prefix); };
+            return planned.persistent && (starts("ao.") || starts("photon."));
+        });
+        EXPECT_EQ(has_state, technique.keeps_state()) << override_of(technique);
+    }
+}
+
+TEST(Techniques, plan_prints_each_with_its_reason_and_properties) {
+    const Scene scene = test::repository_scene("emitters", {"technique.ao=hash"});
+    const RenderPlan plan = test::plan_of(scene);
+    EXPECT_NE(describe(plan).find("technique ao         hash        asked for\n"), std::string::npos)
+        << describe(plan);
+    const nlohmann::ordered_json rows = plan_json(scene, plan).at("techniques");
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[0].at("effect"), "ao");
+    EXPECT_EQ(rows[0].at("technique"), "hash");
+    EXPECT_EQ(rows[0].at("reason"), "asked for");
+    EXPECT_EQ(rows[0].at("mergeable"), false);
+    EXPECT_EQ(rows[1].at("technique"), "none");
+    EXPECT_EQ(rows[1].at("reason"), plan.effects[static_cast<std::size_t>(Effect::caustics)].reason);
+    EXPECT_EQ(rows[2].at("technique"), "photons");
+    for (const char* property : {"biased", "independent_samples", "needs_pilot", "mergeable"})
+        EXPECT_EQ(rows[2].at(property), true) << property;
+    EXPECT_EQ(rows[2].at("whole_frame"), false);
+}
+
+}  // namespace
+}  // namespace voxilux
