@@ -3,7 +3,7 @@
 #include <string>
 
 #include "record/recording.h"
-#include "world/march_world.h"
+#include "world/edit_world.h"
 
 namespace voxilux {
 
@@ -24,5 +24,9 @@ void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& 
 // Puts a skeleton (build_march_skeleton) on the device and grows its boxes there. The result has the bits of
 // build_march_world.
 void record_world_build(const MarchWorld& skeleton, const WorldBuffers& buffers, Recording& recording);
+
+// Puts what an edit changed into buffers that hold the structure as it was and have room for what it added.
+void record_world_edit(const MarchWorld& built, const WorldChanges& changes, const WorldBuffers& buffers,
+                       Recording& recording);
 
 }  // namespace voxilux

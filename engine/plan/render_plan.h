@@ -130,6 +130,7 @@ struct PlanRequest {
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop
+    bool leaves_room = false;               // worlds have room for what edits add
 };
 
 // Throws Error(out_of_memory) when a buffer would pass the device's limits or all together the budget, naming

@@ -6,7 +6,7 @@
 
 #include "jobs/effect_price.h"
 #include "jobs/forecast_report.h"
-#include "jobs/frame_run.h"
+#include "base/clock.h"
 #include "jobs/memory_forecast.h"
 #include "jobs/report.h"
 #include "output_files.h"
