@@ -33,14 +33,6 @@ struct Entry {
     std::vector<double> ms_per_sample;
 };
 
-// The building of the world is no part of a sample.
-double sample_ms(const RenderOutcome& outcome) {
-    double ms = 0.0;
-    for (const PassTime& pass : outcome.statistics.passes)
-        if (!pass.label.starts_with("world.")) ms += pass.ms;
-    return ms / std::max(outcome.statistics.samples, 1u);
-}
-
 RenderOutcome render(RenderSession& session, const PriceJob& job, const Entry& entry,
                      const RenderSettings& changed) {
     RenderSettings settings = changed;
@@ -71,7 +63,8 @@ void take_trial(RenderSession& session, const PriceJob& job, std::size_t trial, 
     settings.spp = job.samples;
     settings.seed += static_cast<std::uint32_t>(trial + 1) * kSeedStep;
     RenderOutcome outcome = render(session, job, entry, settings);
-    entry.ms_per_sample.push_back(sample_ms(outcome));
+    const RenderStatistics& statistics = outcome.statistics;
+    entry.ms_per_sample.push_back(sampling_ms(statistics) / std::max(statistics.samples, 1u));
     entry.pictures.push_back(colours_of(std::move(outcome.image)));
 }
 

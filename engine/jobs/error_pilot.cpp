@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/assert.h"
+#include "base/clock.h"
 #include "estimators/film_error.h"
-#include "jobs/frame_run.h"
 #include "plan/error_law.h"
 #include "renderer/pilot_film.h"
 

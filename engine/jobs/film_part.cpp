@@ -189,8 +189,7 @@ std::optional<std::string> difference(const Json& render, const Json& other) {
 FilmStart start_of(FilmPart part) {
     VX_ASSERT_EQ(part.done.size(), std::size_t{1});
     return {.sums = std::move(part.film),
-            .samples = part.done.begin()->second,
-            .rows_ahead = part.rows_ahead,
+            .position = {.samples = part.done.begin()->second, .rows_ahead = part.rows_ahead},
             .work = counts_of(part.report.at("work")),
             .faults = counts_of(part.report.at("faults"))};
 }

@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "jobs/effect_price.h"
 #include "jobs/forecast_report.h"
-#include "jobs/frame_run.h"
 #include "jobs/memory_forecast.h"
 #include "jobs/report.h"
 

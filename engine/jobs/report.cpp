@@ -117,23 +117,13 @@ Json passes_json(const std::vector<PassTime>& passes) {
     return rows;
 }
 
-void add_passes(std::vector<PassTime>& total, const std::vector<PassTime>& passes) {
-    for (const PassTime& pass : passes) {
-        auto known = std::ranges::find(total, pass.label, &PassTime::label);
-        if (known == total.end()) known = total.insert(known, PassTime{pass.label});
-        known->count += pass.count;
-        known->ms += pass.ms;
-        known->max_ms = std::max(known->max_ms, pass.max_ms);
-    }
-}
-
 void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
     total.wall_s += frame.wall_s;
     total.cpu_s = frame.cpu_s;  // of the process so far
     total.peak_rss_mib = frame.peak_rss_mib;
     total.load_s += frame.load_s;
     total.gpu_ms += frame.gpu_ms;
-    add_passes(total.passes, frame.passes);
+    add_times(total.passes, frame.passes);
     for (const auto& [name, count] : frame.work)
         total.work[name] += count;
     for (const auto& [name, count] : frame.faults)

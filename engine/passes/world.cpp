@@ -48,6 +48,14 @@ void record_growth(const MarchWorld& skeleton, const GrowingLevel& level, const 
     }
 }
 
+void upload_ranges(const std::string& buffer, const std::vector<std::uint32_t>& words,
+                   std::span<const WordRange> ranges, Recording& recording) {
+    for (const WordRange& range : ranges) {
+        const auto changed = std::span(words).subspan(range.first, range.end - range.first);
+        recording.upload(buffer, std::as_bytes(changed), sizeof(std::uint32_t) * range.first);
+    }
+}
+
 }  // namespace
 
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
@@ -72,6 +80,14 @@ void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, c
         recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
         record_growth(skeleton, level, buffers, recording);
     }
+}
+
+void record_world_edit(const MarchWorld& built, const WorldChanges& changes, const WorldBuffers& buffers,
+                       Recording& recording) {
+    VX_ASSERT(!changes.is_rebuilt);
+    upload_ranges(buffers.roots, built.roots, changes.roots, recording);
+    upload_ranges(buffers.nodes, built.nodes, changes.nodes, recording);
+    upload_ranges(buffers.leaves, built.leaves, changes.leaves, recording);
 }
 
 }  // namespace voxilux

@@ -4,6 +4,7 @@
 
 #include "record/recording.h"
 #include "world/build_fields.h"
+#include "world/edit_world.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -27,5 +28,9 @@ void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& 
 // uploaded, but the same passes are recorded.
 void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, const WorldBuffers& buffers,
                         Recording& recording);
+
+// Puts what an edit changed into buffers that hold the structure as it was and have room for what it added.
+void record_world_edit(const MarchWorld& built, const WorldChanges& changes, const WorldBuffers& buffers,
+                       Recording& recording);
 
 }  // namespace voxilux

@@ -120,6 +120,7 @@ struct PlanRequest {
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop
+    bool leaves_room = false;               // worlds have room for what edits add
 };
 
 // Throws Error(input_refused) for settings out of range, a crop outside the image included. What it takes on

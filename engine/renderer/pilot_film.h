@@ -2,33 +2,31 @@
 
 #include <cstdint>
 
-#include "film/film_sums.h"
+#include "renderer/film_steps.h"
 #include "renderer/prepared_scene.h"
-#include "renderer/slices.h"
-#include "vk/executor.h"
 
 namespace voxilux {
 
-// A film of samples that no picture is made of: they have random numbers of their own. The device holds the
+// A film of samples that no image is made of: they have random numbers of their own. The device holds the
 // world; the film that it holds is overwritten.
 class PilotFilm {
   public:
-    // `plan` may differ from the prepared one in its effects. Clears the film. Both outlive this.
+    // `plan` may differ from the prepared one in its effects.
     PilotFilm(const RenderPlan& plan, const PreparedScene& prepared, const Scene& scene, Executor& executor,
               bool is_cpu);
+    PilotFilm(const PilotFilm&) = delete;
+    PilotFilm& operator=(const PilotFilm&) = delete;
 
-    // Adds the sample of this number, every number once; returns how long that took, seconds.
+    // Adds the sample of this number; returns how long that took, seconds. Out of order it empties the film.
     double take(std::uint32_t sample);
 
-    // What the error is estimated from. All samples so far must be those from 0 on.
-    [[nodiscard]] FilmSums read();
+    // What the error is estimated from.
+    [[nodiscard]] FilmSums read() { return steps_.read_for_error(); }
 
   private:
-    const RenderPlan& plan_;
+    RenderPlan plan_;  // of all samples, whichever shard is rendered
     gpu::FrameParams params_;
-    Executor& executor_;
-    SliceGovernor governor_;
-    std::uint32_t samples_ = 0;
+    FilmSteps steps_;
 };
 
 // The seed of a pilot's random numbers, those of no render of this scene.

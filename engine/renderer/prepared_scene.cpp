@@ -1,5 +1,7 @@
 #include "renderer/prepared_scene.h"
 
+#include <algorithm>
+
 #include "frame/footprint.h"
 #include "plan/choose_traversal.h"
 #include "scene/scene_camera.h"
@@ -16,25 +18,37 @@ glm::ivec3 nearest_to_camera(const Scene& scene) {
         glm::clamp(glm::floor(camera_of(scene).position), glm::dvec3(box.lo), glm::dvec3(box.hi)));
 }
 
+// Room for edits: what bricks and chunks that become mixed add, until the structure is built anew.
+constexpr std::uint64_t kMinRoomBytes = std::uint64_t{1} << 18;
+void leave_room(WorldFacts& world) {
+    for (std::uint64_t* bytes : {&world.node_bytes, &world.leaf_bytes})
+        *bytes += std::max(*bytes / 4 & ~std::uint64_t{3}, kMinRoomBytes);
+}
+
 }  // namespace
 
 PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits) {
-    PreparedScene prepared{.facts = measure_scene(scene)};
+    const SceneFacts facts = measure_scene(scene);
+    return prepare_scene(scene, facts, build_world(scene), request, limits);
+}
+
+PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const VoxelWorld& world,
+                            const PlanRequest& request, const DeviceLimits& limits) {
+    PreparedScene prepared{.facts = facts};
     TraversalChoice choice;
-    if (prepared.facts.has_voxels) {
-        const VoxelWorld world = build_world(scene);
+    if (facts.has_voxels) {
         choice = choose_traversal(take_census(world), request.traversal, request.memory_budget_bytes, limits);
         prepared.march_world = build_march_skeleton(world, choice.traversal);
-        prepared.lights = find_lights(scene, &world, world.origin());
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};
-        prepared.lights = find_lights(scene, nullptr, prepared.march_world.origin);
     }
+    const glm::ivec3 origin = prepared.march_world.origin;
+    prepared.lights = find_lights(scene, facts.has_voxels ? &world : nullptr, origin);
     WorldFacts world_facts = measure_world(prepared.march_world);
     world_facts.traversal_reason = choice.reason;
-    world_facts.lights =
-        measure_lights(scene, prepared.lights, prepared.march_world.size(), prepared.march_world.origin);
+    world_facts.lights = measure_lights(scene, prepared.lights, prepared.march_world.size(), origin);
+    if (request.leaves_room) leave_room(world_facts);
     prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
     return prepared;
 }

@@ -19,4 +19,9 @@ struct PreparedScene {
 [[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request,
                                           const DeviceLimits& limits);
 
+// The same of a scene with these facts whose voxels are those of `world`. The scene's own are not looked at.
+[[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts,
+                                          const VoxelWorld& world, const PlanRequest& request,
+                                          const DeviceLimits& limits);
+
 }  // namespace voxilux

@@ -1,11 +1,13 @@
 #include "renderer/radius_pilot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "frame/frame.h"
 #include "passes/upload.h"
+#include "renderer/film_steps.h"
 #include "shared/photon_types.h"
 
 namespace voxilux {
@@ -26,12 +28,12 @@ constexpr double kUnlitRadius = 1.0;  // voxels, where no photon reaches what is
 
 std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams& params,
                                  Executor& executor) {
-    const Slice slice{.row_count =
-                          std::min(pilot.band_rows, static_cast<std::uint32_t>(pilot.settings.size.y))};
-    Recording recording;
-    record_frame(pilot, slice, params, {}, recording);
-    recording.readback("photon.radii");
-    auto radii = values_of<gpu::PixelRadius>(executor.run(recording), "photon.radii");
+    static const std::array<std::string, 1> kept{"photon.radii"};
+    FilmSteps steps(pilot, executor, true);
+    steps.start_frame(params);
+    const Slice slice = steps.next_slice();
+    StepResult done;
+    auto radii = values_of<gpu::PixelRadius>(steps.take(slice, done, kept), kept[0]);
     radii.resize(std::size_t{slice.row_count} * static_cast<std::size_t>(pilot.settings.size.x));
     std::vector<float> photons;
     for (const gpu::PixelRadius& pixel : radii)

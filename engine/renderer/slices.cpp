@@ -40,21 +40,14 @@ void SliceGovernor::adapt(std::uint32_t rows_done, double max_ms) {
     rows_ = wanted >= kGroupRows && wanted < most_rows_ ? wanted / kGroupRows * kGroupRows : wanted;
 }
 
-bool SliceGovernor::for_each_slice(const std::function<bool(const Slice&, double&)>& render,
-                                   std::uint32_t first_row) {
-    for (std::uint32_t row = first_row; row < height_;) {
-        const std::uint32_t band = row / band_rows_;
-        const std::uint32_t band_end = std::min(height_, (band + 1) * band_rows_);
-        const Slice slice{.band = band,
-                          .band_first_row = band * band_rows_,
-                          .first_row = row,
-                          .row_count = std::min(rows_, band_end - row)};
-        double max_ms = 0.0;
-        if (!render(slice, max_ms)) return false;
-        adapt(slice.row_count, max_ms);
-        row += slice.row_count;
-    }
-    return true;
+Slice SliceGovernor::slice_at(std::uint32_t row, std::uint32_t max_rows) const {
+    const std::uint32_t band = row / band_rows_;
+    const std::uint32_t band_end = std::min(height_, (band + 1) * band_rows_);
+    const std::uint32_t rows = keeps_whole_ ? rows_ : std::clamp(max_rows, 1u, rows_);
+    return {.band = band,
+            .band_first_row = band * band_rows_,
+            .first_row = row,
+            .row_count = std::min(rows, band_end - row)};
 }
 
 }  // namespace voxilux

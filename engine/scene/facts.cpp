@@ -14,8 +14,7 @@ bool any_positive(glm::vec3 v) {
     return v.x > 0.0f || v.y > 0.0f || v.z > 0.0f;
 }
 
-// One flag per material of the scene.
-std::vector<bool> used_materials(const Scene& scene) {
+std::vector<bool> used_by_voxels(const Scene& scene) {
     std::vector<bool> instanced(scene.models.size(), false);
     for (const Instance& instance : scene.instances)
         instanced.at(instance.model) = true;
@@ -25,13 +24,12 @@ std::vector<bool> used_materials(const Scene& scene) {
         for (const Voxel& voxel : scene.models[m].voxels)
             used.at(voxel.material) = true;
     }
-    for (const Sphere& sphere : scene.spheres)
-        used.at(sphere.material) = true;
     return used;
 }
 
-void measure_materials(const Scene& scene, SceneFacts& facts) {
-    const std::vector<bool> used = used_materials(scene);
+void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& facts) {
+    for (const Sphere& sphere : scene.spheres)
+        used.at(sphere.material) = true;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
         const Material& material = scene.materials[m];
@@ -51,12 +49,17 @@ double cell_count(const Box& box) {
 }  // namespace
 
 SceneFacts measure_scene(const Scene& scene) {
-    SceneFacts facts;
+    std::uint64_t count = 0;
     for (const Instance& instance : scene.instances)
-        facts.voxel_count += scene.models.at(instance.model).voxels.size();
+        count += scene.models.at(instance.model).voxels.size();
+    return measure_scene(scene, {.count = count, .box = voxel_bounds(scene), .used = used_by_voxels(scene)});
+}
+
+SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
+    SceneFacts facts{.voxel_count = voxels.count};
     facts.instance_count = scene.instances.size();
     facts.sphere_count = scene.spheres.size();
-    facts.box = voxel_bounds(scene);
+    facts.box = voxels.box;
     facts.has_voxels = !facts.box.empty();
     facts.has_spheres = !scene.spheres.empty();
     if (facts.has_voxels) {
@@ -65,7 +68,7 @@ SceneFacts measure_scene(const Scene& scene) {
     }
     facts.sun_reaches = scene.sun.on && any_positive(scene.sun.irradiance) && scene.sun.direction().z > 0.0f;
     facts.has_sky = any_positive(scene.sky.radiance);
-    measure_materials(scene, facts);
+    measure_materials(scene, std::move(voxels.used), facts);
     return facts;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -34,6 +35,16 @@ struct SceneFacts {
 
 // Throws Error(input_refused) when the scene reaches beyond kMaxCoordinate.
 [[nodiscard]] SceneFacts measure_scene(const Scene& scene);
+
+// The voxels of a scene as its facts see them.
+struct VoxelFacts {
+    std::uint64_t count = 0;
+    Box box;
+    std::vector<bool> used;  // one flag per material of the scene
+};
+
+// The facts of a scene with these voxels instead of its own.
+[[nodiscard]] SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels);
 
 // One "name: value" line per fact, stable between runs.
 [[nodiscard]] std::string describe(const SceneFacts& facts);

@@ -16,6 +16,7 @@
 #include "embedded.h"
 #include "record/recording.h"
 #include "vk/device.h"
+#include "vk/pass_time.h"
 #include "vk/spirv_reflect.h"
 
 namespace voxilux {
@@ -26,14 +27,6 @@ struct ExecutorOptions {
     bool time_dispatches = true;
     bool poison_transients = false;  // fills transient buffers with 0xCDCDCDCD first: finds reads of nothing
     std::uint64_t staging_bytes = std::uint64_t{32} << 20;  // longer transfers go in pieces of this size
-};
-
-// Time on the device of all dispatches of one label in a run. Zero when the device has no timestamps.
-struct PassTime {
-    std::string label;
-    std::uint32_t count = 0;
-    double ms = 0.0;      // sum
-    double max_ms = 0.0;  // longest single dispatch
 };
 
 struct RunResult {

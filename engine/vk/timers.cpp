@@ -1,7 +1,5 @@
 #include "vk/timers.h"
 
-#include <algorithm>
-
 #include "base/checked_cast.h"
 #include "vk/check.h"
 
@@ -25,13 +23,6 @@ void grow(const DeviceState& device, Timers& timers, std::uint32_t dispatches) {
 
 std::uint32_t last_index(const Timers& timers) {
     return checked_cast<std::uint32_t>(timers.labels.size() - 1, "timed dispatch");
-}
-
-PassTime& row_of(std::vector<PassTime>& rows, const std::string& label) {
-    const auto found = std::ranges::find(rows, label, &PassTime::label);
-    if (found != rows.end()) return *found;
-    rows.push_back({.label = label});
-    return rows.back();
 }
 
 }  // namespace
@@ -70,11 +61,9 @@ std::vector<PassTime> collect_times(const DeviceState& device, const Timers& tim
     const double ms_per_tick = static_cast<double>(device.properties.limits.timestampPeriod) * 1e-6;
     std::vector<PassTime> rows;
     for (std::size_t i = 0; i < timers.labels.size(); ++i) {
-        PassTime& row = row_of(rows, timers.labels[i]);
         const double ms = static_cast<double>((stamps[2 * i + 1] - stamps[2 * i]) & mask) * ms_per_tick;
-        row.count += 1;
-        row.ms += ms;
-        row.max_ms = std::max(row.max_ms, ms);
+        const PassTime one{.label = timers.labels[i], .count = 1, .ms = ms, .max_ms = ms};
+        add_times(rows, std::span(&one, 1));
     }
     return rows;
 }

@@ -1,6 +1,7 @@
 #include "world/edit_world.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -16,6 +17,8 @@ namespace {
 // How far the boxes of a level depend on its cells: the sum of the longest looks of all rounds, 1 + 2 + 4 + 8
 // + 16.
 constexpr int kFarDependence = 31;
+// Words between two that changed which are put into one range with them.
+constexpr std::size_t kMaxGap = 16;
 // In place of a block's number.
 constexpr std::uint32_t kNoBlock = gpu::kCellPayloadMask;
 
@@ -49,6 +52,21 @@ void for_each_cell(CellBounds bounds, glm::ivec3 size, const Visit& visit) {
                 visit(glm::ivec3(x, y, z));
 }
 
+// The words of these numbers, and all from `first_new` to `end`.
+std::vector<WordRange> ranges_of(std::vector<std::size_t> words, std::size_t first_new, std::size_t end) {
+    std::ranges::sort(words);
+    std::vector<WordRange> ranges;
+    for (const std::size_t word : words) {
+        if (word >= first_new) break;
+        if (ranges.empty() || ranges.back().end + kMaxGap < word)
+            ranges.push_back({word, word + 1});
+        else
+            ranges.back().end = word + 1;
+    }
+    if (first_new < end) ranges.push_back({first_new, end});
+    return ranges;
+}
+
 bool is_empty(std::uint32_t cell) {
     return gpu::cell_state(cell) == gpu::kCellEmpty;
 }
@@ -58,14 +76,18 @@ bool is_empty(std::uint32_t cell) {
 class Edit {
   public:
     Edit(const VoxelWorld& world, MarchWorld& built)
-        : world_(world), built_(built), has_nodes_(built.traversal == Traversal::deep) {}
+        : world_(world),
+          built_(built),
+          has_nodes_(built.traversal == Traversal::deep),
+          first_new_node_(built.nodes.size()),
+          first_new_leaf_(built.leaves.size()) {}
 
     void touch(glm::ivec3 brick) {
         const std::uint32_t before = brick_state(brick);
         const std::uint32_t after = pack(brick);
         if (is_empty(before) && is_empty(after)) return;  // its box stays
         if (has_nodes_) open_chunk(brick >> 2);
-        *brick_word(brick) = after;
+        assign(brick_word(brick), after);
         if (is_empty(before) != is_empty(after)) bricks_.include(brick);
         if (has_nodes_) close_chunk(brick >> 2);
     }
@@ -86,12 +108,34 @@ class Edit {
         if (number != kNoBlock &&
             std::equal(block.begin(), block.end(), built_.leaves.data() + number * block.size()))
             return;
-        *word = gpu::make_cell(gpu::kCellMixed, checked_cast<std::uint32_t>(
-                                                    built_.leaves.size() / block.size(), "mixed bricks"));
+        assign(word,
+               gpu::make_cell(gpu::kCellMixed, checked_cast<std::uint32_t>(
+                                                   built_.leaves.size() / block.size(), "mixed bricks")));
         built_.leaves.insert(built_.leaves.end(), block.begin(), block.end());
     }
 
+    [[nodiscard]] WorldChanges changes() const {
+        return {.roots = ranges_of(changed_roots_, built_.roots.size(), built_.roots.size()),
+                .nodes = ranges_of(changed_nodes_, first_new_node_, built_.nodes.size()),
+                .leaves = ranges_of({}, first_new_leaf_, built_.leaves.size())};
+    }
+
   private:
+    void assign(std::uint32_t* word, std::uint32_t value) {
+        *word = value;
+        note(word);
+    }
+
+    // Remembers that a root or a node is another one now.
+    void note(const std::uint32_t* word) {
+        const std::uint32_t* roots = built_.roots.data();
+        const bool is_root = !std::less<>()(word, roots) && std::less<>()(word, roots + built_.roots.size());
+        if (is_root)
+            changed_roots_.push_back(static_cast<std::size_t>(word - roots));
+        else
+            changed_nodes_.push_back(static_cast<std::size_t>(word - built_.nodes.data()));
+    }
+
     // The word of a brick; null inside a chunk that has no nodes.
     std::uint32_t* brick_word(glm::ivec3 brick) {
         if (!has_nodes_)
@@ -127,8 +171,8 @@ class Edit {
         const std::uint32_t content = is_empty(root) ? 0 : root;
         if (is_empty(root)) chunks_.include(chunk);
         bricks_.include(CellBounds{chunk, chunk + 1}.children());
-        root = gpu::make_cell(gpu::kCellMixed,
-                              checked_cast<std::uint32_t>(built_.nodes.size() / 64, "mixed chunks"));
+        assign(&root, gpu::make_cell(gpu::kCellMixed,
+                                     checked_cast<std::uint32_t>(built_.nodes.size() / 64, "mixed chunks")));
         built_.nodes.insert(built_.nodes.end(), 64, content);
         built_.node_homes.push_back(chunk);
     }
@@ -144,7 +188,7 @@ class Edit {
         if (!all_empty && !all_solid) return;
         if (all_empty) chunks_.include(chunk);
         bricks_.include(CellBounds{chunk, chunk + 1}.children());
-        root = all_empty ? 0 : cells[0];
+        assign(&root, all_empty ? 0 : cells[0]);
     }
 
     struct Growing {
@@ -181,7 +225,9 @@ class Edit {
         }
         for (const Growing& one : taken) {
             if (!bounds.contains(one.cell)) *one.word = one.before;
-            if (*one.word != one.before) changed.include(one.cell);
+            if (*one.word == one.before) continue;
+            changed.include(one.cell);
+            note(one.word);
         }
         return changed;
     }
@@ -189,13 +235,17 @@ class Edit {
     const VoxelWorld& world_;
     MarchWorld& built_;
     bool has_nodes_;
+    std::size_t first_new_node_;
+    std::size_t first_new_leaf_;
+    std::vector<std::size_t> changed_roots_;
+    std::vector<std::size_t> changed_nodes_;
     CellBounds chunks_;  // that became empty or stopped being so
     CellBounds bricks_;  // the same, and those whose chunk got or lost its nodes
 };
 
 }  // namespace
 
-void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits) {
+WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits) {
     std::vector<glm::ivec3> bricks;
     for (const VoxelEdit& edit : edits) {
         world.put(edit.local, edit.voxel);
@@ -203,7 +253,7 @@ void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit>
     }
     if (!has_free_boxes(built.traversal)) {
         built = build_march_world(world, built.traversal);
-        return;
+        return {.is_rebuilt = true};
     }
     const auto order = [](glm::ivec3 a, glm::ivec3 b) {
         return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
@@ -218,6 +268,7 @@ void edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit>
         for (int i = 0; i < 27; ++i)
             edit.store_leaf(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
     }
+    return edit.changes();
 }
 
 }  // namespace voxilux

@@ -1,7 +1,6 @@
 #include "world/voxel_world.h"
 
 #include "base/error.h"
-#include "scene/scene_bounds.h"
 #include "shared/world_cell.h"
 
 namespace voxilux {
@@ -73,9 +72,8 @@ std::uint32_t VoxelWorld::brick_number(glm::ivec3 brick_cell) const {
     return bricks == nullptr ? kNoBrick : (*bricks)[gpu::child_slot(brick_cell & 3)];
 }
 
-VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
-    const Box box = voxel_bounds(scene);
-    if (box.empty()) return VoxelWorld(glm::ivec3(0), glm::ivec3(1));
+VoxelGrid grid_around(const Box& box, std::uint64_t limit_chunks) {
+    if (box.empty()) return {};
     const glm::ivec3 origin = box.lo - 1;
     const glm::ivec3 chunks = (box.hi + 1 - origin + 15) >> gpu::kChunkLog2;
     const std::uint64_t count = static_cast<std::uint64_t>(chunks.x) * static_cast<std::uint64_t>(chunks.y) *
@@ -87,11 +85,17 @@ VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
                         "the models closer together",
                         chunks.x * 16, chunks.y * 16, chunks.z * 16, count, limit_chunks));
     }
-    VoxelWorld world(origin, chunks);
+    return {origin, chunks};
+}
+
+VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
+    const VoxelGrid grid = grid_around(voxel_bounds(scene), limit_chunks);
+    VoxelWorld world(grid.origin, grid.chunks);
     for (const Instance& instance : scene.instances) {
         const VoxelModel& model = scene.models[instance.model];
         for (const Voxel& voxel : model.voxels)
-            world.set(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}) - origin, voxel.material);
+            world.set(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}) - grid.origin,
+                      voxel.material);
     }
     return world;
 }

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "scene/scene_bounds.h"
 
 namespace voxilux {
 
@@ -88,8 +89,21 @@ class VoxelWorld {
     std::vector<Brick> bricks_;
 };
 
-// The world of a scene's voxels. Throws Error(out_of_memory) when the dense grid of chunks would pass
-// `limit_chunks`.
-[[nodiscard]] VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks = std::uint64_t{1} << 25);
+// Where a world lies: its scene cell 0, and its chunks.
+struct VoxelGrid {
+    glm::ivec3 origin{0};
+    glm::ivec3 chunks{1};
+
+    bool operator==(const VoxelGrid&) const = default;
+};
+
+inline constexpr std::uint64_t kMaxChunks = std::uint64_t{1} << 25;
+
+// The grid of a world whose voxels fill this box of scene cells. Throws Error(out_of_memory) when it would
+// have more than `limit_chunks` chunks.
+[[nodiscard]] VoxelGrid grid_around(const Box& box, std::uint64_t limit_chunks = kMaxChunks);
+
+// The world of a scene's voxels. Throws as grid_around does.
+[[nodiscard]] VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks = kMaxChunks);
 
 }  // namespace voxilux

@@ -98,6 +98,14 @@ VX_FN uvec2 film_add_square(uvec2 a, uvec2 b) {
     return film_add_overflows(a, b) ? uvec2(0xFFFFFFFFu, 0x7FFFFFFFu) : film_add(a, b);
 }
 
+// A sum as a float: with an error of 2^-22 of it at most.
+VX_FN float film_float(uvec2 sum) {
+    bool is_negative = (sum.y >> 31u) != 0u;
+    uvec2 magnitude = is_negative ? film_negate(sum) : sum;
+    float value = (float(magnitude.y) * 4294967296.0f + float(magnitude.x)) / float(1u << uint(kFilmFractionBits));
+    return is_negative ? -value : value;
+}
+
 VX_END
 
 #endif

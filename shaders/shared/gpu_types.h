@@ -157,6 +157,16 @@ struct FilmAddPush {
     uint first_sum;      // where the values' sums begin
 };
 
+// Push constants of display_resolve, for one film band.
+struct DisplayResolvePush {
+    uint count;        // values of the band
+    uint row_values;   // of a row of the image
+    uint first_row;    // of the band in the image
+    uint samples;      // of all rows
+    uint rows_ahead;   // rows from the top of the image that have one sample more
+    uint rows_behind;  // rows from the top that have one less
+};
+
 // What a march of bench.march found.
 struct BenchHit {
     ivec3 cell;  // solid cell local to the world; of no meaning on a miss

@@ -188,5 +188,16 @@ TEST(FilmSum, sum_does_not_depend_on_the_order_of_the_samples) {
     EXPECT_NE(float_forwards, float_backwards);
 }
 
+TEST(FilmSum, sums_become_floats_within_their_rounding) {
+    for (const float value : edge_values()) {
+        const double exact = static_cast<double>(joined(gpu::film_fixed(value).sum)) * 0x1p-24;
+        ASSERT_NEAR(static_cast<double>(gpu::film_float(gpu::film_fixed(value).sum)), exact,
+                    std::abs(exact) * 0x1p-22)
+            << value;
+    }
+    EXPECT_EQ(gpu::film_float(parted(-1)), -0x1p-24f) << "words of a small negative sum are large";
+    EXPECT_EQ(gpu::film_float(parted(0)), 0.0f);
+}
+
 }  // namespace
 }  // namespace voxilux

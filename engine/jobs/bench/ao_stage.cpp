@@ -12,6 +12,7 @@
 #include "passes/primary/primary.h"
 #include "passes/primary/sphere.h"
 #include "passes/upload.h"
+#include "renderer/film_steps.h"
 #include "scene/scene_camera.h"
 #include "shared/sequence.h"
 
@@ -141,23 +142,18 @@ AoFootage AoStage::play(const AoTake& take) {
     const Slice whole{.row_count = static_cast<std::uint32_t>(plan.settings.size.y)};
     const std::string openness = openness_buffer(plan);
     AoFootage footage{.slots = plan.ao.slots};
-    FrameState state;
+    FilmSteps steps(plan, executor_, limits_.is_cpu);
     for (int frame = 1; frame <= take.frames; ++frame) {
-        const gpu::FrameParams params = params_at(plan, take.motion, frame);
+        steps.start_frame(params_at(plan, take.motion, frame));
+        const bool is_kept = take.kept.contains(frame);
         const Stopwatch watch;
-        Recording recording;
-        record_frame(plan, whole, params, {0, state}, recording);
-        recording.readback("tally");
-        if (take.kept.contains(frame)) recording.readback(openness);
-        const RunResult result = executor_.run(recording);
+        StepResult done;
+        const RunResult result = steps.take(whole, done, std::span(&openness, is_kept ? 1 : 0));
         footage.seconds.push_back(watch.elapsed());
         footage.passes.push_back(occlusion_times(result));
-        const auto tally = values_of<gpu::uint>(result, "tally");
-        (frame == 1 ? footage.first : footage.rest).add(std::span(tally).first<gpu::kTallyCount>());
-        if (take.kept.contains(frame)) footage.openness[frame] = values_of<float>(result, openness);
-        state.finish_sample(params);
-        state.live_cells += std::uint64_t{tally[gpu::kWorkAoClaimed]} - tally[gpu::kWorkAoEvicted];
-        ++state.frames_done;
+        const auto counters = values_of<gpu::uint>(result, "tally");
+        (frame == 1 ? footage.first : footage.rest).add(std::span(counters).first<gpu::kTallyCount>());
+        if (is_kept) footage.openness[frame] = values_of<float>(result, openness);
     }
     return footage;
 }

@@ -163,8 +163,8 @@ TEST(FilmPart, rows_ahead_have_one_sample_more) {
     EXPECT_EQ(back.film.even, (std::vector<std::uint32_t>{1, 1, 1}));
     EXPECT_EQ(back.film.odd, (std::vector<std::uint32_t>{2, 2, 1}));
     const FilmStart start = start_of(back);
-    EXPECT_EQ(start.samples, 2u);
-    EXPECT_EQ(start.rows_ahead, 2u);
+    EXPECT_EQ(start.position.samples, 2u);
+    EXPECT_EQ(start.position.rows_ahead, 2u);
     EXPECT_EQ(start.work.at("hits"), 20u);
 }
 

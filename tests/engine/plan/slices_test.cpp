@@ -25,15 +25,18 @@ RenderPlan plan_for(std::uint32_t width, Rows rows, std::uint32_t ao_rays = 1) {
 
 // A device whose dispatches last `ms_of(row)` for each row.
 template <class Cost>
-std::vector<Slice> run_pass(SliceGovernor& governor, const Cost& ms_of, double* longest = nullptr) {
+std::vector<Slice> run_pass(SliceGovernor& governor, const RenderPlan& plan, const Cost& ms_of,
+                            double* longest = nullptr) {
+    const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     std::vector<Slice> slices;
-    EXPECT_TRUE(governor.for_each_slice([&](const Slice& slice, double& max_ms) {
-        slices.push_back(slice);
-        for (std::uint32_t row = 0; row < slice.row_count; ++row)
-            max_ms += ms_of(slice.first_row + row);
+    for (std::uint32_t next = 0; next < height; next += slices.back().row_count) {
+        slices.push_back(governor.slice_at(next));
+        double max_ms = 0.0;
+        for (std::uint32_t row = 0; row < slices.back().row_count; ++row)
+            max_ms += ms_of(next + row);
+        governor.adapt(slices.back().row_count, max_ms);
         if (longest != nullptr) *longest = std::max(*longest, max_ms);
-        return true;
-    }));
+    }
     return slices;
 }
 
@@ -59,7 +62,7 @@ TEST(SliceGovernor, every_row_is_covered_once_whatever_it_costs) {
         for (const double cost : costs) {
             SliceGovernor governor(plan, false);
             for (int pass = 0; pass < 3; ++pass)
-                expect_cover(run_pass(governor, [&](std::uint32_t) { return cost; }), plan);
+                expect_cover(run_pass(governor, plan, [&](std::uint32_t) { return cost; }), plan);
         }
     }
 }
@@ -69,10 +72,10 @@ TEST(SliceGovernor, uniform_rows_never_exceed_the_target_after_the_first_slice) 
     for (const bool is_cpu : {false, true}) {
         for (const double cost : {0.001, 0.1, 0.7, 3.0, 50.0}) {
             SliceGovernor governor(plan, is_cpu);
-            run_pass(governor, [&](std::uint32_t) { return cost; });
+            run_pass(governor, plan, [&](std::uint32_t) { return cost; });
             double longest = 0.0;
             run_pass(
-                governor, [&](std::uint32_t) { return cost; }, &longest);
+                governor, plan, [&](std::uint32_t) { return cost; }, &longest);
             EXPECT_LE(longest, std::max(governor.target_ms(), cost)) << cost << " ms a row";
         }
     }
@@ -83,9 +86,9 @@ TEST(SliceGovernor, rows_that_double_their_cost_stay_below_250_ms) {
     const RenderPlan plan = plan_for(1280, {800, 816});
     SliceGovernor governor(plan, false);
     const auto cost = [](std::uint32_t row) { return row < 400 ? 1.0 : 2.0; };
-    run_pass(governor, [](std::uint32_t) { return 1.0; });
+    run_pass(governor, plan, [](std::uint32_t) { return 1.0; });
     double longest = 0.0;
-    run_pass(governor, cost, &longest);
+    run_pass(governor, plan, cost, &longest);
     EXPECT_LE(longest, 250.0);
     EXPECT_GT(longest, governor.target_ms()) << "the jump must be visible, or this tests nothing";
 }
@@ -95,8 +98,8 @@ TEST(SliceGovernor, slices_grow_on_a_fast_device_and_shrink_on_a_slow_one) {
     SliceGovernor fast(plan, false);
     SliceGovernor slow(plan, false);
     const std::uint32_t first = fast.rows();
-    run_pass(fast, [](std::uint32_t) { return 0.01; });
-    run_pass(slow, [](std::uint32_t) { return 60.0; });
+    run_pass(fast, plan, [](std::uint32_t) { return 0.01; });
+    run_pass(slow, plan, [](std::uint32_t) { return 60.0; });
     EXPECT_GT(fast.rows(), first);
     EXPECT_EQ(fast.rows(), plan.slice_rows) << "8 ms for the whole picture: one slice";
     EXPECT_LT(slow.rows(), first);
@@ -107,7 +110,7 @@ TEST(SliceGovernor, slices_grow_fourfold_at_most) {
     const RenderPlan plan = plan_for(1280, {816, 816}, 256);
     SliceGovernor governor(plan, false);
     const std::uint32_t first = governor.rows();
-    const std::vector<Slice> slices = run_pass(governor, [](std::uint32_t) { return 1e-6; });
+    const std::vector<Slice> slices = run_pass(governor, plan, [](std::uint32_t) { return 1e-6; });
     ASSERT_GE(slices.size(), 2u);
     EXPECT_LE(slices[1].row_count, 4 * first);
     EXPECT_GT(slices[1].row_count, first);
@@ -117,7 +120,7 @@ TEST(SliceGovernor, device_without_timers_keeps_the_first_size) {
     const RenderPlan plan = plan_for(1280, {816, 816}, 64);
     SliceGovernor governor(plan, false);
     const std::uint32_t first = governor.rows();
-    run_pass(governor, [](std::uint32_t) { return 0.0; });
+    run_pass(governor, plan, [](std::uint32_t) { return 0.0; });
     EXPECT_EQ(governor.rows(), first);
 }
 
@@ -127,12 +130,15 @@ TEST(SliceGovernor, more_rays_give_smaller_first_slices) {
     EXPECT_EQ(SliceGovernor(plan_for(100000, {8, 8}, 4096), true).rows(), 1u);
 }
 
-TEST(SliceGovernor, stop_ends_at_once_and_is_told) {
-    const RenderPlan plan = plan_for(1280, {800, 80});
-    SliceGovernor governor(plan, true);
-    int calls = 0;
-    EXPECT_FALSE(governor.for_each_slice([&](const Slice&, double&) { return ++calls < 3; }));
-    EXPECT_EQ(calls, 3);
+TEST(SliceGovernor, fewer_rows_may_be_asked_for) {
+    const SliceGovernor governor(plan_for(1280, {800, 80}), true);
+    EXPECT_EQ(governor.slice_at(70).row_count, 10u) << "to the end of the band";
+    EXPECT_EQ(governor.slice_at(0, 3).row_count, 3u);
+    EXPECT_EQ(governor.slice_at(0, 0).row_count, 1u);
+    EXPECT_EQ(governor.slice_at(0, 1000).row_count, std::min(governor.rows(), 80u));
+    RenderPlan photons = plan_for(1280, {800, 800});
+    photons.effects[static_cast<std::size_t>(Effect::caustics)].on = true;
+    EXPECT_EQ(SliceGovernor(photons, true).slice_at(0, 3).row_count, 800u);
 }
 
 }  // namespace

@@ -34,6 +34,26 @@ std::string first_difference(const MarchWorld& a, const MarchWorld& b) {
     return "";
 }
 
+void patch(const std::vector<std::uint32_t>& from, const std::vector<WordRange>& ranges,
+           std::vector<std::uint32_t>& words) {
+    words.resize(from.size());
+    for (const WordRange& range : ranges)
+        std::copy(from.begin() + static_cast<std::ptrdiff_t>(range.first),
+                  from.begin() + static_cast<std::ptrdiff_t>(range.end),
+                  words.begin() + static_cast<std::ptrdiff_t>(range.first));
+}
+
+// Whoever holds the arrays of `before` and gets these words holds those of `after`.
+void expect_changes_suffice(MarchWorld before, const WorldChanges& changes, const MarchWorld& after) {
+    if (changes.is_rebuilt) return;
+    patch(after.roots, changes.roots, before.roots);
+    patch(after.nodes, changes.nodes, before.nodes);
+    patch(after.leaves, changes.leaves, before.leaves);
+    EXPECT_EQ(before.roots, after.roots);
+    EXPECT_EQ(before.nodes, after.nodes);
+    EXPECT_EQ(before.leaves, after.leaves);
+}
+
 std::vector<VoxelEdit> random_edits(const VoxelWorld& world, int count, double clears, std::mt19937& dice) {
     std::vector<VoxelEdit> edits;
     for (int i = 0; i < count; ++i) {
@@ -52,7 +72,10 @@ TEST_P(EditWorld, random_edits_of_every_small_world_equal_a_rebuild) {
     for (test::NamedWorld& named : test::small_worlds(kSeed)) {
         MarchWorld built = build_march_world(named.world, GetParam());
         for (const int count : {1, 1, 7}) {
-            edit_world(named.world, built, random_edits(named.world, count, 0.4, dice));
+            const MarchWorld before = built;
+            const WorldChanges changes =
+                edit_world(named.world, built, random_edits(named.world, count, 0.4, dice));
+            expect_changes_suffice(before, changes, built);
             ASSERT_EQ(first_difference(built, build_march_world(named.world, GetParam())), "") << named.name;
         }
     }

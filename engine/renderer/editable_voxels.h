@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scene/facts.h"
+#include "world/edit_world.h"
+
+namespace voxilux {
+
+// A box of scene cells that gets one material, or air.
+struct BoxEdit {
+    Box box;
+    std::optional<std::uint32_t> material;  // of the scene; nothing: air
+};
+
+// What an edit made of the voxels.
+struct VoxelChange {
+    bool has_moved = false;        // they have another grid now
+    std::vector<VoxelEdit> cells;  // that were changed, in the grid that they have now
+};
+
+// The voxels of a scene that is edited, and what its facts say of them. Their grid is always that of a scene
+// that never had others.
+class EditableVoxels {
+  public:
+    explicit EditableVoxels(const Scene& scene);
+
+    // Throws Error(input_refused) for a box beyond kMaxCoordinate or a material that the scene has not, and
+    // Error(out_of_memory) for a grid that is too large; then nothing is changed.
+    VoxelChange apply(std::span<const BoxEdit> edits);
+
+    [[nodiscard]] VoxelWorld& world() { return world_; }
+    [[nodiscard]] const VoxelWorld& world() const { return world_; }
+    [[nodiscard]] VoxelFacts facts() const;
+
+  private:
+    void check(const BoxEdit& edit) const;
+    void put(glm::ivec3 local, std::uint16_t voxel, std::vector<VoxelEdit>& changed);
+    void move_to(const VoxelGrid& grid);
+    void measure_box();
+
+    VoxelWorld world_;
+    std::vector<std::uint64_t> counts_;  // of voxels, by material
+    Box box_;
+    bool may_shrink_ = false;  // a voxel at the border of the box was cleared
+};
+
+}  // namespace voxilux

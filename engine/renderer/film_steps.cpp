@@ -1,0 +1,136 @@
+#include "renderer/film_steps.h"
+
+#include <algorithm>
+
+#include "base/clock.h"
+#include "frame/frame.h"
+#include "passes/upload.h"
+
+namespace voxilux {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Rows of the first slice of a step, when nothing is known of how long one takes.
+constexpr std::uint32_t kFirstRows = 16;
+
+}  // namespace
+
+FilmSteps::FilmSteps(const RenderPlan& plan, Executor& executor, bool is_cpu, const FrameState& state)
+    : plan_(&plan), executor_(&executor), governor_(plan, is_cpu), state_(state) {}
+
+void FilmSteps::start_frame(const gpu::FrameParams& params, FilmPosition start) {
+    state_ = state();
+    params_ = params;
+    start_ = position_ = start;
+    is_cleared_ = false;
+}
+
+FrameState FilmSteps::state() const {
+    FrameState state = state_;
+    if (position_ != start_) ++state.frames_done;
+    return state;
+}
+
+void FilmSteps::clear_film() {
+    if (std::exchange(is_cleared_, true)) return;
+    Recording recording;
+    record_film_clear(*plan_, recording);
+    (void)executor_->run(recording);
+}
+
+Slice FilmSteps::next_slice(double budget_s) const {
+    const double rows = row_s_ > 0.0 ? std::clamp(budget_s / row_s_, 1.0, 1e6) : kFirstRows;
+    return governor_.slice_at(position_.rows_ahead, static_cast<std::uint32_t>(rows));
+}
+
+StepResult FilmSteps::step_slice() {
+    clear_film();
+    StepResult done;
+    (void)take(next_slice(), done);
+    return done;
+}
+
+StepResult FilmSteps::step(double budget_s) {
+    const auto start = Clock::now();
+    clear_film();
+    StepResult done;
+    Slice next = next_slice(budget_s);
+    double left_s = budget_s;
+    do {
+        (void)take(next, done);
+        left_s = budget_s - seconds_since(start);
+        next = next_slice(left_s);
+    } while (row_s_ * next.row_count <= left_s);
+    return done;
+}
+
+RunResult FilmSteps::take(const Slice& slice, StepResult& done, std::span<const std::string> kept) {
+    VX_ASSERT_EQ(slice.first_row, position_.rows_ahead);
+    const auto start = Clock::now();
+    Recording recording;
+    record_frame(*plan_, slice, params_, {plan_->shard.sample(position_.samples), state_, plan_->shard.index},
+                 recording);
+    recording.readback("tally");
+    for (const std::string& buffer : kept)
+        recording.readback(buffer);
+    RunResult result = executor_->run(recording);
+    row_s_ = seconds_since(start) / slice.row_count;
+    double max_ms = 0.0;
+    for (const PassTime& pass : result.passes)
+        max_ms = std::max(max_ms, pass.max_ms);
+    governor_.adapt(slice.row_count, max_ms);
+
+    const auto counters = values_of<gpu::uint>(result, "tally");
+    for (std::size_t i = 0; i < gpu::kTallyCount; ++i)
+        done.counters[i] += counters[i];
+    state_.live_cells += std::uint64_t{counters[gpu::kWorkAoClaimed]} - counters[gpu::kWorkAoEvicted];
+    add_times(done.passes, result.passes);
+    done.pixels += std::uint64_t{params_.column_count} * slice.row_count;
+    ++done.slices;
+    position_.rows_ahead += slice.row_count;
+    if (position_.rows_ahead < static_cast<std::uint32_t>(plan_->settings.size.y)) return result;
+    position_ = {position_.samples + 1, 0};
+    state_.finish_sample(params_);
+    ++done.samples;
+    return result;
+}
+
+FilmSums FilmSteps::counted(FilmSums film, std::uint32_t first_row) const {
+    const auto even = [&](std::uint32_t samples) { return plan_->shard.even_samples(samples); };
+    for (std::uint32_t i = 0; i < film.even.size(); ++i) {
+        const std::uint32_t before = start_.samples_of_row(first_row + i);
+        const std::uint32_t now = position_.samples_of_row(first_row + i);
+        film.even[i] = even(now) - even(before);
+        film.odd[i] = now - before - film.even[i];
+    }
+    return film;
+}
+
+DisplayBuffer FilmSteps::display() {
+    clear_film();
+    Recording recording;
+    const SampleCounts counts{.samples = position_.samples - start_.samples,
+                              .rows_ahead = position_.rows_ahead,
+                              .rows_behind = start_.rows_ahead};
+    const DisplayBuffer shown = record_display_resolve(*plan_, counts, recording);
+    (void)executor_->run(recording);
+    return shown;
+}
+
+FilmSums FilmSteps::read() {
+    clear_film();
+    return counted(read_film(*plan_, *executor_));
+}
+
+FilmSums FilmSteps::read_for_error() {
+    clear_film();
+    return counted(read_error_film(*plan_, *executor_));
+}
+
+FilmSums FilmSteps::read_rows(RowRange rows) {
+    clear_film();
+    return counted(read_film_rows(*plan_, rows, *executor_), rows.first);
+}
+
+}  // namespace voxilux

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/film_sums.h"
+#include "frame/frame_state.h"
+#include "passes/display/display.h"
+#include "renderer/film_readback.h"
+#include "renderer/slices.h"
+#include "shared/tally.h"
+#include "vk/executor.h"
+
+namespace voxilux {
+
+// How far a film has come.
+struct FilmPosition {
+    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t rows_ahead = 0;  // rows from the top that have one more
+
+    bool operator==(const FilmPosition&) const = default;
+
+    [[nodiscard]] std::uint32_t samples_of_row(std::uint32_t row) const {
+        return samples + (row < rows_ahead ? 1 : 0);
+    }
+};
+
+// What was done in a step.
+struct StepResult {
+    std::uint32_t slices = 0;
+    std::uint32_t samples = 0;  // of the whole image that ended
+    std::uint64_t pixels = 0;   // that got a sample
+    std::array<std::uint64_t, gpu::kTallyCount> counters{};
+    std::vector<PassTime> passes;
+};
+
+// Takes samples of one plan, slice by slice, on a device that holds the world: the one loop over slices.
+class FilmSteps {
+  public:
+    // The plan and the executor outlive this. `state` is what earlier frames left on the device.
+    FilmSteps(const RenderPlan& plan, Executor& executor, bool is_cpu, const FrameState& state = {});
+
+    // Begins a frame. Its film is empty on the device and goes on from `start`: what it held until then is
+    // the caller's.
+    void start_frame(const gpu::FrameParams& params, FilmPosition start = {});
+
+    // The next slice that step_slice would take, or one that a step would take in so many seconds.
+    [[nodiscard]] Slice next_slice() const { return governor_.slice_at(position_.rows_ahead); }
+    [[nodiscard]] Slice next_slice(double budget_s) const;
+
+    // Renders one slice, as large as the device should take at once.
+    StepResult step_slice();
+
+    // Renders slices until `budget_s` is over: one at least, and no other that is expected to end later.
+    StepResult step(double budget_s);
+
+    // Renders this slice, which begins at the position, into a film that need not be empty; what it did is
+    // added to `done`. `kept`: buffers to read back when it is rendered.
+    RunResult take(const Slice& slice, StepResult& done, std::span<const std::string> kept = {});
+
+    // Means of the film in a buffer on the device.
+    DisplayBuffer display();
+
+    // The film of this frame with the samples of its rows; the second one without what no error needs.
+    [[nodiscard]] FilmSums read();
+    [[nodiscard]] FilmSums read_for_error();
+    // Some rows, all in one film band.
+    [[nodiscard]] FilmSums read_rows(RowRange rows);
+
+    [[nodiscard]] FilmPosition position() const { return position_; }
+    // What this frame, as far as it is, leaves to the next one.
+    [[nodiscard]] FrameState state() const;
+
+  private:
+    void clear_film();
+    [[nodiscard]] FilmSums counted(FilmSums film, std::uint32_t first_row = 0) const;
+
+    const RenderPlan* plan_;
+    Executor* executor_;
+    SliceGovernor governor_;
+    FrameState state_;
+    gpu::FrameParams params_{};
+    FilmPosition start_;
+    FilmPosition position_;
+    bool is_cleared_ = false;
+    double row_s_ = 0.0;  // of the last slice, per row
+};
+
+}  // namespace voxilux

@@ -1,0 +1,165 @@
+#include "renderer/renderer.h"
+
+#include <utility>
+
+#include "frame/footprint.h"
+#include "frame/frame.h"
+#include "passes/upload.h"
+#include "renderer/radius_pilot.h"
+#include "scene/scene_camera.h"
+
+namespace voxilux {
+namespace {
+
+// All of a scene but its voxels, which the world holds.
+Scene without_voxels(const Scene& scene) {
+    return {.materials = scene.materials,
+            .spheres = scene.spheres,
+            .sun = scene.sun,
+            .sky = scene.sky,
+            .camera = camera_of(scene),
+            .settings = scene.settings};
+}
+
+// camera_of() a scene that names none, when its voxels fill `box`.
+Camera framing_camera_of(const Scene& scene, const Box& box) {
+    const glm::dvec2 size(scene.settings.size);
+    return default_camera(united(box, sphere_bounds(scene.spheres)), size.x / size.y);
+}
+
+}  // namespace
+
+Renderer::Renderer(Device& device, const ExecutorOptions& options)
+    : limits_(device.limits()), executor_(device, pass_shaders(), options) {}
+
+void Renderer::prepare(const Scene& scene, const PlanRequest& request) {
+    PreparedScene next = prepare_scene(scene, request, limits_);
+    editing_.reset();
+    first_radius_.reset();
+    is_framed_ = !scene.camera;
+    adopt(std::move(next), scene, request);
+}
+
+void Renderer::set_voxels(const Scene& scene) {
+    PreparedScene next = prepare_scene(scene, request_, limits_);
+    editing_.reset();
+    is_framed_ = !scene.camera;
+    adopt(std::move(next), scene, request_);
+}
+
+void Renderer::prepare_editable(const Scene& scene, const PlanRequest& request) {
+    PlanRequest with_room = request;
+    with_room.leaves_room = true;
+    EditableVoxels voxels(scene);
+    PreparedScene next =
+        prepare_scene(scene, measure_scene(scene, voxels.facts()), voxels.world(), with_room, limits_);
+    editing_ = Editing{.voxels = std::move(voxels)};
+    first_radius_.reset();
+    is_framed_ = !scene.camera;
+    adopt(std::move(next), scene, with_room);
+}
+
+// The scene as it would be prepared anew: with the edited voxels, or without any.
+PreparedScene Renderer::prepare_again(const Scene& scene, const PlanRequest& request) const {
+    if (!editing_) return prepare_scene(scene, request, limits_);
+    const EditableVoxels& voxels = editing_->voxels;
+    return prepare_scene(scene, measure_scene(scene, voxels.facts()), voxels.world(), request, limits_);
+}
+
+void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& request) {
+    (void)frame_params(next.plan, scene, next.march_world);  // refuses a camera that is too far away
+    FrameState state = steps_ ? steps_->state() : FrameState{};
+    state.change_world();
+    scene_ = without_voxels(scene);
+    request_ = request;
+    prepared_ = std::move(next);
+    if (editing_) editing_->is_grown = false;
+    pending_ = {};
+    record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
+    start_plan(state);
+}
+
+void Renderer::set_camera(const Camera& camera) {
+    Scene scene = scene_;
+    scene.camera = camera;
+    // A scene without voxels counts its coordinates from a point near the camera.
+    is_framed_ = false;
+    if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request_), scene, request_);
+    steps_->start_frame(frame_params(prepared_->plan, scene, prepared_->march_world));
+    scene_.camera = camera;
+}
+
+void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted) {
+    PlanRequest request = wanted;
+    request.leaves_room = editing_.has_value();
+    Scene scene = scene_;
+    scene.settings = settings;
+    if (is_framed_) scene.camera.reset();
+    first_radius_.reset();
+    if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request), scene, request);
+    if (is_framed_) scene.camera = framing_camera_of(scene, prepared_->facts.box);
+    const bool had_voxels = prepared_->plan.has(Effect::voxels);
+    // The structure on the host may be a grown one.
+    if (!had_voxels && editing_) return adopt(prepare_again(scene, request), scene, request);
+    RenderPlan plan = plan_within_memory(scene, prepared_->facts, prepared_->plan.world, request, limits_);
+    upload();
+    request_ = request;
+    scene_ = std::move(scene);
+    prepared_->plan = std::move(plan);
+    if (had_voxels)
+        record_matter_upload(prepared_->plan, scene_, prepared_->march_world.origin, prepared_->lights,
+                             pending_);
+    else
+        record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
+    start_plan({});
+}
+
+// The plan is a new one. One radius of photons serves all cameras, so that frames do not flicker.
+void Renderer::start_plan(const FrameState& state) {
+    if (prepared_->plan.needs_pilot()) {
+        if (!first_radius_) first_radius_ = pilot_radius(*prepared_, scene_, executor());
+        prepared_->plan = plan_with_radius(prepared_->plan, *first_radius_);
+    }
+    steps_.emplace(prepared_->plan, executor_, limits_.is_cpu, state);
+    restart();
+}
+
+void Renderer::restart(FilmPosition start) {
+    steps_->start_frame(frame_params(prepared_->plan, scene_, prepared_->march_world), start);
+}
+
+void Renderer::upload() {
+    if (pending_.commands().empty()) return;
+    add_times(upload_times_, executor_.run(std::exchange(pending_, {})).passes);
+}
+
+Executor& Renderer::executor() {
+    upload();
+    return executor_;
+}
+
+FilmSteps& Renderer::ready_film() {
+    upload();
+    return *steps_;
+}
+
+StepResult Renderer::step(double budget_s) {
+    return with_uploads(ready_film().step(budget_s));
+}
+
+StepResult Renderer::step_slice() {
+    return with_uploads(ready_film().step_slice());
+}
+
+DisplayBuffer Renderer::display() {
+    return ready_film().display();
+}
+
+StepResult Renderer::with_uploads(StepResult step) {
+    std::vector<PassTime> passes = std::exchange(upload_times_, {});
+    add_times(passes, step.passes);
+    step.passes = std::move(passes);
+    return step;
+}
+
+}  // namespace voxilux
