@@ -1,6 +1,7 @@
 #include "render/print_render.h"
 
 #include "base/error.h"
+#include "frame/footprint.h"
 #include "jobs/report.h"
 
 namespace voxilux {

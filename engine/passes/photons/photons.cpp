@@ -17,7 +17,6 @@ PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Pl
                                                     .most_power = plan.photons.most_power,
                                                     .buckets = plan.photons.buckets,
                                                     .capacity = plan.photons.capacity,
-                                                    .photon_count = plan.photons.count(),
                                                     .iteration = iteration,
                                                     .alpha = settings.alpha});
     record_photon_clear(plan, params, recording);
