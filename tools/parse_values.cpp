@@ -10,16 +10,12 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/settings.h"
 #include "base/nearest_name.h"
+#include "scene/settings.h"
 #include "scene/vox_animation.h"
 
 namespace voxilux {
 namespace {
-
-[[noreturn]] void refuse(const std::string& complaint) {
-    throw Error(ExitCode::usage, complaint);
-}
 
 // A finite number from 0 up and what follows it; nothing when the text does not start with one.
 std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
@@ -74,6 +70,10 @@ T parse_name(std::string_view flag, std::string_view typed, const Names<T, N>& t
 }
 
 }  // namespace
+
+void refuse(const std::string& complaint) {
+    throw Error(ExitCode::usage, complaint);
+}
 
 glm::ivec2 parse_size(std::string_view flag, std::string_view text) {
     glm::ivec2 size(0);
@@ -225,7 +225,8 @@ std::optional<double> parse_photon_radius(std::string_view text) {
     const auto number = leading_number(text);
     const Range range = setting_of<PhotonSettings>("radius").range;
     if (number && number->second.empty() && range.holds(number->first)) return number->first;
-    refuse(fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}", text, to_string(range)));
+    refuse(
+        fmt::format("--radius: '{}' is neither auto nor a number of voxels in {}", text, to_string(range)));
 }
 
 }  // namespace voxilux
