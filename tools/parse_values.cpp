@@ -17,10 +17,6 @@
 namespace voxilux {
 namespace {
 
-[[noreturn]] void refuse(const std::string& complaint) {
-    throw Error(ExitCode::usage, complaint);
-}
-
 // A finite number from 0 up and what follows it; nothing when the text does not start with one.
 std::optional<std::pair<double, std::string_view>> leading_number(std::string_view text) {
     double value = 0.0;
@@ -74,6 +70,10 @@ T parse_name(std::string_view flag, std::string_view typed, const Names<T, N>& t
 }
 
 }  // namespace
+
+void refuse(const std::string& complaint) {
+    throw Error(ExitCode::usage, complaint);
+}
 
 glm::ivec2 parse_size(std::string_view flag, std::string_view text) {
     glm::ivec2 size(0);

@@ -20,6 +20,9 @@
 
 namespace voxilux {
 
+// Throws Error(usage).
+[[noreturn]] void refuse(const std::string& complaint);
+
 // "640x360": two whole numbers from 1 up. `flag` is for the message.
 [[nodiscard]] glm::ivec2 parse_size(std::string_view flag, std::string_view text);
 

@@ -32,29 +32,29 @@ SortedJson numbers(const Vector& v) {
 
 SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera& camera) {
     const RenderSettings& s = scene.settings;
-    return {
-        {"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
-        {"voxels", facts.voxel_count},
-        {"instances", facts.instance_count},
-        {"models", scene.models.size()},
-        {"spheres", facts.sphere_count},
-        {"materials", facts.material_count},
-        {"voxel_box", facts.has_voxels ? SortedJson{numbers(facts.box.lo), numbers(facts.box.hi)} : SortedJson(nullptr)},
-        {"fill_ratio", facts.fill_ratio},
-        {"sun", facts.sun_reaches},
-        {"sky", facts.has_sky},
-        {"emitters", facts.has_emitters},
-        {"glass", facts.has_glass},
-        {"metal", facts.has_metal},
-        {"camera",
-         {{"position", numbers(camera.position)},
-          {"yaw_deg", camera.yaw_deg},
-          {"pitch_deg", camera.pitch_deg},
-          {"fov_y_deg", camera.fov_y_deg},
-          {"of_the_file", scene.camera.has_value()}}},
-        {"size", {s.size.x, s.size.y}},
-        {"spp", s.spp},
-        {"warnings", scene.warnings}};
+    return {{"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+            {"voxels", facts.voxel_count},
+            {"instances", facts.instance_count},
+            {"models", scene.models.size()},
+            {"spheres", facts.sphere_count},
+            {"materials", facts.material_count},
+            {"voxel_box", facts.has_voxels ? SortedJson{numbers(facts.box.lo), numbers(facts.box.hi)}
+                                           : SortedJson(nullptr)},
+            {"fill_ratio", facts.fill_ratio},
+            {"sun", facts.sun_reaches},
+            {"sky", facts.has_sky},
+            {"emitters", facts.has_emitters},
+            {"glass", facts.has_glass},
+            {"metal", facts.has_metal},
+            {"camera",
+             {{"position", numbers(camera.position)},
+              {"yaw_deg", camera.yaw_deg},
+              {"pitch_deg", camera.pitch_deg},
+              {"fov_y_deg", camera.fov_y_deg},
+              {"of_the_file", scene.camera.has_value()}}},
+            {"size", {s.size.x, s.size.y}},
+            {"spp", s.spp},
+            {"warnings", scene.warnings}};
 }
 
 // What a plane of numbers holds. The mean is over its finite values.
@@ -135,8 +135,9 @@ FileFacts scene_facts(const std::filesystem::path& path) {
 FileFacts image_facts(const std::filesystem::path& path) {
     const Image image = read_image(path);
     FileFacts facts{.text = fmt::format("size      {}x{}\n", image.width, image.height)};
-    facts.json = {
-        {"size", {image.width, image.height}}, {"channels", SortedJson::array()}, {"attributes", SortedJson::object()}};
+    facts.json = {{"size", {image.width, image.height}},
+                  {"channels", SortedJson::array()},
+                  {"attributes", SortedJson::object()}};
     for (const auto& [name, channel] : image.channels)
         add_channel(image, name, facts);
     for (const auto& [name, text] : image.attributes) {

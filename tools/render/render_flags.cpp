@@ -51,10 +51,6 @@ void add_part_flags(Flags& flags, RenderCommand& command) {
                      "go on from FILE.exr.part, which a killed, interrupted or timed out render left");
 }
 
-[[noreturn]] void refuse(const std::string& why) {
-    throw Error(ExitCode::usage, why);
-}
-
 void refuse_parts_of_a_range(const RenderCommand& command) {
     const auto refuse_flag = [](const char* flag, const char* instead) {
         refuse(fmt::format("{} is for one picture; {}", flag, instead));

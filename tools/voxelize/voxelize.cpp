@@ -47,10 +47,6 @@ std::string progress_text(double done, double elapsed_s, bool as_json) {
                                  left_s);
 }
 
-[[noreturn]] void refuse(const std::string& why) {
-    throw Error(ExitCode::usage, why);
-}
-
 std::string checked_output(const std::string& file) {
     if (!has_ending(file, ".vox")) refuse(fmt::format("-o {}: a mesh is written as .vox", file));
     return file;
