@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "passes/world.h"
 #include "shared/hash.h"
@@ -64,8 +66,14 @@ INSTANTIATE_TEST_SUITE_P(Pass, WorldGrow, ::testing::ValuesIn(all_traversals()),
 // or of bricks.
 class WorldGrowNightly : public ::testing::TestWithParam<Traversal> {};
 
+std::vector<Traversal> structures_with_boxes() {
+    std::vector<Traversal> found;
+    std::ranges::copy_if(all_traversals(), std::back_inserter(found),
+                         [](Traversal traversal) { return !growing_levels(traversal).empty(); });
+    return found;
+}
+
 TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the_cpu) {
-    if (growing_levels(GetParam()).empty()) GTEST_SKIP() << "no boxes to grow";
     const int log2 = gpu::root_log2(static_cast<gpu::uint>(GetParam()));
     VoxelWorld world(glm::ivec3(0), glm::ivec3(256, 128, 132) / (1 << (gpu::kChunkLog2 - log2)));
     for (std::uint32_t i = 0; i < 3000; ++i)
@@ -76,7 +84,8 @@ TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the
     EXPECT_TRUE(got.roots == want.roots && got.nodes == want.nodes && got.leaves == want.leaves);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pass, WorldGrowNightly, ::testing::ValuesIn(all_traversals()), test::traversal_name);
+INSTANTIATE_TEST_SUITE_P(Pass, WorldGrowNightly, ::testing::ValuesIn(structures_with_boxes()),
+                         test::traversal_name);
 
 // A voxel in each chunk: the nodes of one structure and the roots of the other pass the 128 MiB of a binding.
 TEST(WorldGrowLargeNightly, levels_over_the_binding_limit_get_the_bits_of_the_cpu) {
