@@ -194,6 +194,7 @@ RenderPlan plan_without(RenderPlan plan, Effect effect) {
 
 RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.spp = 1;
+    plan.shard = {};  // every shard finds the same
     plan.settings.photons.classic = true;
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
