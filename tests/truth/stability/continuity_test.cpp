@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "formats/vox_read.h"
 #include "scene/vox_scene.h"
@@ -84,7 +85,7 @@ Scene scene_of(const std::string& models, const std::string& graph, const std::s
 TEST(Continuity, d4_emitter_covered_on_all_sides_changes_no_bit) {
     const Scene scene = lit_room();
     Scene with_emitter = scene;
-    test::add_box(with_emitter, {8, 8, 1}, {9, 9, 2}, test::add_lamp(with_emitter, 50.0f));  // at two walls
+    test::add_box(with_emitter, {8, 8, 1}, {9, 9, 2}, test::add_lamp(with_emitter, 50.0f));  // two sides open
     EXPECT_GT(differences(scene, with_emitter), 0u) << "the negative control: its other sides show";
     with_emitter.instances.back().translation += glm::ivec3(0, 0, -2);  // into the floor
     Scene with_floor = scene;
@@ -188,14 +189,14 @@ Scene turned(const Scene& scene, const Rotation& rotation) {
     result.instances.clear();
     for (const Instance& instance : scene.instances) {
         const VoxelModel& model = scene.models[instance.model];
-        const glm::dvec3 a = point(world_cell(instance, model.size, {0, 0, 0}));
-        const glm::dvec3 b = point(world_cell(instance, model.size, model.size - 1) + 1);
+        const glm::dvec3 a = point(glm::dvec3(world_cell(instance, model.size, {0, 0, 0})));
+        const glm::dvec3 b = point(glm::dvec3(world_cell(instance, model.size, model.size - 1) + 1));
         test::add_box(result, glm::ivec3(glm::min(a, b)), glm::ivec3(glm::max(a, b)),
                       model.voxels.front().material);
     }
     for (Sphere& sphere : result.spheres)
         sphere.centre = point(sphere.centre);
-    const glm::dvec3 sun = point(scene.sun.direction());
+    const glm::dvec3 sun = point(glm::dvec3(scene.sun.direction()));
     result.sun.azimuth_deg = static_cast<float>(glm::degrees(std::atan2(sun.y, sun.x)));
     const double yaw = glm::radians(scene.camera->yaw_deg);
     const glm::dvec3 view = point({std::cos(yaw), std::sin(yaw), 0.0});
@@ -242,8 +243,7 @@ TEST(Continuity, d6_mirrored_scene_gives_the_mirrored_picture) {
 // The greatest difference between the light of sky and sun together and the sum of both, per sample.
 double additivity_error(const Scene& scene, const Scene& sky, const Scene& sun) {
     double greatest = 0.0;
-    test::FrameRig rig(scene);
-    const FramePlanes both = rig.render(0);
+    const FramePlanes both = test::render_first_sample(scene);
     const FramePlanes of_sky = test::render_first_sample(sky), of_sun = test::render_first_sample(sun);
     for (std::size_t i = 0; i < both.color.size(); ++i) {
         const glm::dvec3 sum = glm::dvec3(of_sky.color[i]) + glm::dvec3(of_sun.color[i]);
