@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "film/film.h"
+#include "passes/plane.h"
 #include "renderer/renderer.h"
 #include "support/device_fixture.h"
 #include "support/edited_scene.h"
@@ -229,7 +230,8 @@ TEST(Renderer, refused_change_leaves_it_as_it_was) {
 // Structure words on the device.
 std::vector<std::uint32_t> device_words(Renderer& renderer, const std::string& buffer) {
     Recording recording;
-    recording.readback(use_buffer(renderer.plan(), buffer, recording));
+    (void)world_buffers(renderer.plan(), recording);
+    recording.readback(buffer);
     return values_of<std::uint32_t>(renderer.executor().run(recording), buffer);
 }
 
