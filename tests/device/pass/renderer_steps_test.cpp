@@ -11,6 +11,7 @@
 #include "support/device_fixture.h"
 #include "support/edited_scene.h"
 #include "support/light_scenes.h"
+#include "support/traversal_name.h"
 
 namespace voxilux::test {
 namespace {
@@ -108,6 +109,10 @@ struct Case {
     const char* name;
     Scene (*scene)();
 };
+
+void PrintTo(const Case& one, std::ostream* out) {
+    *out << one.name;
+}
 
 class RendererSteps : public testing::TestWithParam<Case> {
   protected:

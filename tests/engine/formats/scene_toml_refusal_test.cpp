@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{
             "key", "[photons]\nphotons = 1\n",
             "s.toml:2:1: unknown key 'photons' in [photons]; known: 'count', 'radius', 'alpha', 'scatter', "
-            "'classic', 'roulette', 'depth'"}),
+            "'classic', 'roulette', 'depth', 'caustics', 'indirect'"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(

@@ -17,7 +17,9 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
     for (const Effect effect : effects)
         plan.effects[static_cast<std::size_t>(effect)].on = true;
     plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
-    plan.settings.size = {4, 3};
+    plan.settings.size = plan.image_size = {4, 3};
+    plan.band_rows = plan.slice_rows = 3;
+    plan.band_count = 1;
     return plan;
 }
 

@@ -25,7 +25,9 @@ Sizes planned_sizes(const Footprint& needs) {
     return sizes;
 }
 
-void expect_as_planned(const Scene& scene, const PlanRequest& request) {
+// A first radius is named, since a pilot is no part of a frame: footprint() counts what it holds.
+void expect_as_planned(Scene scene, const PlanRequest& request) {
+    scene.settings.photons.radius = 1.0;
     const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
     const test::RecordedRender render = test::record_render(scene, prepared);
     const Footprint needs = footprint(prepared.plan);

@@ -137,7 +137,8 @@ TEST(SliceGovernor, fewer_rows_may_be_asked_for) {
     EXPECT_EQ(governor.slice_at(0, 0).row_count, 1u);
     EXPECT_EQ(governor.slice_at(0, 1000).row_count, std::min(governor.rows(), 80u));
     RenderPlan photons = plan_for(1280, {800, 800});
-    photons.effects[static_cast<std::size_t>(Effect::caustics)].on = true;
+    photons.effects[static_cast<std::size_t>(Effect::caustics)] = {Effect::caustics, true};
+    photons.techniques = choose_techniques(photons.effects, photons.ao, photons.settings.photons);
     EXPECT_EQ(SliceGovernor(photons, true).slice_at(0, 3).row_count, 800u);
 }
 
