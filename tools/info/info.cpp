@@ -43,7 +43,7 @@ CLI::App* add_info(CLI::App& app, InfoOptions& options) {
 
 int run_info(const InfoOptions& options) {
     const FileFacts facts = facts_of(options.file);
-    const std::string json = facts.json.dump(2) + "\n";
+    const std::string json = facts.json.dump(2, ' ', true) + "\n";
     if (options.json != "-") fmt::print("{}", facts.text);
     if (options.json == "-") fmt::print("{}", json);
     if (!options.json.empty() && options.json != "-")
