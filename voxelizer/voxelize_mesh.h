@@ -14,6 +14,7 @@ struct VoxelizeRequest {
     GridRequest grid;
     Coverage coverage = Coverage::conservative;
     bool is_solid = false;
+    InsideRule inside = InsideRule::winding;  // with is_solid
     unsigned threads = 0;  // 0: as many as the machine has; the result is the same for any number
     std::function<void(double done)> progress;  // share in [0, 1], from any thread, one at a time; may throw
 };
