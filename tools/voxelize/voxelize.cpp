@@ -58,27 +58,49 @@ VoxelizeRequest request_of(const VoxelizeCommand& command) {
     return {.grid = {.resolution = command.resolution,
                      .metres_per_voxel = command.scale_m,
                      .up = *up,
-                     .quarter_turns = command.turn_deg / 90},
+                     .quarter_turns = command.turn_deg / 90,
+                     .is_on_floor = command.on_floor},
             .coverage = command.thin ? Coverage::thin : Coverage::conservative,
             .is_solid = command.solid,
+            .inside = command.parity ? InsideRule::parity : InsideRule::winding,
             .threads = command.threads};
 }
 
+void warn_of_solid(const VoxelizeCommand& command, const SolidReport& solid,
+                   std::vector<std::string>& warnings) {
+    if (solid.open_edges > 0) {
+        const std::string outcome = command.parity
+                                        ? fmt::format("{} rows of voxels are not filled", solid.open_rows)
+                                        : "its inside is where the generalised winding number is above 1/2";
+        warnings.push_back(
+            fmt::format("the mesh is open: {} edges have no partner, {}", solid.open_edges, outcome));
+    }
+    if (solid.turned_edges > 0 && !command.parity) {
+        warnings.push_back(
+            fmt::format("the mesh is not oriented: at {} edges triangles face opposite sides{}",
+                        solid.turned_edges, solid.open_edges > 0 ? "" : "; its inside is found by parity"));
+    }
+    if (solid.disputed > 0 && (command.parity || solid.turned_edges > 0)) {
+        warnings.push_back(fmt::format(
+            "the mesh overlaps itself: parity and winding number disagree on {} voxels of the inside",
+            solid.disputed));
+    }
+}
+
 // What the user should know, one line each.
-std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set) {
+std::vector<std::string> warnings_of(const VoxelizeCommand& command, const Mesh& mesh, const VoxelSet& set,
+                                     const PaletteError& error) {
     std::vector<std::string> warnings = mesh.warnings;
     if (set.dropped != 0)
         warnings.push_back(
             fmt::format("{} triangles with a vertex that is not finite are left out", set.dropped));
-    if (set.solid.open_edges + set.solid.open_rows != 0) {
+    warn_of_solid(command, set.solid, warnings);
+    if (const auto range = range_warning(set.grid)) warnings.push_back(*range);
+    if (error.radiances_off > 0) {
         warnings.push_back(
-            fmt::format("the mesh is open: {} edges have no partner, {} rows of voxels are not filled",
-                        set.solid.open_edges, set.solid.open_rows));
-    }
-    if (set.solid.disputed != 0) {
-        warnings.push_back(fmt::format(
-            "the mesh overlaps itself: parity and winding number disagree on {} voxels of the inside",
-            set.solid.disputed));
+            fmt::format("{} voxels emit over 3 % more or less than the mesh says: 255 colours "
+                        "are too few",
+                        error.radiances_off));
     }
     return warnings;
 }
@@ -119,7 +141,12 @@ CLI::App* add_voxelize(CLI::App& app, VoxelizeCommand& command) {
         ->type_name("DEG");
     sub->add_flag("--thin", command.thin,
                   "fewest voxels without a hole (6-separating), instead of all that the surface touches");
-    sub->add_flag("--solid", command.solid, "fill the inside; the report says when the mesh is open");
+    CLI::Option* solid =
+        sub->add_flag("--solid", command.solid, "fill the inside, by winding number: what overlaps is one");
+    sub->add_flag("--parity", command.parity, "with --solid: by parity, so that what overlaps is hollow")
+        ->needs(solid);
+    sub->add_flag("--floor", command.on_floor,
+                  "put the lowest voxels at z = 0; default: the middle is at the origin");
     sub->add_flag("--dither", command.dither, "mix palette colours by place");
     sub->add_flag("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
     sub->add_option("--scene", command.scene, "which scene of a glTF file, from 0; default: the file's own")
@@ -155,10 +182,10 @@ int run_voxelize(const VoxelizeCommand& command) {
     const VoxelSet set = voxelize_mesh(mesh, request);
     progress.finish();
     times.end_step("voxelize");
-    const std::vector<std::string> warnings = warnings_of(mesh, set);
-    refuse_warnings(command, warnings);
     const VoxelPalette palette(set, command.dither);
     times.end_step("palette");
+    const std::vector<std::string> warnings = warnings_of(command, mesh, set, palette.error());
+    refuse_warnings(command, warnings);
     const VoxOutput written =
         write_voxels(output, set, palette, mesh, fs::path(command.mesh).stem().string());
     times.end_step("write");

@@ -18,6 +18,8 @@ struct VoxelizeCommand {
     int turn_deg = 0;
     bool thin = false;
     bool solid = false;
+    bool parity = false;
+    bool on_floor = false;
     bool dither = false;
     bool ignore_mask = false;
     bool strict = false;

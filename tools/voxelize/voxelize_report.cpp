@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace voxilux {
 namespace {
@@ -59,6 +60,7 @@ Json solid_json(const VoxelizeFacts& facts) {
     if (!facts.request.is_solid) return nullptr;
     const SolidReport& solid = facts.set.solid;
     return {{"open_edges", solid.open_edges},
+            {"turned_edges", solid.turned_edges},
             {"open_rows", solid.open_rows},
             {"parity_against_winding", solid.disputed}};
 }
@@ -69,7 +71,8 @@ Json palette_json(const VoxelPalette& palette) {
             {"looks", looks_of(palette)},
             {"de76_mean", error.mean},
             {"de76_p95", error.p95},
-            {"de76_max", error.largest}};
+            {"de76_max", error.largest},
+            {"radiances_off", error.radiances_off}};
 }
 
 Json steps_json(const StepTimes& times) {
@@ -115,8 +118,8 @@ std::string describe(const VoxelizeFacts& facts) {
     for (const StepTimes::Step& step : facts.times.steps())
         text += fmt::format("step      {:<9} {:8.2f} s wall {:8.2f} s CPU\n", step.label, step.wall_s,
                             step.cpu_s);
-    text += fmt::format("wrote     {}: {} models, {:.1f} MiB\n", facts.output.string(), facts.written.models,
-                        static_cast<double>(facts.written.bytes) / (1 << 20));
+    text += fmt::format("wrote     {}: {} models, {:.1f} MiB\n", printable(facts.output.string(), kUncut),
+                        facts.written.models, static_cast<double>(facts.written.bytes) / (1 << 20));
     return text;
 }
 
@@ -124,8 +127,8 @@ Json report_json(const VoxelizeFacts& facts) {
     const VoxelSet& set = facts.set;
     return {{"version", VX_VERSION},
             {"command", "voxelize"},
-            {"mesh", facts.command.mesh},
-            {"output", facts.output.string()},
+            {"mesh", printable(facts.command.mesh, kUncut)},
+            {"output", printable(facts.output.string(), kUncut)},
             {"wall_s", facts.times.wall_s()},
             {"cpu_s", cpu_s()},
             {"peak_rss_mib", peak_rss_mib()},
