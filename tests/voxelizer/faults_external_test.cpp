@@ -50,11 +50,14 @@ TEST(FaultsExternal, emission_is_what_the_files_say) {
     expect_near(at_64("g_strength16.gltf").material.emission, {16, 16, 16});
 }
 
-// Five squares of 1, 2 apart: 9 by 1, so 64 cells are 9 units and a square about 8 x 8 cells.
+// Five squares of 8 x 8 cells, 16 apart. Those before the last touch a column of cells behind their right
+// edge.
 TEST(FaultsExternal, five_instances_are_five_squares) {
     SKIP_WITHOUT_SHARED_DATA();
-    VoxelizeRequest request{.grid = {.resolution = 72}};
+    VoxelizeRequest request{.grid = {.resolution = 72}, .coverage = Coverage::thin};
     EXPECT_EQ(voxelized("g_instancing.gltf", request).voxels, 5u * 8 * 8);
+    request.coverage = Coverage::conservative;
+    EXPECT_EQ(voxelized("g_instancing.gltf", request).voxels, 4u * 9 * 8 + 8u * 8);
     EXPECT_TRUE(at_64("g_instancing.gltf").warnings.empty());
 }
 
