@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "voxelizer/gltf_form.h"
 #include "voxelizer/gltf_json.h"
-#include "voxelizer/mesh_notes.h"
+#include "voxelizer/mesh_features.h"
 #include "voxelizer/mesh_uri.h"
 
 namespace voxilux {
@@ -26,14 +26,6 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
-
-// What a file may require. Those on materials change looks that a voxel can show, or are read as far as it
-// can.
-constexpr std::array<std::string_view, 8> kReadExtensions = {
-    "KHR_texture_transform",      "KHR_mesh_quantization", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission", "KHR_lights_punctual",
-};
 
 std::uint32_t word_at(Bytes bytes, std::size_t offset) {
     std::uint32_t word = 0;
@@ -96,18 +88,60 @@ void check_version(const JsonItem& root) {
 void check_required_extensions(const JsonItem& root) {
     if (!has(root, "extensionsRequired")) return;
     for (const std::string& name : read_texts(root, "extensionsRequired")) {
-        if (std::ranges::find(kReadExtensions, name) == kReadExtensions.end())
+        const MeshFeature* feature = find_feature(FeatureKind::gltf_extension, name);
+        if (feature == nullptr || feature->fate == FeatureFate::fallback)
             throw MeshFault(fmt::format(
                 "needs the extension {}, which is not read: export the mesh without it", quoted_name(name)));
     }
 }
 
+// How many objects of a document have each extension; one that the document has for its own lists alone
+// counts once. Iterative: a file may be nested as deep as it is long.
+std::map<std::string, std::size_t> extension_uses(const json& document) {
+    std::map<std::string, std::size_t> uses;
+    std::vector<const json*> open = {&document};
+    while (!open.empty()) {
+        const json& item = *open.back();
+        open.pop_back();
+        for (const auto& [key, value] : item.items()) {
+            if (!value.is_structured() || key == "extras") continue;
+            open.push_back(&value);
+            if (key != "extensions" || !value.is_object()) continue;
+            for (const auto& [name, extension] : value.items())
+                uses[name] += &item == &document ? 0 : 1;
+        }
+    }
+    for (auto& [name, count] : uses)
+        count = std::max<std::size_t>(count, 1);
+    return uses;
+}
+
+bool moves_nodes(const json& animation) {
+    if (!animation.is_object() || !animation.contains("channels")) return false;
+    return std::ranges::any_of(animation["channels"], [](const json& channel) {
+        const json path = channel.is_object() ? channel.value("/target/path"_json_pointer, json()) : json();
+        return path.is_string() && path != "weights";  // those of morph targets are noted at the mesh
+    });
+}
+
+// What the document says that is not read, or not as it stands.
+void note_features(const json& document, MeshNotes& notes) {
+    for (const auto& [name, uses] : extension_uses(document))
+        note_feature(FeatureKind::gltf_extension, name, notes, uses);
+    const auto animations = document.find("animations");
+    if (animations == document.end() || !animations->is_array()) return;
+    if (const auto moving = std::ranges::count_if(*animations, moves_nodes); moving > 0)
+        notes["an animation is ignored: the mesh is read in its pose of rest"] +=
+            static_cast<std::size_t>(moving);
+}
+
 // The form of the document, once it is known to be one that is read.
-json checked_form(Bytes text) {
+json checked_form(Bytes text, MeshNotes& notes) {
     const json document = parse_json(text);
     if (!document.is_object()) throw MeshFault("the JSON is not an object");
     check_version({&document, ""});
     check_required_extensions({&document, ""});
+    note_features(document, notes);
     return gltf_form(document);
 }
 
@@ -245,11 +279,12 @@ std::vector<unsigned char> buffer_bytes(const GltfDocument& document, const Buff
 
 }  // namespace
 
-GltfDocument parse_gltf(Bytes bytes, const std::filesystem::path& folder, const MeshLimits& limits) {
+GltfDocument parse_gltf(Bytes bytes, const std::filesystem::path& folder, const MeshLimits& limits,
+                        MeshNotes& notes) {
     GltfDocument document{.folder = folder, .limits = limits, .model = {}};
     GlbChunks chunks{.json = bytes, .binary = {}};
     if (bytes.size() >= 4 && word_at(bytes, 0) == kMagic) chunks = split_glb(bytes);
-    json form = checked_form(chunks.json);
+    json form = checked_form(chunks.json, notes);
     check_index_views(form);
     complete_cameras(form);
     const auto strides = take_strides(form);

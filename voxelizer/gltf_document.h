@@ -7,6 +7,7 @@
 
 #include "voxelizer/gltf_model.h"
 #include "voxelizer/load_mesh.h"
+#include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
 
@@ -19,10 +20,10 @@ struct GltfDocument {
 };
 
 // The document of a file's bytes, with all of its buffers: its container, version, required extensions and
-// the types of its fields are checked here, the rest where it is read. Throws MeshFault. Source: glTF 2.0
-// specification, sections 3 and 4.
+// the types of its fields are checked here, the rest where it is read; extensions that are not read are
+// noted. Throws MeshFault. Source: glTF 2.0 specification, sections 3 and 4.
 [[nodiscard]] GltfDocument parse_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
-                                      const MeshLimits& limits);
+                                      const MeshLimits& limits, MeshNotes& notes);
 
 // The bytes of bufferViews[index], inside its buffer. They live as long as the document.
 [[nodiscard]] std::span<const std::byte> view_bytes(const GltfDocument& document, std::size_t index);

@@ -55,12 +55,13 @@ constexpr Field kSpecularGlossiness[] = {{"diffuseFactor", Kind::numbers, {}, 4}
                                          {"diffuseTexture", Kind::object, kTextureInfo},
                                          {"glossinessFactor", Kind::number}};
 constexpr Field kEmissiveStrength[] = {{"emissiveStrength", Kind::number}};
-constexpr Field kTransmission[] = {{"transmissionFactor", Kind::number}};
+constexpr Field kTransmission[] = {{"transmissionFactor", Kind::number}, {"transmissionTexture", Kind::mark}};
 constexpr Field kIor[] = {{"ior", Kind::number}};
 constexpr Field kMaterialExtensions[] = {
     {"KHR_materials_pbrSpecularGlossiness", Kind::object, kSpecularGlossiness},
     {"KHR_materials_emissive_strength", Kind::object, kEmissiveStrength},
     {"KHR_materials_transmission", Kind::object, kTransmission},
+    {"KHR_materials_unlit", Kind::object},
     {"KHR_materials_ior", Kind::object, kIor}};
 constexpr Field kMaterial[] = {{"name", Kind::text},
                                {"pbrMetallicRoughness", Kind::object, kMetallicRoughness},
@@ -106,6 +107,12 @@ constexpr Field kPrimitive[] = {required({"attributes", Kind::object, kAttribute
 constexpr Field kMesh[] = {{"primitives", Kind::objects, kPrimitive}};
 constexpr Field kPerspective[] = {{"yfov", Kind::number}};
 constexpr Field kCamera[] = {{"name", Kind::text}, {"perspective", Kind::object, kPerspective}};
+constexpr Field kInstanceAttributes[] = {
+    {"TRANSLATION", Kind::integer}, {"ROTATION", Kind::integer}, {"SCALE", Kind::integer}};
+constexpr Field kInstancing[] = {{"attributes", Kind::object, kInstanceAttributes}};
+constexpr Field kVisibility[] = {{"visible", Kind::flag}};
+constexpr Field kNodeExtensions[] = {{"EXT_mesh_gpu_instancing", Kind::object, kInstancing},
+                                     {"KHR_node_visibility", Kind::object, kVisibility}};
 constexpr Field kNode[] = {{"mesh", Kind::integer},
                            {"camera", Kind::integer},
                            {"skin", Kind::integer},
@@ -113,7 +120,8 @@ constexpr Field kNode[] = {{"mesh", Kind::integer},
                            {"matrix", Kind::numbers, {}, 16},
                            {"translation", Kind::numbers, {}, 3},
                            {"rotation", Kind::numbers, {}, 4},
-                           {"scale", Kind::numbers, {}, 3}};
+                           {"scale", Kind::numbers, {}, 3},
+                           {"extensions", Kind::object, kNodeExtensions}};
 constexpr Field kScene[] = {{"name", Kind::text}, {"nodes", Kind::integers}};
 constexpr Field kAsset[] = {{"version", Kind::text}};
 constexpr Field kDocument[] = {

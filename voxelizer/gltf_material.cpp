@@ -7,6 +7,7 @@
 
 #include "base/checked_cast.h"
 #include "voxelizer/mesh_uri.h"
+#include "voxelizer/surface_look.h"
 
 namespace voxilux {
 namespace {
@@ -206,7 +207,6 @@ void read_specular_glossiness(Reader& reader, const Item& item, const MaterialUs
         read_texture_use(reader, info_of(find_in(old, "diffuseTexture")), name + ".diffuseTexture", use);
     material.metallic = 0.0f;
     material.roughness = 1.0f - unit_number(factor_in(old, "glossinessFactor", 1.0));
-    ++reader.notes["a material has specular colour and glossiness: its diffuse colour is read"];
 }
 
 void read_emission(Reader& reader, const Item& item, const MaterialUse& use, MeshMaterial& material) {
@@ -215,10 +215,7 @@ void read_emission(Reader& reader, const Item& item, const MaterialUse& use, Mes
         throw MeshFault(fmt::format("{}.emissiveFactor has {} numbers, not 3", item.name, v.size()));
     const double strength = factor_in(
         find_extension(item.material.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1.0);
-    constexpr double kBrightest = 1e6;  // keeps sums of many texels finite in floats
-    for (int i = 0; i < 3; ++i)
-        material.emissive[i] =
-            static_cast<float>(std::clamp(v[static_cast<std::size_t>(i)] * strength, 0.0, kBrightest));
+    material.emissive = emission_in_range(glm::dvec3(v[0], v[1], v[2]) * strength, reader.notes);
     if (material.emissive == glm::vec3(0.0f)) return;
     material.emissive_texture =
         read_texture_use(reader, info_of(item.material.emissiveTexture), item.name + ".emissiveTexture", use);
@@ -242,11 +239,19 @@ MeshMaterial read_material(Reader& reader, const MaterialUse& use) {
         read_specular_glossiness(reader, item, use, material);
     else
         read_metallic_roughness(reader, item, use, material);
-    read_emission(reader, item, use, material);
+    if (extensions.contains(
+            "KHR_materials_unlit")) {  // its colour is the base colour, and nothing else counts
+        material.metallic = 0.0f;
+        material.metallic_roughness_texture.reset();
+    } else {
+        read_emission(reader, item, use, material);
+    }
     material.alpha_mode = alpha_mode_of(item);
     material.alpha_cutoff = static_cast<float>(std::max(item.material.alphaCutoff, 0.0));
-    material.transmission = unit_number(
-        factor_in(find_extension(extensions, "KHR_materials_transmission"), "transmissionFactor", 0.0));
+    const Value* transmission = find_extension(extensions, "KHR_materials_transmission");
+    material.transmission = unit_number(factor_in(transmission, "transmissionFactor", 0.0));
+    if (find_in(transmission, "transmissionTexture") != nullptr)
+        ++reader.notes["the texture of a transmission is left out: its factor counts everywhere"];
     const double ior = factor_in(find_extension(extensions, "KHR_materials_ior"), "ior", 1.5);
     constexpr double kLargestIor = 10.0;
     material.ior = static_cast<float>(ior >= 1.0 ? std::min(ior, kLargestIor) : 1.5);

@@ -10,8 +10,8 @@
 #include <charconv>
 #include <limits>
 
+#include "base/printable.h"
 #include "voxelizer/load_mesh.h"
-#include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
 namespace {
@@ -78,7 +78,7 @@ tinygltf::Model parse_model(json form, const BufferReader& read_buffer) {
     std::string error, warning;
     const bool is_read = parser.LoadASCIIFromString(&model, &error, &warning, text.data(),
                                                     static_cast<unsigned>(text.size()), "");
-    if (!is_read) throw MeshFault(fmt::format("not valid glTF: {}", one_line(error)));
+    if (!is_read) throw MeshFault(fmt::format("not valid glTF: {}", printable(error)));
     return model;
 }
 

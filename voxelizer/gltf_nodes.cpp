@@ -8,7 +8,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
-#include "voxelizer/load_mesh.h"
+#include "base/printable.h"
+#include "voxelizer/gltf_accessor.h"
 
 namespace voxilux {
 namespace {
@@ -25,6 +26,20 @@ std::array<double, size> numbers_or(const std::vector<double>& numbers, const st
     return result;
 }
 
+// `t`, `r` (x, y, z, w) and `s` in one; nothing where the rotation is zero. A rotation is read as it stands:
+// the specification asks for a unit quaternion, and rounding is not a fault.
+std::optional<glm::dmat4> placement(const std::array<double, 3>& t, const std::array<double, 4>& r,
+                                    const std::array<double, 3>& s) {
+    const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
+    if (length == 0.0) return std::nullopt;
+    glm::dmat4 matrix =
+        glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
+    for (int column = 0; column < 3; ++column)
+        matrix[column] *= s[static_cast<std::size_t>(column)];
+    matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
+    return matrix;
+}
+
 glm::dmat4 local_matrix(const tinygltf::Node& node, const std::string& name) {
     if (!node.matrix.empty()) {
         const auto m = numbers_or<16>(node.matrix, name + ".matrix", {});
@@ -36,15 +51,66 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, const std::string& name) {
     const auto t = numbers_or<3>(node.translation, name + ".translation", {0, 0, 0});
     const auto r = numbers_or<4>(node.rotation, name + ".rotation", {0, 0, 0, 1});
     const auto s = numbers_or<3>(node.scale, name + ".scale", {1, 1, 1});
-    const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
-    if (length == 0.0) throw MeshFault(name + ".rotation is zero");
-    // Read as it stands: the specification asks for a unit quaternion, and rounding is not a fault.
-    glm::dmat4 matrix =
-        glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
-    for (int column = 0; column < 3; ++column)
-        matrix[column] *= s[static_cast<std::size_t>(column)];
-    matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
-    return matrix;
+    const auto matrix = placement(t, r, s);
+    if (!matrix) throw MeshFault(name + ".rotation is zero");
+    return *matrix;
+}
+
+// The numbers of one attribute of EXT_mesh_gpu_instancing; `count` becomes theirs, or is that of an attribute
+// before.
+std::optional<AccessorValues> instance_attribute(const GltfDocument& document, const tinygltf::Value& list,
+                                                 const char* key, std::size_t width, const std::string& name,
+                                                 std::optional<std::size_t>& count) {
+    if (!list.Has(key)) return std::nullopt;
+    const std::string own_name = fmt::format("{}.extensions.EXT_mesh_gpu_instancing.{}", name, key);
+    const auto index =
+        checked_index(list.Get(key).GetNumberAsInt(), document.model.accessors.size(), own_name, "accessors");
+    AccessorValues values = read_accessor(document, index.value());
+    if (values.width != width)
+        throw MeshFault(fmt::format("{} has elements of {} numbers, not {}", own_name, values.width, width));
+    if (count && *count != values.count)
+        throw MeshFault(
+            fmt::format("{} has {} elements, another attribute {}", own_name, values.count, *count));
+    count = values.count;
+    return values;
+}
+
+template <std::size_t size>
+std::array<double, size> element_or(const std::optional<AccessorValues>& values, std::size_t index,
+                                    const std::array<double, size>& fallback) {
+    if (!values) return fallback;
+    std::array<double, size> element{};
+    std::copy_n(values->values.begin() + static_cast<std::ptrdiff_t>(index * size), size, element.begin());
+    return element;
+}
+
+// Where the copies of a node's mesh stand in the node's space: one at its origin without
+// EXT_mesh_gpu_instancing. Source: that extension.
+std::vector<glm::dmat4> instances_of(const GltfDocument& document, const tinygltf::Node& node,
+                                     const std::string& name) {
+    const auto found = node.extensions.find("EXT_mesh_gpu_instancing");
+    if (found == node.extensions.end() || !found->second.Has("attributes")) return {glm::dmat4(1.0)};
+    const tinygltf::Value& list = found->second.Get("attributes");
+    std::optional<std::size_t> count;
+    const auto t = instance_attribute(document, list, "TRANSLATION", 3, name, count);
+    const auto r = instance_attribute(document, list, "ROTATION", 4, name, count);
+    const auto s = instance_attribute(document, list, "SCALE", 3, name, count);
+    if (count.value_or(1) > document.limits.parts)
+        throw MeshFault(fmt::format("over {} instances are not read", document.limits.parts));
+    std::vector<glm::dmat4> instances;
+    for (std::size_t i = 0; i < count.value_or(1); ++i) {
+        const auto matrix = placement(element_or<3>(t, i, {0, 0, 0}), element_or<4>(r, i, {0, 0, 0, 1}),
+                                      element_or<3>(s, i, {1, 1, 1}));
+        if (!matrix) throw MeshFault(fmt::format("{}: the rotation of instance {} is zero", name, i));
+        instances.push_back(*matrix);
+    }
+    return instances;
+}
+
+bool is_hidden(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found != node.extensions.end() && found->second.Has("visible") &&
+           !found->second.Get("visible").Get<bool>();
 }
 
 bool is_direction(const glm::dvec3& v) {
@@ -126,7 +192,8 @@ struct Step {
 
 }  // namespace
 
-PlacedNodes place_nodes(const tinygltf::Model& model, std::optional<std::size_t> scene, MeshNotes& notes) {
+PlacedNodes place_nodes(const GltfDocument& document, std::optional<std::size_t> scene, MeshNotes& notes) {
+    const tinygltf::Model& model = document.model;
     PlacedNodes placed;
     std::vector<bool> is_reached(model.nodes.size(), false);
     std::vector<Step> open;
@@ -143,14 +210,19 @@ PlacedNodes place_nodes(const tinygltf::Model& model, std::optional<std::size_t>
         const Step step = open.back();
         open.pop_back();
         const tinygltf::Node& node = model.nodes[step.node];
+        if (is_hidden(node)) continue;  // and all below it
         const std::string name = fmt::format("nodes[{}]", step.node);
         const glm::dmat4 matrix = step.parent * local_matrix(node, name);
         enter(children_of(model, step.node), matrix);
         if (const auto camera = checked_index(node.camera, model.cameras.size(), name + ".camera", "cameras"))
             place_camera(model.cameras[*camera], matrix, placed, notes);
         const auto mesh = checked_index(node.mesh, model.meshes.size(), name + ".mesh", "meshes");
-        if (mesh) placed.meshes.push_back({*mesh, matrix});
-        if (mesh && node.skin != -1) ++notes["a skin is ignored: the mesh is read in its pose of rest"];
+        if (!mesh) continue;
+        for (const glm::dmat4& instance : instances_of(document, node, name))
+            placed.meshes.push_back({*mesh, matrix * instance});
+        if (placed.meshes.size() > document.limits.parts)
+            throw MeshFault(fmt::format("over {} parts of meshes are not read", document.limits.parts));
+        if (node.skin != -1) ++notes["a skin is ignored: the mesh is read in its pose of rest"];
     }
     return placed;
 }

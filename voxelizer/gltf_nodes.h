@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "voxelizer/gltf_model.h"
+#include "voxelizer/gltf_document.h"
 #include "voxelizer/mesh.h"
 #include "voxelizer/mesh_notes.h"
 
@@ -23,9 +23,10 @@ struct PlacedNodes {
 };
 
 // What stands in one scene: `scene`, else the file's own choice, else its first; in a file without scenes,
-// every node. Orthographic cameras and skins are noted and left out. Throws MeshFault for a scene that is not
-// there, and for a node that is reached twice: a cycle, or two parents. Source: glTF 2.0, section 3.5.
-[[nodiscard]] PlacedNodes place_nodes(const tinygltf::Model& model, std::optional<std::size_t> scene,
+// every node that is visible, once for each instance. Orthographic cameras and skins are noted and left out.
+// Throws MeshFault for a scene that is not there, and for a node that is reached twice: a cycle, or two
+// parents. Source: glTF 2.0, section 3.5.
+[[nodiscard]] PlacedNodes place_nodes(const GltfDocument& document, std::optional<std::size_t> scene,
                                       MeshNotes& notes);
 
 }  // namespace voxilux

@@ -152,6 +152,7 @@ struct Corners {
     std::vector<std::uint32_t> indices;  // empty: the vertices in their order
     VertexRange vertices;
     Topology topology = Topology::list;
+    bool is_mirrored = false;  // the node turns clockwise into counter-clockwise; see glTF 2.0, section 3.7.4
 };
 
 void append_triangles(Loading& loading, const Corners& corners, std::uint32_t material, bool is_indexed) {
@@ -171,6 +172,7 @@ void append_triangles(Loading& loading, const Corners& corners, std::uint32_t ma
             vertex = corners.vertices.first + (is_indexed ? corners.indices[vertex] : vertex);
             is_whole = is_whole && is_finite(loading.mesh.positions[vertex]);
         }
+        if (corners.is_mirrored) std::swap(triangle.vertices.x, triangle.vertices.y);
         if (is_whole)
             triangles.push_back(triangle);
         else
@@ -201,7 +203,9 @@ void append_primitive(Loading& loading, const Part& part, const glm::dmat4& matr
         ++loading.notes["morph targets are ignored: the mesh is read without them"];
     check_has_data(loading, part, *key[0]);
     if (!shared.contains(key)) shared[key] = append_vertices(loading, key, matrix);
-    Corners corners{.vertices = shared[key], .topology = static_cast<Topology>(part.primitive.mode)};
+    Corners corners{.vertices = shared[key],
+                    .topology = static_cast<Topology>(part.primitive.mode),
+                    .is_mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0};
     const auto indices =
         checked_index(part.primitive.indices, model.accessors.size(), part.name + ".indices", "accessors");
     if (indices) corners.indices = read_vertex_indices(loading.document, *indices, corners.vertices.count);
@@ -217,11 +221,13 @@ void append_primitive(Loading& loading, const Part& part, const glm::dmat4& matr
 
 Mesh load_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                const MeshRequest& request, MeshNotes& notes) {
-    Loading loading{
-        .document = parse_gltf(bytes, folder, request.limits), .materials = {}, .mesh = {}, .notes = notes};
+    Loading loading{.document = parse_gltf(bytes, folder, request.limits, notes),
+                    .materials = {},
+                    .mesh = {},
+                    .notes = notes};
     loading.materials.budget.limits = request.limits;
     const tinygltf::Model& model = loading.document.model;
-    PlacedNodes placed = place_nodes(model, request.scene, notes);
+    PlacedNodes placed = place_nodes(loading.document, request.scene, notes);
     loading.mesh.cameras = std::move(placed.cameras);
     for (const PlacedMesh& place : placed.meshes) {
         const auto& primitives = model.meshes[place.mesh].primitives;

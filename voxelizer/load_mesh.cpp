@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "voxelizer/load_gltf.h"
 #include "voxelizer/load_obj.h"
 #include "voxelizer/mesh_notes.h"
@@ -38,7 +39,8 @@ void drop_unread_coordinates(Mesh& mesh) {
 
 Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
     const auto refuse = [&](const std::string& reason) {
-        return Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), one_line(reason)));
+        return Error(ExitCode::input_refused,
+                     fmt::format("{}: {}", printable(path.string(), kUncut), printable(reason)));
     };
     const std::string suffix = suffix_of(path);
     const bool is_gltf = suffix == ".gltf" || suffix == ".glb";

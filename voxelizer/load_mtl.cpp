@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/printable.h"
+#include "voxelizer/mesh_features.h"
 #include "voxelizer/mesh_uri.h"
 #include "voxelizer/obj_text.h"
+#include "voxelizer/surface_look.h"
 
 namespace voxilux {
 namespace {
@@ -25,28 +27,58 @@ struct MapLine {
 
 struct Entry {
     MeshMaterial material{.metallic = 0.0f};
+    std::optional<glm::dvec3> emission, filter;
     std::optional<MapLine> base_color, emissive, alpha;
-    std::optional<double> opacity, transparency, roughness, shine;
-    int illumination = 0;
+    std::optional<double> opacity, transparency, roughness, shine, ior;
+    double illumination = 2.0;
+    bool has_metallic = false;
+};
+
+// What a line is read with.
+struct MtlLine {
+    ObjLines& lines;
+    std::string key;
+    MeshNotes& notes;
 };
 
 float unit(double value) {
     return std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 1.0f;
 }
 
-// Up to three numbers; what follows a lone first one counts as equal to it.
-glm::dvec3 read_rgb(ObjLines& lines) {
+// Up to three numbers; what follows a lone first one counts as equal to it. Nothing, and a note, for colours
+// in other terms (spectral, xyz).
+std::optional<glm::dvec3> read_rgb(const MtlLine& line) {
+    ObjLines& lines = line.lines;
+    const std::string_view first = lines.peek_word();
+    if (first == "spectral" || first == "xyz") {
+        ++line.notes[fmt::format("{} is left out: it is not in red, green and blue", line.key)];
+        return std::nullopt;
+    }
     const double r = lines.require_number();
     const double g = lines.next_number().value_or(r);
-    return {r, g, lines.next_number().value_or(g)};
+    return glm::dvec3(r, g, lines.next_number().value_or(g));
 }
 
-// -o and -s take one to three numbers; the others as many words as the table says.
-void skip_option(ObjLines& lines, std::string_view option) {
-    constexpr std::pair<std::string_view, int> kWords[] = {{"-mm", 2}, {"-t", 3}};
-    const auto* const found = std::ranges::find(kWords, option, &std::pair<std::string_view, int>::first);
-    for (int i = 0; i < (found == std::end(kWords) ? 1 : found->second); ++i)
-        (void)lines.next_word();
+glm::vec3 unit(const glm::dvec3& rgb) {
+    return {unit(rgb.r), unit(rgb.g), unit(rgb.b)};
+}
+
+// Whether the words change nothing: only zeros, "off", or the identity of -mm.
+bool is_neutral(const std::vector<std::string_view>& words, std::string_view key) {
+    if (key == "-mm" && words.size() == 2) return number_in(words[0]) == 0.0 && number_in(words[1]) == 1.0;
+    return !words.empty() && std::ranges::all_of(words, [](std::string_view word) {
+        return word == "off" || number_in(word) == 0.0;
+    });
+}
+
+// -o, -s and -t take one to three numbers, -mm two, the others one word.
+void skip_option(const MtlLine& line, const std::string& option) {
+    ObjLines& lines = line.lines;
+    std::vector<std::string_view> words;
+    const std::size_t most = option == "-t" ? 3 : option == "-mm" ? 2 : 1;
+    while (words.size() < most && !lines.rest().empty() && (words.empty() || number_in(lines.peek_word())))
+        words.push_back(lines.next_word());
+    if (!is_neutral(words, option)) note_feature(FeatureKind::mtl_map_option, option, line.notes);
 }
 
 glm::dvec2 read_pair(ObjLines& lines, double fallback) {
@@ -60,7 +92,8 @@ glm::dvec2 read_pair(ObjLines& lines, double fallback) {
     return {values.x, values.y};
 }
 
-MapLine read_map(ObjLines& lines) {
+MapLine read_map(const MtlLine& line) {
+    ObjLines& lines = line.lines;
     MapLine map;
     while (lines.rest().starts_with('-')) {
         const std::string option(lines.next_word());
@@ -71,46 +104,66 @@ MapLine read_map(ObjLines& lines) {
         else if (option == "-clamp")
             map.is_clamped = lines.next_word() == "on";
         else
-            skip_option(lines, option);
+            skip_option(line, option);
     }
     map.file = lines.rest();
     return map;
 }
 
-void read_field(ObjLines& lines, Entry& entry) {
+double read_opacity(const MtlLine& line) {
+    if (line.lines.peek_word() == "-halo") {
+        (void)line.lines.next_word();
+        ++line.notes["-halo is left out: d counts from all sides alike"];
+    }
+    return line.lines.require_number();
+}
+
+// A keyword that is not read: noted, but for a line that asks for nothing.
+void skip_field(const MtlLine& line) {
+    std::vector<std::string_view> words;
+    while (!line.lines.rest().empty())
+        words.push_back(line.lines.next_word());
+    if (!is_neutral(words, line.key)) note_feature(FeatureKind::mtl_keyword, line.key, line.notes);
+}
+
+bool read_map_field(const MtlLine& line, Entry& entry) {
+    if (line.key == "map_Kd")
+        entry.base_color = read_map(line);
+    else if (line.key == "map_Ke")
+        entry.emissive = read_map(line);
+    else if (line.key == "map_d")
+        entry.alpha = read_map(line);
+    else
+        return false;
+    return true;
+}
+
+void read_field(const MtlLine& line, Entry& entry) {
     MeshMaterial& material = entry.material;
-    const std::string key(lines.next_word());
+    const std::string& key = line.key;
     if (key == "Kd") {
-        const glm::dvec3 rgb = number_in(lines.peek_word()) ? read_rgb(lines) : glm::dvec3(1.0);
-        material.base_color = glm::vec4(unit(rgb.r), unit(rgb.g), unit(rgb.b), 1.0f);
+        material.base_color = glm::vec4(unit(read_rgb(line).value_or(glm::dvec3(1.0))), 1.0f);
     } else if (key == "Ke") {
-        constexpr double kBrightest = 1e6;  // keeps sums of many texels finite in floats
-        const glm::dvec3 rgb = read_rgb(lines);
-        for (int i = 0; i < 3; ++i)
-            material.emissive[i] =
-                std::isfinite(rgb[i]) ? static_cast<float>(std::clamp(rgb[i], 0.0, kBrightest)) : 0.0f;
+        entry.emission = read_rgb(line).value_or(glm::dvec3(0.0));
+    } else if (key == "Tf") {
+        entry.filter = read_rgb(line);
     } else if (key == "d") {
-        if (lines.rest().starts_with("-halo")) (void)lines.next_word();
-        entry.opacity = lines.require_number();
+        entry.opacity = read_opacity(line);
     } else if (key == "Tr") {
-        entry.transparency = lines.require_number();
+        entry.transparency = line.lines.require_number();
     } else if (key == "Ns") {
-        entry.shine = lines.require_number();
+        entry.shine = line.lines.require_number();
     } else if (key == "Ni") {
-        const double ior = lines.require_number();
-        if (ior >= 1.0) material.ior = static_cast<float>(std::min(ior, 10.0));
+        entry.ior = line.lines.require_number();
     } else if (key == "Pm") {
-        material.metallic = unit(lines.require_number());
+        material.metallic = unit(line.lines.require_number());
+        entry.has_metallic = true;
     } else if (key == "Pr") {
-        entry.roughness = lines.require_number();
+        entry.roughness = line.lines.require_number();
     } else if (key == "illum") {
-        entry.illumination = static_cast<int>(std::clamp(lines.require_number(), 0.0, 10.0));
-    } else if (key == "map_Kd") {
-        entry.base_color = read_map(lines);
-    } else if (key == "map_Ke") {
-        entry.emissive = read_map(lines);
-    } else if (key == "map_d") {
-        entry.alpha = read_map(lines);
+        entry.illumination = line.lines.require_number();
+    } else if (!read_map_field(line, entry)) {
+        skip_field(line);
     }
 }
 
@@ -145,23 +198,63 @@ std::optional<TextureUse> texture_use(const std::optional<MapLine>& map, MtlLibr
     return use;
 }
 
+// Whether the illumination model is one of glass, and a note where it is none that is read. 4 and 9 are glass
+// by their refractive index: writers give them to opaque materials, too, with none or that of air.
+bool is_glass(const Entry& entry, MeshNotes& notes) {
+    const double model = entry.illumination;
+    if (model == 6.0 || model == 7.0) return true;
+    if (model == 4.0 || model == 9.0) return entry.ior.value_or(1.0) > 1.0;
+    const bool is_mirror = model == 3.0 || model == 5.0 || model == 8.0;
+    const bool is_plain = model == 1.0 || model == 2.0;
+    if (!is_plain && !(is_mirror && entry.has_metallic))
+        ++notes[fmt::format("illum {} is read as a diffuse surface", model)];
+    return false;
+}
+
+void finish_glass(const Entry& entry, MeshMaterial& material, MeshNotes& notes) {
+    material.transmission = 1.0f;
+    if (entry.filter && *entry.filter != glm::dvec3(0.0))
+        material.base_color = glm::vec4(unit(*entry.filter), material.base_color.a);
+    // The format scatters no refracted light; a width of highlights, where there is one, is that of both.
+    if (!entry.roughness && !entry.shine) material.roughness = 0.0f;
+    if (entry.base_color && entry.filter) ++notes["map_Kd is read as the filter of a glass"];
+}
+
+void finish_emission(const Entry& entry, MtlLibrary& library, Mesh& mesh, MeshMaterial& material,
+                     MeshNotes& notes) {
+    // A texture without a factor counts as it is.
+    const glm::dvec3 fallback(entry.emissive ? 1.0 : 0.0);
+    material.emissive = emission_in_range(entry.emission.value_or(fallback), notes);
+    if (material.emissive != glm::vec3(0.0f))
+        material.emissive_texture = texture_use(entry.emissive, library, mesh, notes);
+    else if (entry.emissive)
+        ++notes["map_Ke is left out: its factor Ke is 0"];
+}
+
+void finish_alpha(const Entry& entry, MeshMaterial& material, MeshNotes& notes) {
+    if (entry.alpha && entry.base_color && entry.alpha->file == entry.base_color->file)
+        material.alpha_mode = AlphaMode::mask;
+    else if (entry.alpha)
+        ++notes["map_d is ignored: it is another picture than map_Kd"];
+}
+
 // What depends on several fields, whatever their order.
 MeshMaterial finish(Entry& entry, MtlLibrary& library, Mesh& mesh, MeshNotes& notes) {
     MeshMaterial& material = entry.material;
     material.base_color.a = unit(entry.opacity.value_or(1.0 - entry.transparency.value_or(0.0)));
     if (material.base_color.a < 1.0f) material.alpha_mode = AlphaMode::blend;
+    if (entry.ior.value_or(0.0) >= 1.0) material.ior = static_cast<float>(std::min(*entry.ior, 10.0));
     // A Phong exponent s is about as wide as the microfacet roughness sqrt(2 / (s + 2)). Source: Walter et
     // al., Microfacet models for refraction through rough surfaces, EGSR 2007, section 5.2.
     const double shine = entry.shine && *entry.shine > 0.0 ? *entry.shine : 0.0;
     material.roughness = unit(entry.roughness.value_or(std::sqrt(2.0 / (shine + 2.0))));
-    if (entry.illumination == 6 || entry.illumination == 7) material.transmission = 1.0f;  // refraction
+    if (is_glass(entry, notes))
+        finish_glass(entry, material, notes);
+    else if (entry.filter && *entry.filter != glm::dvec3(1.0) && *entry.filter != glm::dvec3(0.0))
+        ++notes["Tf is left out: only glass filters light"];
     material.base_color_texture = texture_use(entry.base_color, library, mesh, notes);
-    if (material.emissive != glm::vec3(0.0f))
-        material.emissive_texture = texture_use(entry.emissive, library, mesh, notes);
-    if (entry.alpha && entry.base_color && entry.alpha->file == entry.base_color->file)
-        material.alpha_mode = AlphaMode::mask;
-    else if (entry.alpha)
-        ++notes["map_d is ignored: it is another picture than map_Kd"];
+    finish_emission(entry, library, mesh, material, notes);
+    finish_alpha(entry, material, notes);
     return material;
 }
 
@@ -197,7 +290,7 @@ void read_mtl(std::string_view text, MtlLibrary& library, Mesh& mesh, MeshNotes&
             entry.emplace();
             entry->material.name = lines.rest();
         } else if (entry) {
-            read_field(lines, *entry);
+            read_field({lines, std::string(lines.next_word()), notes}, *entry);
         }
     }
     if (entry) add_material(*entry, library, mesh, notes);

@@ -10,7 +10,9 @@
 
 #include "base/checked_cast.h"
 #include "base/colour.h"
+#include "base/printable.h"
 #include "voxelizer/load_mtl.h"
+#include "voxelizer/mesh_features.h"
 #include "voxelizer/obj_text.h"
 #include "voxelizer/polygon.h"
 
@@ -108,7 +110,7 @@ std::uint32_t line_of(const ObjLines& lines, std::string_view text, std::size_t 
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error != std::errc() || end != text.data() + text.size())
-        lines.refuse(fmt::format("{} is not an index", quoted_name(std::string(text))));
+        lines.refuse(fmt::format("{} is not an index", quoted_name(text)));
     const auto before = static_cast<std::int64_t>(so_far);
     const std::int64_t line = index > 0 ? index - 1 : index < -before ? -1 : before + index;
     if (index == 0 || line < 0 || line >= static_cast<std::int64_t>(size))
@@ -184,12 +186,18 @@ void read_faces(std::string_view text, ObjLoading& loading) {
     ObjLines lines(text);
     while (lines.next_line()) {
         const std::string key(lines.next_word());
-        if (key == "v") ++loading.positions_so_far;
-        if (key == "vt") ++loading.uvs_so_far;
-        if (key == "f") read_face(loading, lines);
-        if (key == "mtllib") read_libraries(loading, lines);
-        if (key == "usemtl") use_material(loading, lines);
-        if (key == "l" || key == "p") ++loading.notes["points or lines are left out"];
+        if (key == "v")
+            ++loading.positions_so_far;
+        else if (key == "vt")
+            ++loading.uvs_so_far;
+        else if (key == "f")
+            read_face(loading, lines);
+        else if (key == "mtllib")
+            read_libraries(loading, lines);
+        else if (key == "usemtl")
+            use_material(loading, lines);
+        else if (key != "vn")
+            note_feature(FeatureKind::obj_keyword, key, loading.notes);
     }
 }
 

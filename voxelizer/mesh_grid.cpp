@@ -97,6 +97,8 @@ MeshGrid grid_of(const Mesh& mesh, const GridRequest& request) {
         throw Error(ExitCode::input_refused, "the mesh is too large or too small to be scaled to the grid");
     for (int axis = 0; axis < 3; ++axis)
         grid.cells[axis] = cells_along(extent[axis] * grid.scale);
+    grid.origin = grid.cells / 2;
+    if (request.is_on_floor) grid.origin.z = 0;
     return grid;
 }
 

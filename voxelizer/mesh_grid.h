@@ -32,7 +32,8 @@ struct GridRequest {
     int resolution = 256;                    // cells along the longest side, unless metres_per_voxel is given
     std::optional<double> metres_per_voxel;  // > 0
     UpAxis up = UpAxis::y;
-    int quarter_turns = 0;  // about the vertical, counter-clockwise seen from above
+    int quarter_turns = 0;     // about the vertical, counter-clockwise seen from above
+    bool is_on_floor = false;  // the lowest cells at z = 0 of the scene, instead of the middle
 };
 
 // Cell c of the grid covers [c, c + 1) of (axes * p - low) * scale, p in the mesh's space.
@@ -41,14 +42,15 @@ struct MeshGrid {
     glm::dvec3 low{0.0};   // of the turned mesh
     double scale = 1.0;    // voxels per metre
     glm::ivec3 cells{1};
+    glm::ivec3 origin{0};  // the cell at the origin of the scene
 
     [[nodiscard]] glm::dvec3 to_grid(glm::dvec3 p) const { return (axes * p - low) * scale; }
 };
 
 // The grid around all triangles whose vertices are finite. Rule: scale = resolution / longest side; the low
 // corner of the box is the grid's; cells = ceil(extent * scale), at least 1. A mesh y up turns by (x, -z, y).
-// Throws Error(input_refused) without a triangle or with a box that doubles cannot span, Error(usage) for a
-// grid of more than kMaxCells on an axis.
+// The middle of the grid is the origin of the scene. Throws Error(input_refused) without a triangle or with a
+// box that doubles cannot span, Error(usage) for a grid of more than kMaxCells on an axis.
 [[nodiscard]] MeshGrid grid_of(const Mesh& mesh, const GridRequest& request);
 
 // Every position on the grid's lattice, in [0, cells * kUnit - 1]; positions that are not finite give zero.

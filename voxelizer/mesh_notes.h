@@ -15,10 +15,4 @@ using MeshNotes = std::map<std::string, std::size_t>;
 inline constexpr std::size_t kMostNoteLines = 50;
 [[nodiscard]] std::vector<std::string> note_lines(const MeshNotes& notes);
 
-// `text` fit for a message: its first 400 bytes, without line ends and other control characters.
-[[nodiscard]] std::string one_line(const std::string& text);
-
-// A name from a file, fit for one line of a message: in quotes, at most 80 bytes, without control characters.
-[[nodiscard]] std::string quoted_name(const std::string& name);
-
 }  // namespace voxilux

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/printable.h"
 #include "voxelizer/load_mesh.h"
-#include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
 namespace {
@@ -64,13 +64,11 @@ std::string percent_decoded(std::string_view uri) {
         if (c == '%') {
             const auto high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : std::nullopt;
             const auto low = high ? hex_digit(uri[i + 2]) : std::nullopt;
-            if (!low)
-                throw MeshFault(fmt::format("the URI {} has a broken %", quoted_name(std::string(uri))));
+            if (!low) throw MeshFault(fmt::format("the URI {} has a broken %", quoted_name(uri)));
             c = static_cast<char>(*high << 4 | *low);
             i += 2;
         }
-        if (c == '\0')
-            throw MeshFault(fmt::format("the URI {} holds a zero byte", quoted_name(std::string(uri))));
+        if (c == '\0') throw MeshFault(fmt::format("the URI {} holds a zero byte", quoted_name(uri)));
         text += c;
     }
     return text;

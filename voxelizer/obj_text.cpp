@@ -5,8 +5,8 @@
 #include <charconv>
 #include <limits>
 
+#include "base/printable.h"
 #include "voxelizer/load_mesh.h"
-#include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
 namespace {
@@ -58,7 +58,7 @@ std::optional<double> ObjLines::next_number() {
     const std::string_view word = next_word();
     if (word.empty()) return std::nullopt;
     const auto number = number_in(word);
-    if (!number) refuse(fmt::format("{} is not a number", quoted_name(std::string(word))));
+    if (!number) refuse(fmt::format("{} is not a number", quoted_name(word)));
     return number;
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "voxelizer/decode_image.h"
-#include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
 

@@ -82,7 +82,8 @@ ShadedPiece TriangleShade::at(const CellPiece& piece) const {
 }
 
 ShadedPiece TriangleShade::shaded(const SurfaceColor& colour) const {
-    ShadedPiece result{.colour = colour.base_color, .look = packed(look_of(material_, colour))};
+    const Look look = look_of(material_, colour);
+    ShadedPiece result{.colour = colour_of(look, colour), .look = packed(look)};
     if (material_.alpha_mode == AlphaMode::mask)
         result.share = colour.alpha < kLeastShare ? 0.0f : colour.alpha;
     return result;

@@ -1,9 +1,13 @@
 #include "voxelizer/solid_fill.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <unordered_map>
 
+#include "voxelizer/parallel_blocks.h"
 #include "voxelizer/thin_cover.h"
+#include "voxelizer/winding_number.h"
 
 namespace voxilux {
 namespace {
@@ -25,16 +29,15 @@ int place_of(std::uint64_t key) {
     return static_cast<int>(key >> 1 & kPlaceMask);
 }
 
-LatticeTriangle lattice_triangle(const Mesh& mesh, std::span<const glm::ivec3> lattice, std::uint32_t index) {
-    const glm::uvec3 v = mesh.triangles[index].vertices;
-    return {lattice[v.x], lattice[v.y], lattice[v.z]};
+LatticeTriangle lattice_triangle(const SolidInput& input, std::uint32_t index) {
+    const glm::uvec3 v = input.mesh.triangles[index].vertices;
+    return {input.lattice[v.x], input.lattice[v.y], input.lattice[v.z]};
 }
 
-std::vector<std::uint64_t> sorted_crossings(const Mesh& mesh, std::span<const std::uint32_t> triangles,
-                                            std::span<const glm::ivec3> lattice, glm::ivec3 cells) {
+std::vector<std::uint64_t> sorted_crossings(const SolidInput& input) {
     std::vector<std::uint64_t> keys;
-    for (const std::uint32_t index : triangles) {
-        const LatticeTriangle triangle = lattice_triangle(mesh, lattice, index);
+    for (const std::uint32_t index : input.triangles) {
+        const LatticeTriangle triangle = lattice_triangle(input, index);
         const LineCrossings lines(triangle, 0, false);
         if (!lines.is_seen()) continue;
         const CellBox box = cell_box(triangle, kUnit);
@@ -43,7 +46,7 @@ std::vector<std::uint64_t> sorted_crossings(const Mesh& mesh, std::span<const st
             for (int y = rows.first; y <= rows.last; ++y) {
                 const std::int64_t behind = (lines.crossing(y, z) + kUnit / 2) >> kUnitBits;
                 keys.push_back(
-                    crossing_key(z, y, std::min<std::int64_t>(behind, cells.x), lines.facing() > 0));
+                    crossing_key(z, y, std::min<std::int64_t>(behind, input.cells.x), lines.facing() > 0));
             }
         }
     }
@@ -51,25 +54,130 @@ std::vector<std::uint64_t> sorted_crossings(const Mesh& mesh, std::span<const st
     return keys;
 }
 
-// One row's crossings to runs.
-void add_runs(std::span<const std::uint64_t> keys, std::vector<InsideRun>& runs, SolidReport& report) {
+using Crossings = std::span<const std::uint64_t>;
+
+glm::ivec2 place_of_row(std::uint64_t row) {
+    return {static_cast<int>(row & kPlaceMask), static_cast<int>(row >> kPlaceBits)};
+}
+
+// One row's crossings to runs, by counting them. Of a closed surface each row has an even number.
+void add_counted_runs(Crossings keys, InsideRule rule, std::vector<InsideRun>& runs, SolidReport& report) {
     if (keys.size() % 2 != 0) {
         ++report.open_rows;
         return;
     }
-    const std::uint64_t row = row_of(keys.front());
-    const auto y = static_cast<int>(row & kPlaceMask);
-    const auto z = static_cast<int>(row >> kPlaceBits);
+    const glm::ivec2 row = place_of_row(row_of(keys.front()));
     int winding = 0;
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
         const int first = place_of(keys[i]);
         const int last = place_of(keys[i + 1]) - 1;
         winding += (keys[i] & 1) != 0 ? -1 : 1;
-        const bool is_inside = i % 2 == 0;
+        const bool is_odd = i % 2 == 0;
         if (last < first) continue;
-        if (is_inside) runs.push_back({y, z, first, last});
-        if (is_inside != (winding != 0)) report.disputed += static_cast<std::uint64_t>(last - first + 1);
+        if (rule == InsideRule::parity ? is_odd : winding != 0) runs.push_back({row.x, row.y, first, last});
+        if (is_odd != (winding != 0)) report.disputed += static_cast<std::uint64_t>(last - first + 1);
     }
+}
+
+std::vector<InsideRun> counted_runs(Crossings keys, InsideRule rule, SolidReport& report) {
+    std::vector<InsideRun> runs;
+    for (std::size_t i = 0; i < keys.size();) {
+        const std::size_t start = i;
+        while (i < keys.size() && row_of(keys[i]) == row_of(keys[start]))
+            ++i;
+        add_counted_runs(keys.subspan(start, i - start), rule, runs, report);
+    }
+    return runs;
+}
+
+// The cells of one row of an open mesh whose middle is inside.
+class OpenRow {
+  public:
+    OpenRow(const WindingTree& tree, glm::ivec2 row, std::vector<InsideRun>& runs)
+        : tree_(tree), row_(row), runs_(runs) {}
+
+    // Cells first..last, between which the surface does not cross the row, so that the winding number has no
+    // step: looked at in 17 places, and halved between two of them that differ.
+    void add_stretch(int first, int last) {
+        if (last < first) return;
+        constexpr int kParts = 16;
+        const int step = std::max(1, (last - first) / kParts);
+        int from = first;
+        bool is_inside = is_inside_at(first);
+        for (int x = first; x < last;) {
+            const int next = std::min(x + step, last);
+            const bool next_is_inside = is_inside_at(next);
+            if (next_is_inside != is_inside) {
+                const int change = change_between(x, next, is_inside);
+                if (is_inside) add(from, change - 1);
+                from = change;
+                is_inside = next_is_inside;
+            }
+            x = next;
+        }
+        if (is_inside) add(from, last);
+    }
+
+  private:
+    [[nodiscard]] bool is_inside_at(int x) const {
+        return std::abs(tree_.at(glm::dvec3(x, row_.x, row_.y) + 0.5)) > 0.5;
+    }
+
+    // The first cell of (low, high] that is not as `low` is.
+    [[nodiscard]] int change_between(int low, int high, bool low_is_inside) const {
+        while (high - low > 1) {
+            const int middle = low + (high - low) / 2;
+            (is_inside_at(middle) == low_is_inside ? low : high) = middle;
+        }
+        return high;
+    }
+
+    void add(int first, int last) {
+        const bool continues = !runs_.empty() && runs_.back().y == row_.x && runs_.back().z == row_.y &&
+                               runs_.back().last == first - 1;
+        if (continues)
+            runs_.back().last = last;
+        else
+            runs_.push_back({row_.x, row_.y, first, last});
+    }
+
+    const WindingTree& tree_;
+    glm::ivec2 row_;
+    std::vector<InsideRun>& runs_;
+};
+
+// One layer of cells of an open mesh, from the crossings at its rows.
+std::vector<InsideRun> open_layer_runs(const WindingTree& tree, Crossings keys, glm::ivec3 cells, int z) {
+    std::vector<InsideRun> runs;
+    std::size_t i = 0;
+    for (int y = 0; y < cells.y; ++y) {
+        OpenRow row(tree, {y, z}, runs);
+        int from = 0;
+        for (; i < keys.size() && place_of_row(row_of(keys[i])).x == y; ++i) {
+            row.add_stretch(from, place_of(keys[i]) - 1);
+            from = std::max(from, place_of(keys[i]));
+        }
+        row.add_stretch(from, cells.x - 1);
+    }
+    return runs;
+}
+
+std::vector<InsideRun> open_runs(const SolidInput& input, Crossings keys) {
+    const WindingTree tree(input.mesh, input.triangles, input.lattice);
+    const auto layers = static_cast<std::size_t>(input.cells.z);
+    std::vector<std::vector<InsideRun>> runs(layers);
+    for_each_block(layers, input.threads, [&] {
+        return [&](std::size_t layer) {
+            const auto z = static_cast<std::uint64_t>(layer);
+            const auto first = std::ranges::lower_bound(keys, z << (2 * kPlaceBits + 1));
+            const auto end = std::ranges::lower_bound(keys, (z + 1) << (2 * kPlaceBits + 1));
+            runs[layer] = open_layer_runs(tree, {first, end}, input.cells, static_cast<int>(layer));
+        };
+    });
+    std::vector<InsideRun> all;
+    for (const auto& layer : runs)
+        all.insert(all.end(), layer.begin(), layer.end());
+    return all;
 }
 
 struct PositionHash {
@@ -82,49 +190,43 @@ struct PositionHash {
 };
 
 // Vertices at one place of the lattice are one. Triangles that collapse there have no edges.
-std::uint64_t count_open_edges(const Mesh& mesh, std::span<const std::uint32_t> triangles,
-                               std::span<const glm::ivec3> lattice) {
+void count_edges(const SolidInput& input, SolidReport& report) {
     std::unordered_map<glm::ivec3, std::uint32_t, PositionHash> numbers;
     const auto number = [&](std::uint32_t vertex) {
-        return numbers.try_emplace(lattice[vertex], static_cast<std::uint32_t>(numbers.size())).first->second;
+        return numbers.try_emplace(input.lattice[vertex], static_cast<std::uint32_t>(numbers.size()))
+            .first->second;
     };
-    std::vector<std::uint64_t> edges;
-    for (const std::uint32_t index : triangles) {
-        const glm::uvec3 v = mesh.triangles[index].vertices;
+    std::vector<std::array<std::uint64_t, 2>> edges;  // both ends, and which of them comes first
+    for (const std::uint32_t index : input.triangles) {
+        const glm::uvec3 v = input.mesh.triangles[index].vertices;
         const glm::uvec3 n{number(v.x), number(v.y), number(v.z)};
         if (n.x == n.y || n.y == n.z || n.z == n.x) continue;
         for (int i = 0; i < 3; ++i) {
             const std::uint64_t a = n[i];
             const std::uint64_t b = n[(i + 1) % 3];
-            edges.push_back(std::min(a, b) << 32 | std::max(a, b));
+            edges.push_back({std::min(a, b) << 32 | std::max(a, b), a < b ? 1u : 0u});
         }
     }
     std::ranges::sort(edges);
-    std::uint64_t open = 0;
     for (std::size_t i = 0; i < edges.size();) {
         const std::size_t start = i;
-        while (i < edges.size() && edges[i] == edges[start])
-            ++i;
-        open += (i - start) % 2;
+        std::size_t forwards = 0;
+        for (; i < edges.size() && edges[i][0] == edges[start][0]; ++i)
+            forwards += edges[i][1];
+        const std::size_t count = i - start;
+        report.open_edges += count % 2;
+        report.turned_edges += count % 2 == 0 && 2 * forwards != count ? 1 : 0;
     }
-    return open;
 }
 
 }  // namespace
 
-std::vector<InsideRun> inside_runs(const Mesh& mesh, std::span<const std::uint32_t> triangles,
-                                   std::span<const glm::ivec3> lattice, glm::ivec3 cells,
-                                   SolidReport& report) {
-    report.open_edges = count_open_edges(mesh, triangles, lattice);
-    const std::vector<std::uint64_t> keys = sorted_crossings(mesh, triangles, lattice, cells);
-    std::vector<InsideRun> runs;
-    for (std::size_t i = 0; i < keys.size();) {
-        const std::size_t start = i;
-        while (i < keys.size() && row_of(keys[i]) == row_of(keys[start]))
-            ++i;
-        add_runs(std::span(keys).subspan(start, i - start), runs, report);
-    }
-    return runs;
+std::vector<InsideRun> inside_runs(const SolidInput& input, InsideRule rule, SolidReport& report) {
+    count_edges(input, report);
+    const std::vector<std::uint64_t> keys = sorted_crossings(input);
+    if (rule == InsideRule::winding && report.open_edges > 0) return open_runs(input, keys);
+    // Without a side that is out there is no winding number, but parity.
+    return counted_runs(keys, report.turned_edges > 0 ? InsideRule::parity : rule, report);
 }
 
 }  // namespace voxilux

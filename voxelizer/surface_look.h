@@ -8,6 +8,7 @@
 
 #include "scene/vox_file.h"
 #include "voxelizer/mesh.h"
+#include "voxelizer/mesh_notes.h"
 #include "voxelizer/texture_sample.h"
 
 namespace voxilux {
@@ -17,11 +18,15 @@ enum class LookKind : std::uint8_t { diffuse, metal, glass, emit };
 struct Look {
     LookKind kind = LookKind::diffuse;
     std::uint8_t rough = 0;  // 0..7: roughness in sevenths (metal, glass)
-    std::uint8_t level = 0;  // 0..15: glass: transparency in fifteenths; emit: see emission_of
+    std::uint8_t level = 0;  // glass: 0..15, transparency in fifteenths; emit: 0..38, see emission_of
     std::uint8_t ior = 0;    // 0..15: glass: 1 + ior / 10
 
     auto operator<=>(const Look&) const = default;
 };
+
+// The emission of a material as a .vox file can hold it; what is outside the range is noted. Radiance 1 is
+// that of a white surface under a plain sky.
+[[nodiscard]] glm::vec3 emission_in_range(glm::dvec3 radiance, MeshNotes& notes);
 
 // The look of a material where it has this value: emitting before glass (BLEND, transmission) before metal.
 [[nodiscard]] Look look_of(const MeshMaterial& material, const SurfaceColor& value);
@@ -29,14 +34,21 @@ struct Look {
 [[nodiscard]] std::uint16_t packed(const Look& look);
 [[nodiscard]] Look unpacked(std::uint16_t bits);
 
-// Fewer steps: roughness, transparency and emission rounded to every 2nd, 4th, ... step. The refractive index
-// stays: a mesh has few.
+// Fewer steps: roughness and transparency rounded to every 2nd, 4th, ... step. The refractive index and the
+// emission stay: a mesh has few.
 [[nodiscard]] Look coarser(const Look& look, int halvings);
 
 // The attributes of a MATL chunk; ours and MagicaVoxel's readers take the colour from the palette.
 [[nodiscard]] VoxDict material_attributes(const Look& look);
 
-// Radiance over colour that an emitting look stands for: 2^((level - 8) / 2).
+// Radiance over colour that an emitting look stands for: 2^(level - 12), at most what the reader takes.
 [[nodiscard]] float emission_of(const Look& look);
+
+// The colour of a voxel with this look, linear: of what it emits, as a part of emission_of, else the base
+// colour.
+[[nodiscard]] glm::vec3 colour_of(const Look& look, const SurfaceColor& value);
+
+// Whether colours of two packed looks mean the same, so that their mean means something.
+[[nodiscard]] bool share_colours(std::uint16_t a, std::uint16_t b);
 
 }  // namespace voxilux

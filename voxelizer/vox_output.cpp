@@ -63,11 +63,6 @@ std::vector<ModelPart> parts_of(const VoxelSet& set) {
     return parts;
 }
 
-// From cells of the grid to the space of the scene.
-glm::ivec3 place_of_grid(const MeshGrid& grid) {
-    return {-(grid.cells.x / 2), -(grid.cells.y / 2), 0};
-}
-
 std::vector<VoxVoxel> voxels_of(const ModelPart& part, const VoxelPalette& palette) {
     std::vector<VoxVoxel> voxels;
     voxels.reserve(static_cast<std::size_t>(part.voxels));
@@ -106,7 +101,7 @@ void add_graph(VoxFile& file, const std::vector<ModelPart>& parts, const MeshGri
     file.nodes.push_back(group);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const std::int32_t id = group.children[i];
-        const glm::ivec3 at = place_of_grid(grid) + parts[i].low + parts[i].size / 2;
+        const glm::ivec3 at = parts[i].low + parts[i].size / 2 - grid.origin;
         const glm::ivec3 model = parts[i].low / kModelCells;
         const std::string own_name =
             parts.size() == 1 ? name : fmt::format("{} {} {} {}", name, model.x, model.y, model.z);
@@ -129,9 +124,9 @@ std::string tidy(double value) {
 // MagicaVoxel's camera looks at a focus from a distance, with pitch and yaw in degrees: yaw 0 looks along +y,
 // pitch is positive downwards. A pinhole has no focus; the middle of the grid's depth is as good as any.
 VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
-    const glm::dvec3 position = grid.to_grid(camera.position) + glm::dvec3(place_of_grid(grid));
+    const glm::dvec3 position = grid.to_grid(camera.position) - glm::dvec3(grid.origin);
     const glm::dvec3 forward = grid.axes * camera.forward;
-    const glm::dvec3 middle(0.0, 0.0, grid.cells.z / 2.0);
+    const glm::dvec3 middle(0.0, 0.0, grid.cells.z / 2.0 - grid.origin.z);
     const double radius = std::max(1.0, glm::dot(middle - position, forward));
     const glm::dvec3 focus = position + forward * radius;
     const double pitch = glm::degrees(std::asin(std::clamp(-forward.z, -1.0, 1.0)));
@@ -144,7 +139,21 @@ VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
             {"_fov", tidy(camera.fov_y_deg)}};
 }
 
+// MagicaVoxel's space is a cube of 2000 voxels about the origin.
+constexpr int kLowestPlace = -1000;
+constexpr int kHighestPlace = 999;
+
 }  // namespace
+
+std::optional<std::string> range_warning(const MeshGrid& grid) {
+    const glm::ivec3 low = -grid.origin, high = grid.cells - grid.origin - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (low[axis] >= kLowestPlace && high[axis] <= kHighestPlace) continue;
+        return fmt::format("the voxels reach from {} to {} on {}, beyond the {} to {} that MagicaVoxel shows",
+                           low[axis], high[axis], "xyz"[axis], kLowestPlace, kHighestPlace);
+    }
+    return std::nullopt;
+}
 
 VoxOutput write_voxels(const std::filesystem::path& file, const VoxelSet& set, const VoxelPalette& palette,
                        const Mesh& mesh, const std::string& name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "voxelizer/mesh.h"
@@ -15,8 +16,11 @@ struct VoxOutput {
     std::uint64_t bytes = 0;
 };
 
+// What to say of a grid whose cells lie where MagicaVoxel shows none; our own reader takes them.
+[[nodiscard]] std::optional<std::string> range_warning(const MeshGrid& grid);
+
 // Writes the voxels as a .vox file: models of at most 256^3 with tight sizes on a grid, one transform each,
-// in a group called `name`, the middle of the grid above the origin and its floor at z = 0; the palette,
+// in a group called `name`, grid.origin at the origin; the palette,
 // MATL, one layer, and the cameras of the mesh. Under a temporary name first. Throws Error(cannot_write).
 VoxOutput write_voxels(const std::filesystem::path& file, const VoxelSet& set, const VoxelPalette& palette,
                        const Mesh& mesh, const std::string& name);

@@ -17,6 +17,7 @@ struct PaletteError {
     double mean = 0.0;
     double p95 = 0.0;
     double largest = 0.0;
+    std::uint64_t radiances_off = 0;  // voxels that emit over 3 % more or less than they should
 };
 
 struct PaletteEntry {

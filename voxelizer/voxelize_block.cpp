@@ -4,6 +4,7 @@
 
 #include "voxelizer/cell_piece.h"
 #include "voxelizer/linear_to_srgb.h"
+#include "voxelizer/surface_look.h"
 #include "voxelizer/thin_cover.h"
 
 namespace voxilux {
@@ -137,16 +138,19 @@ class BlockVoxelizer {
         const ShadedPiece shaded = shade.at(piece);
         if (shaded.share == 0.0f) return;
         const float area = std::max(piece.area * shaded.share, kTouchArea);
-        sum.colour += shaded.colour * area;
-        sum.area += area;
+        const bool is_kin = share_colours(sum.look, shaded.look);
         if (sum.look == shaded.look) {
             sum.votes += area;
         } else if (sum.votes < area) {
             sum.look = shaded.look;
             sum.votes = area - sum.votes;
+            if (!is_kin) sum.colour = glm::vec3(0.0f), sum.area = 0.0f;
         } else {
             sum.votes -= area;
+            if (!is_kin) return;
         }
+        sum.colour += shaded.colour * area;
+        sum.area += area;
     }
 
     BlockResult collect() const {

@@ -45,8 +45,8 @@ struct BlockSpan {
 
 // What a voxel has collected from its pieces.
 struct VoxelSum {
-    glm::vec3 colour{0.0f};  // linear, times area
-    float area = 0.0f;       // voxels^2
+    glm::vec3 colour{0.0f};  // linear, times area, of pieces whose colours mean what those of `look` do
+    float area = 0.0f;       // of these, voxels^2
     float votes = 0.0f;      // of `look`, less those of others (R. Boyer and J. Moore, "MJRTY", 1981)
     std::uint16_t look = 0;
 };

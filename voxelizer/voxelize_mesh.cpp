@@ -3,44 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <exception>
 #include <mutex>
-#include <thread>
 #include <unordered_map>
 
 #include "base/error.h"
+#include "voxelizer/parallel_blocks.h"
 
 namespace voxilux {
 namespace {
-
-// Runs work(i) for i in [0, count) on some threads. The first exception ends the others and is thrown again.
-template <class MakeWorker>
-void for_each_block(std::size_t count, unsigned threads, const MakeWorker& make_worker) {
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr failure;
-    std::mutex failing;
-    const auto run = [&] {
-        try {
-            auto work = make_worker();
-            for (std::size_t i = next++; i < count; i = next++)
-                work(i);
-        } catch (...) {
-            const std::scoped_lock lock(failing);
-            if (!failure) failure = std::current_exception();
-            next = count;
-        }
-    };
-    std::vector<std::jthread> others;
-    for (unsigned i = 1; i < threads; ++i)
-        others.emplace_back(run);
-    run();
-    others.clear();
-    if (failure) std::rethrow_exception(failure);
-}
-
-unsigned thread_count(unsigned wanted) {
-    return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
-}
 
 // Counts triangles that are done and tells so.
 class ProgressCount {
@@ -115,10 +85,10 @@ void remove_surface(VoxelBlock& block) {
     std::erase_if(block.interior, [](const InteriorRow& row) { return row.cells == 0; });
 }
 
-void fill_interior(VoxelSet& set, const VoxelizeInput& input, std::span<const std::uint32_t> triangles) {
+void fill_interior(VoxelSet& set, const SolidInput& input, const VoxelizeRequest& request) {
     const glm::ivec3 cells = set.grid.cells;
     InteriorBlocks interior;
-    for (const InsideRun& run : inside_runs(input.mesh, triangles, input.lattice, cells, set.solid))
+    for (const InsideRun& run : inside_runs(input, request.inside, set.solid))
         add_run(run, interior);
     for (VoxelBlock& block : set.blocks) {
         const auto found = interior.find(place_key(block.low / kBlockCells));
@@ -170,30 +140,14 @@ VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request) {
                               .sections = sections,
                               .coverage = request.coverage};
     fill_surface(set, input, bins, request);
-    if (request.is_solid) fill_interior(set, input, triangles);
+    if (request.is_solid)
+        fill_interior(set, {mesh, triangles, lattice, set.grid.cells, thread_count(request.threads)},
+                      request);
     count_voxels(set);
     if (set.surface + set.interior == 0)
         throw Error(ExitCode::input_refused,
                     "no voxel is left: alpha masks or thin coverage drop the whole mesh");
     return set;
-}
-
-std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set) {
-    std::vector<std::string> warnings = mesh.warnings;
-    if (set.dropped != 0)
-        warnings.push_back(
-            fmt::format("{} triangles with a vertex that is not finite are left out", set.dropped));
-    if (set.solid.open_edges + set.solid.open_rows != 0) {
-        warnings.push_back(
-            fmt::format("the mesh is open: {} edges have no partner, {} rows of voxels are not filled",
-                        set.solid.open_edges, set.solid.open_rows));
-    }
-    if (set.solid.disputed != 0) {
-        warnings.push_back(fmt::format(
-            "the mesh overlaps itself: parity and winding number disagree on {} voxels of the inside",
-            set.solid.disputed));
-    }
-    return warnings;
 }
 
 }  // namespace voxilux

@@ -14,6 +14,7 @@ struct VoxelizeRequest {
     GridRequest grid;
     Coverage coverage = Coverage::conservative;
     bool is_solid = false;
+    InsideRule inside = InsideRule::winding;  // with is_solid
     unsigned threads = 0;  // 0: as many as the machine has; the result is the same for any number
     std::function<void(double done)> progress;  // share in [0, 1], from any thread, one at a time; may throw
 };
@@ -39,8 +40,5 @@ struct VoxelSet {
 // Cells, colours and looks of a mesh. Memory follows the surface: 8 bytes per voxel, and scratch per thread.
 // Throws what grid_of throws, and Error(input_refused) when nothing is left to be seen.
 [[nodiscard]] VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request);
-
-// What the user should know of a mesh and its voxels, one line each.
-[[nodiscard]] std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set);
 
 }  // namespace voxilux

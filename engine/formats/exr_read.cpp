@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "formats/exr.h"
 
 namespace voxilux {
@@ -72,7 +73,7 @@ void check_header(const Imf::Header& header, std::size_t file_bytes) {
         ++channels;
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
             throw std::runtime_error(
-                fmt::format("channel {} is subsampled, which is not supported", c.name()));
+                fmt::format("channel {} is subsampled, which is not supported", quoted_name(c.name())));
     }
     if (channels < 1 || channels > kMaxExrChannels)
         throw std::runtime_error(fmt::format("{} channels, must be 1 to {}", channels, kMaxExrChannels));
@@ -108,7 +109,7 @@ void read_attributes(const Imf::Header& header, Image& image) {
     for (auto a = header.begin(); a != header.end(); ++a) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
         const std::string_view name = a.name();
-        if (text != nullptr && name != "type") image.attributes.emplace(name, text->value());
+        if (text != nullptr && name != "type") image.attributes.emplace(printable(name), text->value());
     }
 }
 
@@ -133,12 +134,14 @@ void read_channels(Imf::InputPart& part, Area area, Image& image) {
     std::map<std::string, std::vector<float>> planes;
     Imf::FrameBuffer frame;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-        const std::string name = c.name();
+        const std::string name = printable(c.name());
+        if (image.channels.contains(name) || image.words.contains(name))
+            throw std::runtime_error(fmt::format("two channels are called {}", quoted_name(name)));
         const bool is_whole_number = c.channel().type == Imf::UINT;
         if (is_whole_number && area == Area::data) {
-            frame.insert(name, slice_of(Imf::UINT, image.words[name], box));
+            frame.insert(c.name(), slice_of(Imf::UINT, image.words[name], box));
         } else if (!is_whole_number || !name.starts_with(kSumsLayer)) {
-            frame.insert(name, slice_of(Imf::FLOAT, planes[name], box));
+            frame.insert(c.name(), slice_of(Imf::FLOAT, planes[name], box));
             image.channels[name].precision =
                 c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
         }
@@ -168,9 +171,8 @@ Image decode(std::span<const std::byte> bytes, const std::string& name, Area are
         read_channels(part, area, image);
         return image;
     } catch (const std::exception& cause) {
-        std::string reason = cause.what();
-        std::replace(reason.begin(), reason.end(), '\n', ' ');
-        throw Error(ExitCode::input_refused, fmt::format("{}: not a readable EXR: {}", name, reason));
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: not a readable EXR: {}", name, printable(cause.what())));
     }
 }
 

@@ -10,6 +10,7 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/printable.h"
 
 namespace voxilux {
 namespace {
@@ -67,11 +68,8 @@ std::string place_of(const toml::source_region& source) {
 }
 
 void refuse_at(const toml::source_region& source, const std::string& what) {
-    std::string message = fmt::format("{}: {}", place_of(source), what);
-    // One line, whatever the file or the option holds.
-    std::ranges::replace_if(
-        message, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
-    throw Error(ExitCode::input_refused, message);
+    throw Error(ExitCode::input_refused,
+                fmt::format("{}: {}", printable(place_of(source), kUncut), printable(what)));
 }
 
 TomlSection::TomlSection(const toml::table& table, std::string name, std::vector<std::string_view> keys)

@@ -5,19 +5,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "scene/vox_graph.h"
 #include "scene/vox_instances.h"
 
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMaxKinds = 64;  // distinct names of types and chunks that are listed
+constexpr std::size_t kMaxKinds = 64;    // distinct names of types and chunks that are listed
+constexpr std::size_t kNameLength = 32;  // characters of each
 
 // Counts of names that come from the file: printable, and no more of them than a person would read.
 void count_name(std::map<std::string, std::size_t>& counts, std::string_view name) {
-    std::string shown(name.substr(0, 32));
-    std::replace_if(
-        shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::string shown = printable(name, kNameLength);
     if (counts.size() >= kMaxKinds && !counts.contains(shown)) shown = "(others)";
     ++counts[shown];
 }

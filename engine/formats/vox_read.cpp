@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/file.h"
+#include "base/printable.h"
 #include "formats/vox_bytes.h"
 #include "formats/vox_chunks.h"
 #include "scene/vox_graph.h"
@@ -23,22 +24,22 @@ void read_chunk(VoxReading& reading, std::span<const std::byte> bytes, VoxBytes&
     const std::uint32_t content = in.u32("content size");
     const std::uint32_t children = in.u32("children size");
     if (content > in.left() || children > in.left() - content) {
-        throw VoxRefusal(start, fmt::format("{} has {} + {} bytes where MAIN has {} left", excerpt(id),
+        throw VoxRefusal(start, fmt::format("{} has {} + {} bytes where MAIN has {} left", quoted_name(id),
                                             content, children, in.left()));
     }
-    VoxBytes chunk(bytes, in.offset(), in.offset() + content, id);
+    VoxBytes chunk(bytes, in.offset(), in.offset() + content, printable(id));
     const std::size_t nodes = reading.file.nodes.size();
     const bool is_known = read_vox_chunk(reading, chunk);
     if (reading.file.nodes.size() > nodes) reading.node_offsets.push_back(start);
     if (chunk.left() > 0)
-        reading.warn(chunk.offset(), fmt::format("{} has {} spare bytes", excerpt(id), chunk.left()));
+        reading.warn(chunk.offset(), fmt::format("{} has {} spare bytes", quoted_name(id), chunk.left()));
     [[maybe_unused]] const auto skipped = in.bytes(content, "content");
     const auto below = in.bytes(children, "children");
     if (!is_known) {
         reading.file.unknown.back().children.assign(below.begin(), below.end());
     } else if (children > 0) {
-        reading.warn(start,
-                     fmt::format("{} has {} bytes of children, which are ignored", excerpt(id), children));
+        reading.warn(
+            start, fmt::format("{} has {} bytes of children, which are ignored", quoted_name(id), children));
     }
 }
 

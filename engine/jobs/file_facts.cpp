@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/printable.h"
 #include "base/statistics.h"
 #include "formats/image_file.h"
 #include "formats/scene_toml.h"
@@ -23,7 +24,7 @@ namespace {
 
 using SortedJson = nlohmann::json;
 
-constexpr std::size_t kShownAttribute = 72;  // letters of a text attribute in one line
+constexpr std::size_t kShownAttribute = 75;  // characters of a text attribute in one line
 
 template <class Vector>
 SortedJson numbers(const Vector& v) {
@@ -107,7 +108,7 @@ void add_channel(const Image& image, const std::string& name, FileFacts& facts) 
 // A text attribute that holds JSON, as our report does, stays JSON.
 SortedJson attribute_json(const std::string& text) {
     const SortedJson parsed = SortedJson::parse(text, nullptr, false);
-    return parsed.is_object() ? parsed : SortedJson(text);
+    return parsed.is_object() ? parsed : SortedJson(printable(text));
 }
 
 FileFacts vox_facts(const std::filesystem::path& path) {
@@ -141,9 +142,7 @@ FileFacts image_facts(const std::filesystem::path& path) {
     for (const auto& [name, channel] : image.channels)
         add_channel(image, name, facts);
     for (const auto& [name, text] : image.attributes) {
-        const bool is_long = text.size() > kShownAttribute;
-        facts.text +=
-            fmt::format("text      {}: {}{}\n", name, text.substr(0, kShownAttribute), is_long ? "..." : "");
+        facts.text += fmt::format("text      {}: {}\n", name, printable(text, kShownAttribute));
         facts.json["attributes"][name] = attribute_json(text);
     }
     return facts;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/checked_cast.h"
+#include "base/printable.h"
 
 namespace voxilux {
 namespace {
@@ -33,15 +34,15 @@ Result<glm::i64vec3> parse_translation(std::string_view text) {
         const std::size_t end = std::min(rest.find_first_of(" \t\r\n"), rest.size());
         const std::optional<double> value = parse_number(rest.substr(0, end));
         if (axis == 3 || !value)
-            return Failure{fmt::format("translation {} is not three numbers", excerpt(text))};
+            return Failure{fmt::format("translation {} is not three numbers", quoted_name(text))};
         if (!(std::abs(*value) <= static_cast<double>(kVoxMaxTranslation))) {
             return Failure{
-                fmt::format("translation {} is beyond {} voxels", excerpt(text), kVoxMaxTranslation)};
+                fmt::format("translation {} is beyond {} voxels", quoted_name(text), kVoxMaxTranslation)};
         }
         translation[axis] = static_cast<std::int64_t>(*value);  // towards zero
         rest = trimmed(rest.substr(end));
     }
-    if (axis != 3) return Failure{fmt::format("translation {} is not three numbers", excerpt(text))};
+    if (axis != 3) return Failure{fmt::format("translation {} is not three numbers", quoted_name(text))};
     return translation;
 }
 
@@ -111,14 +112,6 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
     return parse_whole<std::int64_t>(text);
 }
 
-std::string excerpt(std::string_view text) {
-    constexpr std::size_t kShown = 32;
-    std::string shown = "'";
-    for (const char c : text.substr(0, kShown))
-        shown += c >= ' ' && c <= '~' ? c : '?';
-    return shown + (text.size() > kShown ? "...'" : "'");
-}
-
 bool is_flagged(const VoxDict& attributes, std::string_view key) {
     const std::string* value = find_value(attributes, key);
     return value != nullptr && *value == "1";
@@ -129,14 +122,14 @@ Result<std::int64_t> parse_frame(const VoxDict& attributes) {
     if (text == nullptr || text->empty()) return std::int64_t{0};
     const auto frame = parse_integer(*text);
     if (!frame || !std::in_range<std::int32_t>(*frame))
-        return Failure{fmt::format("frame {} is not a 32-bit integer", excerpt(*text))};
+        return Failure{fmt::format("frame {} is not a 32-bit integer", quoted_name(*text))};
     return *frame;
 }
 
 Result<Rotation> parse_rotation(std::string_view text) {
     const auto byte = parse_integer(text);
     if (!byte || *byte < 0 || *byte > 255)
-        return Failure{fmt::format("rotation {} is not a byte", excerpt(text))};
+        return Failure{fmt::format("rotation {} is not a byte", quoted_name(text))};
     const auto bits = static_cast<unsigned>(*byte);
     const unsigned first = bits & 3;
     const unsigned second = (bits >> 2) & 3;

@@ -65,7 +65,4 @@ struct VoxKey {
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view text);
 
-// Text of the file for a message: its start, in quotes, without control characters.
-[[nodiscard]] std::string excerpt(std::string_view text);
-
 }  // namespace voxilux

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/colour.h"
+#include "base/printable.h"
 #include "scene/vox_graph.h"
 
 namespace voxilux {
@@ -42,11 +43,11 @@ struct Reader {
             if (text == nullptr) continue;
             const auto value = parse_number(*text);
             if (!value || std::isnan(*value)) {
-                warn(fmt::format("{} is {}, not a number: ignored", key, excerpt(*text)));
+                warn(fmt::format("{} is {}, not a number: ignored", key, quoted_name(*text)));
                 continue;
             }
             const double inside = std::clamp(*value, range.low, range.high);
-            if (inside != *value) warn(fmt::format("{} is {}, taken as {}", key, excerpt(*text), inside));
+            if (inside != *value) warn(fmt::format("{} is {}, taken as {}", key, quoted_name(*text), inside));
             return static_cast<float>(inside);
         }
         return std::nullopt;
@@ -61,7 +62,7 @@ Surface surface_named(const Reader& reader) {
     if (*type == "_emit") return Surface::emit;
     if (*type == "_blend") return Surface::blend;
     if (*type == "_media" || *type == "_cloud") return Surface::media;
-    reader.warn(fmt::format("unknown type {}: taken as diffuse", excerpt(*type)));
+    reader.warn(fmt::format("unknown type {}: taken as diffuse", quoted_name(*type)));
     return Surface::diffuse;
 }
 

@@ -162,7 +162,7 @@ TEST(Mtl, fields_are_read) {
     EXPECT_FLOAT_EQ(a.ior, 1.3f);
     EXPECT_EQ(a.metallic, 0.5f);
     EXPECT_EQ(a.roughness, 0.25f);
-    const MeshMaterial b = material("Tr 0.25\nNs 6\nillum 7\nKd spectral a.rfl\n", notes);
+    const MeshMaterial b = material("Tr 0.25\nNs 6\nillum 7\n", notes);
     EXPECT_EQ(b.base_color, glm::vec4(1.0f, 1.0f, 1.0f, 0.75f));
     EXPECT_EQ(b.roughness, 0.5f) << "sqrt(2 / (6 + 2))";
     EXPECT_EQ(b.transmission, 1.0f);

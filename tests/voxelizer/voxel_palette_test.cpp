@@ -262,7 +262,7 @@ TEST(VoxOutput, file_holds_the_voxels_in_tight_models_around_the_origin) {
         EXPECT_EQ(low, glm::ivec3(0));
         EXPECT_EQ(high + 1, model.size);
     }
-    const glm::ivec3 to_grid(set.grid.cells.x / 2, set.grid.cells.y / 2, 0);
+    const glm::ivec3 to_grid = set.grid.cells / 2;
     std::size_t found = 0;
     const std::map<Cell, int> cells = cells_in(file);
     for (const VoxelBlock& block : set.blocks) {
@@ -289,7 +289,7 @@ TEST(VoxOutput, materials_read_back_as_they_were_meant) {
     std::vector<ColouredVoxel> voxels = {
         coloured(200, 100, 50, {.kind = LookKind::metal, .rough = 7}),
         coloured(10, 20, 30, {.kind = LookKind::glass, .level = 15, .ior = 5}),
-        coloured(90, 90, 90, {.kind = LookKind::emit, .level = 14}), coloured(1, 2, 3)};
+        coloured(90, 90, 90, {.kind = LookKind::emit, .level = 15}), coloured(1, 2, 3)};
     const VoxelSet set = set_of(voxels);
     const VoxelPalette palette(set, false);
     const ScratchFolder folder;
@@ -322,7 +322,7 @@ TEST(VoxOutput, camera_looks_where_the_mesh_one_does) {
     const VoxFile file = load_vox(folder / "a.vox");
     ASSERT_EQ(file.cameras.size(), 2u);
     EXPECT_EQ(*find_value(file.cameras[0].attributes, "_angle"), "0 0 0");
-    EXPECT_EQ(*find_value(file.cameras[0].attributes, "_focus"), "0 0 5");
+    EXPECT_EQ(*find_value(file.cameras[0].attributes, "_focus"), "0 0 0");
     EXPECT_EQ(*find_value(file.cameras[0].attributes, "_radius"), "25");
     EXPECT_EQ(*find_value(file.cameras[0].attributes, "_fov"), "40");
     EXPECT_EQ(*find_value(file.cameras[1].attributes, "_angle"), "0 -90 0");

@@ -14,6 +14,8 @@
 #include "base/error.h"
 #include "support/mesh_shapes.h"
 #include "voxelizer/surface_look.h"
+#include "voxelizer/vox_output.h"
+#include "voxelizer/winding_number.h"
 
 namespace voxilux {
 namespace {
@@ -222,11 +224,12 @@ TEST(VoxelizeMesh, blocks_without_surface_are_filled) {
     EXPECT_EQ(set.interior, 198u * 198 * 198);
 }
 
-TEST(VoxelizeMesh, open_mesh_is_reported_and_not_filled_past_its_hole) {
+TEST(VoxelizeMesh, open_mesh_is_reported_and_by_parity_not_filled_past_its_hole) {
     Mesh mesh = cube({0, 0, 0}, {1, 1, 1});
     mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 2);  // the face at x = 0
     VoxelizeRequest request = request_at(32);
     request.is_solid = true;
+    request.inside = InsideRule::parity;
     const VoxelSet set = voxelize_mesh(mesh, request);
     EXPECT_EQ(set.solid.open_edges, 4u);
     EXPECT_EQ(set.solid.open_rows, 32u * 32);
@@ -241,6 +244,115 @@ TEST(VoxelizeMesh, overlap_is_where_parity_and_winding_disagree) {
     const VoxelSet set = voxelize_mesh(mesh, request);
     EXPECT_EQ(set.solid.open_edges, 0u);
     EXPECT_EQ(set.solid.disputed, 4u * 4 * 4);
+}
+
+// Two cubes of 4 overlap by half: together 6 x 4 x 4 cells, of which 2 x 2 x 2 are in both and touch no
+// surface.
+TEST(VoxelizeMesh, overlapping_parts_are_one_by_winding_number_and_hollow_by_parity) {
+    Mesh mesh = cube({0, 0, 0}, {4, 4, 4});
+    test::append(mesh, cube({2, 0, 0}, {6, 4, 4}));
+    VoxelizeRequest request = request_at(6);
+    request.is_solid = true;
+    const auto voxels = [&] {
+        const VoxelSet set = voxelize_mesh(mesh, request);
+        return set.surface + set.interior;
+    };
+    EXPECT_EQ(voxels(), 96u);
+    request.inside = InsideRule::parity;
+    EXPECT_EQ(voxels(), 92u);
+}
+
+TEST(VoxelizeMesh, cavity_stays_hollow_where_its_wall_faces_inwards) {
+    Mesh mesh = cube({0, 0, 0}, {30, 30, 30});
+    Mesh cavity = cube({10, 10, 10}, {20, 20, 20});
+    for (MeshTriangle& triangle : cavity.triangles)
+        std::swap(triangle.vertices.x, triangle.vertices.y);
+    test::append(mesh, cavity);
+    VoxelizeRequest request = request_at(30);
+    request.is_solid = true;
+    const VoxelSet set = voxelize_mesh(mesh, request);
+    EXPECT_FALSE(interior_of(set).contains(Cell{15, 15, 15}));
+    EXPECT_TRUE(interior_of(set).contains(Cell{5, 5, 5}));
+    EXPECT_EQ(set.solid.open_edges + set.solid.turned_edges, 0u);
+}
+
+TEST(VoxelizeMesh, closed_mesh_that_is_not_oriented_is_filled_by_parity) {
+    Mesh mesh = cube({0, 0, 0}, {1, 1, 1});
+    for (const std::size_t turned : {0u, 5u, 6u})
+        std::swap(mesh.triangles[turned].vertices.x, mesh.triangles[turned].vertices.y);
+    VoxelizeRequest request = request_at(20);
+    request.is_solid = true;
+    const VoxelSet set = voxelize_mesh(mesh, request);
+    EXPECT_EQ(set.interior, 18u * 18 * 18);
+    EXPECT_EQ(set.solid.open_edges, 0u);
+    EXPECT_GT(set.solid.turned_edges, 0u);
+}
+
+Mesh open_torus() {
+    Mesh mesh = torus(1.0, 0.35, 23, 11);
+    std::erase_if(mesh.triangles, [&](const MeshTriangle& t) { return t.vertices.x % 17 == 3; });
+    return mesh;
+}
+
+// The truth is the plain sum over all triangles; cells within 0.02 of the threshold may be either.
+TEST(VoxelizeMesh, open_mesh_is_filled_where_the_generalised_winding_number_is_above_a_half) {
+    const Mesh mesh = open_torus();
+    VoxelizeRequest request = request_at(44);
+    request.is_solid = true;
+    const VoxelSet set = voxelize_mesh(mesh, request);
+    EXPECT_GT(set.solid.open_edges, 50u);
+    const std::set<Cell> inside = interior_of(set);
+    const std::set<Cell> surface = cells_of(set);
+    const auto count_wrong = [&](double threshold) {
+        std::size_t wrong = 0;
+        for (int i = 0; i < 44 * 44 * 44; i += 3) {
+            const Cell cell{i % 44, i / 44 % 44, i / 1936};
+            if (surface.contains(cell)) continue;
+            const double winding = std::abs(winding_about(mesh, middle_of(set, cell)));
+            if (std::abs(winding - threshold) < 0.02) continue;
+            wrong += inside.contains(cell) != (winding > threshold) ? 1 : 0;
+        }
+        return wrong;
+    };
+    EXPECT_GT(inside.size(), 1000u);
+    EXPECT_EQ(count_wrong(0.5), 0u);
+    EXPECT_GT(count_wrong(0.7), 10u) << "another threshold is seen";
+    request.inside = InsideRule::parity;
+    EXPECT_LT(voxelize_mesh(mesh, request).interior, inside.size());
+}
+
+TEST(WindingTree, is_within_a_hundredth_of_the_plain_sum) {
+    const Mesh mesh = open_torus();
+    const MeshGrid grid = grid_of(mesh, {.resolution = 100, .up = UpAxis::z});
+    const std::vector<glm::ivec3> lattice = lattice_positions(mesh, grid);
+    const std::vector<std::uint32_t> triangles = finite_triangles(mesh);
+    const WindingTree tree(mesh, triangles, lattice);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> at(-20.0, 120.0);
+    double worst = 0.0, strongest = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 p(at(random), at(random), at(random));
+        const double truth = winding_about(mesh, grid.low + p / grid.scale);
+        worst = std::max(worst, std::abs(tree.at(p) - truth));
+        strongest = std::max(strongest, truth);
+    }
+    EXPECT_LT(worst, 0.01);
+    EXPECT_GT(strongest, 0.9);
+}
+
+TEST(VoxelizeMesh, grid_is_centred_and_says_where_magicavoxel_ends) {
+    const Mesh mesh = cube({0, 0, 0}, {4, 4, 4});
+    const auto warning = [&](int resolution, bool is_on_floor) {
+        return range_warning(grid_of(mesh, {.resolution = resolution, .is_on_floor = is_on_floor}));
+    };
+    EXPECT_EQ(grid_of(mesh, {.resolution = 9}).origin, glm::ivec3(4));
+    EXPECT_EQ(grid_of(mesh, {.resolution = 9, .is_on_floor = true}).origin, glm::ivec3(4, 4, 0));
+    EXPECT_FALSE(warning(2000, false).has_value());
+    EXPECT_EQ(warning(2001, false),
+              "the voxels reach from -1000 to 1000 on x, beyond the -1000 to 999 that MagicaVoxel shows");
+    EXPECT_FALSE(warning(1000, true).has_value());
+    EXPECT_EQ(warning(1001, true),
+              "the voxels reach from 0 to 1000 on z, beyond the -1000 to 999 that MagicaVoxel shows");
 }
 
 TEST(VoxelizeMesh, hard_triangles_change_nothing) {
@@ -351,7 +463,7 @@ TEST(VoxelizeMesh, materials_become_looks) {
     MeshMaterial blend{.base_color = {1, 1, 1, 0.2f}, .alpha_mode = AlphaMode::blend, .metallic = 0.0f};
     EXPECT_EQ(look_with(blend), (Look{.kind = LookKind::glass, .rough = 7, .level = 12, .ior = 5}));
     const MeshMaterial lamp{.base_color = {0.5f, 0.5f, 0.5f, 1}, .metallic = 0.0f, .emissive = {2, 2, 2}};
-    EXPECT_EQ(look_with(lamp), (Look{.kind = LookKind::emit, .level = 12}));
+    EXPECT_EQ(look_with(lamp), (Look{.kind = LookKind::emit, .level = 14}));
     EXPECT_EQ(surface_of(voxelize_mesh(mesh, request_at(4))).at({0, 0, 0}).r, 188);  // of the base colour
 }
 

@@ -9,6 +9,7 @@
 #include "voxelize/voxelize_report.h"
 #include "voxelizer/load_mesh.h"
 #include "voxelizer/vox_output.h"
+#include "voxelizer/voxelize_warnings.h"
 #include "write_json.h"
 
 namespace voxilux {
@@ -100,7 +101,10 @@ void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
     add_grid_flags(flags, request.grid);
     flags.add_switch("--thin", command.thin,
                      "fewest voxels without a hole (6-separating), instead of all that the surface touches");
-    flags.add_switch("--solid", request.is_solid, "fill the inside; the report says when the mesh is open");
+    flags.add_switch("--solid", request.is_solid, "fill the inside, by winding number: what overlaps is one");
+    flags.add_switch("--parity", command.parity, "with --solid: by parity, so that what overlaps is hollow");
+    flags.add_switch("--floor", request.grid.is_on_floor,
+                     "put the lowest voxels at z = 0; default: the middle is at the origin");
     flags.add_switch("--dither", command.dither, "mix palette colours by place");
     flags.add_switch("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
     flags.add("--scene", "N", command.scene, "which scene of a glTF file, from 0; default: the file's own");
@@ -114,6 +118,8 @@ int run_voxelize(const VoxelizeCommand& command) {
     StepTimes times;
     VoxelizeRequest request = command.request;
     if (command.thin) request.coverage = Coverage::thin;
+    if (command.parity && !request.is_solid) refuse("--parity: it is for --solid");
+    if (command.parity) request.inside = InsideRule::parity;
     const std::string output = output_of(command);
     check_writable(output);
     check_writable(command.report.json);
@@ -130,10 +136,10 @@ int run_voxelize(const VoxelizeCommand& command) {
     const VoxelSet set = voxelize_mesh(mesh, request);
     progress.finish();
     times.end_step("voxelize");
-    const std::vector<std::string> warnings = warnings_of(mesh, set);
-    refuse_warnings(command, warnings);
     const VoxelPalette palette(set, command.dither);
     times.end_step("palette");
+    const std::vector<std::string> warnings = warnings_of(mesh, set, request.inside, palette.error());
+    refuse_warnings(command, warnings);
     const VoxOutput written =
         write_voxels(output, set, palette, mesh, std::filesystem::path(command.mesh).stem().string());
     times.end_step("write");

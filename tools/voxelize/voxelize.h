@@ -13,6 +13,7 @@ struct VoxelizeCommand {
     std::string output;  // empty: named after the mesh, in the current folder
     VoxelizeRequest request;
     bool thin = false;
+    bool parity = false;
     bool dither = false;
     bool ignore_mask = false;
     bool strict = false;

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "base/error.h"
+#include "base/printable.h"
 #include "jobs/memory_forecast.h"
 
 namespace voxilux {
@@ -33,6 +35,7 @@ Json solid_json(const VoxelizeFacts& facts) {
     if (!facts.command.request.is_solid) return nullptr;
     const SolidReport& solid = facts.set.solid;
     return {{"open_edges", solid.open_edges},
+            {"turned_edges", solid.turned_edges},
             {"open_rows", solid.open_rows},
             {"parity_against_winding", solid.disputed}};
 }
@@ -43,7 +46,8 @@ Json palette_json(const VoxelPalette& palette) {
             {"looks", looks_of(palette)},
             {"de76_mean", error.mean},
             {"de76_p95", error.p95},
-            {"de76_max", error.largest}};
+            {"de76_max", error.largest},
+            {"radiances_off", error.radiances_off}};
 }
 
 Json steps_json(const StepTimes& times) {
@@ -77,8 +81,8 @@ std::string describe(const VoxelizeFacts& facts) {
     for (const StepTimes::Step& step : facts.times.steps())
         text += fmt::format("step      {:<9} {:8.2f} s wall {:8.2f} s CPU\n", step.label, step.time.wall,
                             step.time.cpu);
-    text += fmt::format("wrote     {}: {} models, {:.1f} MiB\n", facts.output, facts.written.models,
-                        static_cast<double>(facts.written.bytes) / (1 << 20));
+    text += fmt::format("wrote     {}: {} models, {:.1f} MiB\n", printable(facts.output, kUncut),
+                        facts.written.models, static_cast<double>(facts.written.bytes) / (1 << 20));
     return text;
 }
 
@@ -87,8 +91,8 @@ Json report_json(const VoxelizeFacts& facts) {
     const Seconds total = facts.times.total();
     return {{"version", VX_VERSION},
             {"command", "voxelize"},
-            {"mesh", facts.command.mesh},
-            {"output", facts.output},
+            {"mesh", printable(facts.command.mesh, kUncut)},
+            {"output", printable(facts.output, kUncut)},
             {"wall_s", total.wall},
             {"cpu_s", total.cpu},
             {"peak_rss_mib", peak_rss_mib()},

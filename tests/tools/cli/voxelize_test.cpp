@@ -165,6 +165,36 @@ TEST(Voxelize, open_mesh_warns_and_is_refused_when_strict) {
     EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"a.vox", "mesh.obj"}));
 }
 
+TEST(Voxelize, places_beyond_magicavoxel_warn_and_are_refused_when_strict) {
+    const ScratchFolder folder;
+    const std::string mesh = mesh_file(folder);
+    const std::vector<std::string> words = {"voxelize",     mesh,   "-o",    (folder / "a.vox").string(),
+                                            "--resolution", "1200", "--thin"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return run(more);
+    };
+    EXPECT_EQ(with({"--strict"}).code, 0);
+    const Ending lenient = with({"--floor"});
+    EXPECT_EQ(lenient.code, 0);
+    EXPECT_NE(lenient.err.find("from 0 to 1199 on z, beyond the -1000 to 999"), std::string::npos)
+        << lenient.err;
+    EXPECT_EQ(with({"--floor", "--strict"}).code, 3);
+}
+
+TEST(Voxelize, names_of_the_mesh_cannot_speak_to_the_terminal) {
+    const ScratchFolder folder;
+    const std::string mesh =
+        mesh_file(folder, std::string(kTetrahedron) + "usemtl \x1b]0;pwned\x07 \xff\nf 1 2 3\n");
+    const Ending ending =
+        run({"voxelize", mesh, "-o", (folder / "a.vox").string(), "--resolution", "9", "--json", "-"});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    EXPECT_NE(ending.err.find("'\\x1b]0;pwned\\x07 \\xff'"), std::string::npos) << ending.err;
+    for (const std::string& text : {ending.out, ending.err})
+        EXPECT_EQ(text.find_first_of("\x1b\x07\xff"), std::string::npos);
+    EXPECT_EQ(Json::parse(ending.out)["warnings"].size(), 1u);
+}
+
 TEST(Voxelize, bad_values_are_usage_errors) {
     const ScratchFolder folder;
     const std::string mesh = mesh_file(folder);
@@ -178,6 +208,7 @@ TEST(Voxelize, bad_values_are_usage_errors) {
                                                {"--turn", "45"},
                                                {"--progress", "loud"},
                                                {"--scale", "1", "--resolution", "9"},
+                                               {"--parity", "--thin"},
                                                {"--scale", "1e-12"}}) {
         std::vector<std::string> words = {"voxelize", mesh, "-o", output};
         words.insert(words.end(), flags.begin(), flags.end());
