@@ -81,10 +81,10 @@ RunResult FilmSteps::take(const Slice& slice, StepResult& done, std::span<const 
         max_ms = std::max(max_ms, pass.max_ms);
     governor_.adapt(slice.row_count, max_ms);
 
-    const auto counters = values_of<gpu::uint>(result, "tally");
+    const auto counted = values_of<gpu::uint>(result, "tally");
     for (std::size_t i = 0; i < gpu::kTallyCount; ++i)
-        done.counters[i] += counters[i];
-    state_.live_cells += std::uint64_t{counters[gpu::kWorkAoClaimed]} - counters[gpu::kWorkAoEvicted];
+        done.counters[i] += counted[i];
+    state_.live_cells += std::uint64_t{counted[gpu::kWorkAoClaimed]} - counted[gpu::kWorkAoEvicted];
     add_times(done.passes, result.passes);
     done.pixels += std::uint64_t{params_.column_count} * slice.row_count;
     ++done.slices;

@@ -22,7 +22,7 @@ layout(scalar) writeonly buffer Hits {
     Hit hits[];
 };
 
-// Of the tile that the pixel is in.
+// Of the beam tile that the pixel is in.
 float start_of(Pixel pixel) {
     uint column = (pixel.x - frame.first_column) / kBeamPixels;
     uint row = (pixel.y - frame.first_row) / kBeamPixels;

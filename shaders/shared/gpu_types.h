@@ -31,8 +31,8 @@ struct Hit {
     uint sphere;    // index into Spheres when face is kFaceSphere or kFaceSphereInside
 };
 
-// Camera rays start a tile at a time (beam.h): one float for each tile of a slice, row by row.
-VX_CONST(uint, kBeamPixels, 8u);  // edge of a tile
+// Camera rays start a beam tile at a time (beam.h): one float for each one of a slice, row by row.
+VX_CONST(uint, kBeamPixels, 8u);  // edge of a beam tile
 
 // Tiles that cover a row or a column of `pixels`.
 VX_FN uint beam_count(uint pixels) {

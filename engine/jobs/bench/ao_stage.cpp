@@ -151,8 +151,8 @@ AoFootage AoStage::play(const AoTake& take) {
         const RunResult result = steps.take(whole, done, std::span(&openness, is_kept ? 1 : 0));
         footage.seconds.push_back(watch.elapsed());
         footage.passes.push_back(occlusion_times(result));
-        const auto counters = values_of<gpu::uint>(result, "tally");
-        (frame == 1 ? footage.first : footage.rest).add(std::span(counters).first<gpu::kTallyCount>());
+        const auto counted = values_of<gpu::uint>(result, "tally");
+        (frame == 1 ? footage.first : footage.rest).add(std::span(counted).first<gpu::kTallyCount>());
         if (is_kept) footage.openness[frame] = values_of<float>(result, openness);
     }
     return footage;
