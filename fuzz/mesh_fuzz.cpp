@@ -94,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(peak.bytes() <= kFixedBytes + kBytesPerByte * size,
                 "a reader takes more memory than it promises");
         check(mesh);
-        require(note_lines(notes).size() <= kMostNoteLines + 1, "too many notes");
+        require(note_lines(notes).size() <= kMaxNoteLines + 1, "too many notes");
     } catch (const MeshFault& fault) {
         require(std::string_view(fault.what()) != "", "a refusal gives no reason");
         require(peak.bytes() <= kFixedBytes + kBytesPerByte * size,

@@ -38,10 +38,11 @@ std::string quality_help() {
     std::string text = fmt::format(
         "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
         "medians of {} scenes under the sky and {} with lamps, on\n{}:",
-        kSkyScenes, kLampScenes, kPricedOn);
+        kSkyScenes, kEmitterScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {
         text += fmt::format("\n{:<9}", preset.name);
-        const std::pair<const char*, QualityPrice> kinds[] = {{"sky", preset.sky}, {"lamps", preset.lamps}};
+        const std::pair<const char*, QualityPrice> kinds[] = {{"sky", preset.sky},
+                                                              {"lamps", preset.emitters}};
         for (const auto& [kind, price] : kinds)
             text += fmt::format("  {} {:>4} samples, {:>3.2g} %, {:>4g} s per megapixel", kind, price.samples,
                                 100.0 * price.error, price.seconds_per_megapixel);

@@ -20,7 +20,7 @@ struct QualityPreset {
     std::string_view name;
     std::uint32_t ao_rays = 0;  // per sample
     QualityPrice sky;           // of scenes without photons
-    QualityPrice lamps;         // of scenes with photons, whose samples are iterations
+    QualityPrice emitters;      // of scenes with photons, whose samples are iterations
 };
 
 // The preset of a name. Throws Error(usage) that lists the names.

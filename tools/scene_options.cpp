@@ -90,7 +90,7 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
     if (options.quality == nullptr) return;
     const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
     if (std::ranges::none_of(options.overrides, sets_samples) && has_photons(scene, options))
-        scene.settings.spp = options.quality->lamps.samples;
+        scene.settings.spp = options.quality->emitters.samples;
 }
 
 }  // namespace

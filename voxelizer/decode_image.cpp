@@ -66,7 +66,7 @@ constexpr std::size_t kFixedBytes = std::size_t{1} << 20;
 
 // A progressive JPEG goes over all texels once for each scan, however short that is. Encoders write about
 // ten.
-constexpr int kMostScans = 64;
+constexpr int kMaxScans = 64;
 
 bool has_too_many_scans(std::span<const std::byte> bytes) {
     if (bytes.empty() || bytes[0] != std::byte{0xFF}) return false;
@@ -74,7 +74,7 @@ bool has_too_many_scans(std::span<const std::byte> bytes) {
     for (std::size_t i = 0; i + 1 < bytes.size(); ++i) {
         if (bytes[i] == std::byte{0xFF} && bytes[i + 1] == std::byte{0xDA}) ++scans;
     }
-    return scans > kMostScans;
+    return scans > kMaxScans;
 }
 
 const stbi_uc* codes_of(std::span<const std::byte> bytes) {

@@ -185,11 +185,11 @@ json form_of(const JsonItem& item, std::span<const Field> fields) {
 
 // An item of 3 bytes in the file takes up to 1 kB in memory, a material 2 kB.
 void check_sizes(const JsonItem& document) {
-    constexpr std::size_t kMostItems = std::size_t{1} << 22;
-    constexpr std::size_t kMostMaterials = std::size_t{1} << 16;
+    constexpr std::size_t kMaxItems = std::size_t{1} << 22;
+    constexpr std::size_t kMaxMaterials = std::size_t{1} << 16;
     for (const Field& field : kDocument) {
         if (field.kind != Kind::objects) continue;
-        const std::size_t most = field.fields.data() == kMaterial ? kMostMaterials : kMostItems;
+        const std::size_t most = field.fields.data() == kMaterial ? kMaxMaterials : kMaxItems;
         if (const std::size_t size = list_size(document, field.key); size > most)
             refuse(document, field.key, fmt::format("has {} items; at most {} are read", size, most));
     }

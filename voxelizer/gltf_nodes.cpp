@@ -139,12 +139,12 @@ void place_camera(const tinygltf::Camera& camera, const glm::dmat4& matrix, Plac
 }
 
 std::string scene_list(const tinygltf::Model& model) {
-    constexpr std::size_t kMostShown = 8;
+    constexpr std::size_t kMaxShown = 8;
     const std::size_t count = model.scenes.size();
     std::string list;
-    for (std::size_t i = 0; i < std::min(count, kMostShown); ++i)
+    for (std::size_t i = 0; i < std::min(count, kMaxShown); ++i)
         list += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, quoted_name(model.scenes[i].name));
-    return list + (count > kMostShown ? ", ..." : "");
+    return list + (count > kMaxShown ? ", ..." : "");
 }
 
 std::vector<std::size_t> checked_nodes(const tinygltf::Model& model, const std::vector<int>& indices,

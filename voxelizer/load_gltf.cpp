@@ -49,14 +49,14 @@ AttributeKey read_attributes(const Loading& loading, const Part& part) {
 }
 
 AccessorValues read_attribute(Loading& loading, std::size_t accessor, std::size_t count,
-                              std::size_t least_width) {
+                              std::size_t min_width) {
     AccessorValues values = read_accessor(loading.document, accessor);
     if (values.count != count)
         throw MeshFault(
             fmt::format("accessors[{}] has {} elements for {} vertices", accessor, values.count, count));
-    if (values.width < least_width)
+    if (values.width < min_width)
         throw MeshFault(fmt::format("accessors[{}] has elements of {} numbers, not {}", accessor,
-                                    values.width, least_width));
+                                    values.width, min_width));
     return values;
 }
 

@@ -11,8 +11,8 @@ namespace voxilux {
 using MeshNotes = std::map<std::string, std::size_t>;
 
 // One line per note, in the order of their texts, with the count where it is above 1; after the first
-// kMostNoteLines, a line with the number of the others.
-inline constexpr std::size_t kMostNoteLines = 50;
+// kMaxNoteLines, a line with the number of the others.
+inline constexpr std::size_t kMaxNoteLines = 50;
 [[nodiscard]] std::vector<std::string> note_lines(const MeshNotes& notes);
 
 }  // namespace voxilux

@@ -85,7 +85,7 @@ Triangles clip_ears(const std::vector<glm::dvec2>& flat) {
 }  // namespace
 
 Triangles triangulate(std::span<const glm::dvec3> corners) {
-    if (corners.size() < 4 || corners.size() > kMostEarCorners) return fan(corners.size());
+    if (corners.size() < 4 || corners.size() > kMaxEarCorners) return fan(corners.size());
     const std::vector<glm::dvec2> flat = flattened(corners);
     return is_convex(flat) ? fan(corners.size()) : clip_ears(flat);
 }

@@ -9,7 +9,7 @@ namespace voxilux {
 namespace {
 
 // Less of a piece than this is the blur of its neighbourhood in the texture.
-constexpr float kLeastShare = 1.0f / 16.0f;
+constexpr float kMinShare = 1.0f / 16.0f;
 
 // Pieces below this area, in voxels^2, are looked up as squares of this side, others as one voxel.
 constexpr float kSmallArea = 0.5f;
@@ -85,7 +85,7 @@ ShadedPiece TriangleShade::shaded(const SurfaceColor& colour) const {
     const Look look = look_of(material_, colour);
     ShadedPiece result{.colour = colour_of(look, colour), .look = packed(look)};
     if (material_.alpha_mode == AlphaMode::mask)
-        result.share = colour.alpha < kLeastShare ? 0.0f : colour.alpha;
+        result.share = colour.alpha < kMinShare ? 0.0f : colour.alpha;
     return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr float kTapsAcross = 1.5f;
 
 // A piece longer than this many taps is blurred across instead: it bounds the cost of a lookup.
-constexpr float kMostTapsAlong = 16.0f;
+constexpr float kMaxTapsAlong = 16.0f;
 
 // Texels that a piece may span: beyond it, and for what is not finite, the mean of the texture is as good.
 constexpr float kLongestPiece = 1e6f;
@@ -216,7 +216,7 @@ PieceFilter filter_of(const TexturePyramid& pyramid, const glm::mat2& span, Filt
     const Rectangle piece = rectangle_of(a, b);
     const bool is_one = taps == FilterTaps::one;
     const float wanted =
-        is_one ? piece.width : std::max(piece.width / kTapsAcross, piece.length / kMostTapsAlong);
+        is_one ? piece.width : std::max(piece.width / kTapsAcross, piece.length / kMaxTapsAlong);
     std::size_t level = 0;
     float texel_size = 1.0f;  // in texels of level 0
     for (; 2.0f * texel_size <= wanted && level + 1 < pyramid.levels.size(); ++level)

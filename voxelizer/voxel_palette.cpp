@@ -12,12 +12,12 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMostEntries = 255;  // index 0 is empty
+constexpr std::size_t kMaxEntries = 255;  // index 0 is empty
 // Looks beyond this take too many of the entries from the colours.
-constexpr std::size_t kMostLooks = 24;
+constexpr std::size_t kMaxLooks = 24;
 constexpr int kCellShift = 2;             // bits of a byte that a cell does not tell apart
 constexpr unsigned kCellBits = 18;        // of a cell in its group
-constexpr std::size_t kHashSlots = 1024;  // at least four times kMostEntries
+constexpr std::size_t kHashSlots = 1024;  // at least four times kMaxEntries
 constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
 // A slot with more than this share of the voxels tells colours apart to the bit.
 constexpr double kHeavyShare = 1.0 / 1024.0;
@@ -111,7 +111,7 @@ void VoxelPalette::collect_looks(const VoxelSet& set) {
         }
         std::ranges::sort(looks_);
         looks_.erase(std::unique(looks_.begin(), looks_.end()), looks_.end());
-        if (looks_.size() > kMostLooks && halvings < 4) continue;
+        if (looks_.size() > kMaxLooks && halvings < 4) continue;
         group_of_look_.assign(is_used.size(), 0);
         for (std::size_t bits = 0; bits < is_used.size(); ++bits) {
             if (!is_used[bits]) continue;
@@ -134,7 +134,7 @@ bool VoxelPalette::make_exact(const VoxelSet& set) {
             if (key == last) continue;
             last = key;
             add_exact(key);
-            if (entries_.size() > kMostEntries) {
+            if (entries_.size() > kMaxEntries) {
                 exact_keys_.clear();
                 entries_.clear();
                 return false;
@@ -210,7 +210,7 @@ void VoxelPalette::quantize(const VoxelSet& set) {
                            .weight = is_emitter ? kEmitterWeight * share : share,
                            .group = group_of_look_[cell.look]});
     }
-    const QuantizedColours quantized = quantize_colours(colours, kMostEntries);
+    const QuantizedColours quantized = quantize_colours(colours, kMaxEntries);
     for (std::size_t i = 0; i < colours.size(); ++i)
         cells_[i + 1].entry = checked_cast<std::uint8_t>(quantized.entry_of[i], "palette entry");
     for (const QuantizedColours::Entry& entry : quantized.entries)

@@ -19,7 +19,7 @@ double square_of_pixel(const HalfMeans& beauty, const HalfMeans& bias) {
 
 }  // namespace
 
-double BiasEstimate::most_squared() const {
+double BiasEstimate::max_squared() const {
     return std::max(squared + kOneSided95 * deviation, 0.0);
 }
 
@@ -57,7 +57,7 @@ ErrorEstimate with_bias(ErrorEstimate noise, const BiasEstimate& bias) {
     total.bias = std::sqrt(likely);
     total.estimate = std::sqrt(noise.estimate * noise.estimate + likely);
     total.low = std::sqrt(noise.low * noise.low + least);
-    total.high = std::sqrt(noise.high * noise.high + bias.most_squared());
+    total.high = std::sqrt(noise.high * noise.high + bias.max_squared());
     total.bias_squared = bias;
     return total;
 }

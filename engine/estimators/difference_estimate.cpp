@@ -124,7 +124,7 @@ SquareEstimate from_blocks(const std::vector<double>& sums, std::span<const Pair
 }  // namespace
 
 SquareEstimate estimate_difference(std::span<const DifferenceTrial> trials, const Image* radiance) {
-    VX_ASSERT(trials.size() >= kFewestTrials);
+    VX_ASSERT(trials.size() >= kMinTrials);
     Trials all;
     const Image& first = *trials.front().test;
     for (const DifferenceTrial& trial : trials) {

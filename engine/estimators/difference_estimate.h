@@ -27,9 +27,9 @@ struct DifferenceTrial {
     const Image* base = nullptr;
 };
 
-inline constexpr std::size_t kFewestTrials = 3;
+inline constexpr std::size_t kMinTrials = 3;
 
-// From kFewestTrials or more trials with independent random numbers; those of one trial may be common. The
+// From kMinTrials or more trials with independent random numbers; those of one trial may be common. The
 // mean product of the differences of two trials is free of the noise of either (difference_estimate.cpp).
 // Radiance is that of `radiance`, or, for null, that of the bases of the other trials. Images have one size
 // and colours (asserted).

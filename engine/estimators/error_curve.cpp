@@ -39,7 +39,7 @@ constexpr Prior kBiasPrior{.mean = 0.45, .deviation = 0.25};
 
 // Relative deviation of a point that no law has to come nearer to: the noise of few samples is itself off by
 // some percent, by what its denominators do not know.
-constexpr double kLeastScatter = 0.03;
+constexpr double kMinScatter = 0.03;
 // Quantile of the interval whose upper end noise_high is (film/error_estimate.cpp), and the share of its
 // variance that is the estimate's own.
 constexpr double kIntervalQuantile = 2.17;
@@ -75,9 +75,9 @@ Prior prior_of(const ErrorLaw& law, Quantity quantity) {
 }
 
 // Least squares for the factor of each law; chances by what is left of the squares (Gaussian errors).
-Decline fit_decline(const ErrorLaw& law, Quantity quantity, const std::vector<Measured>& points) {
+ConvergenceCurve fit_decline(const ErrorLaw& law, Quantity quantity, const std::vector<Measured>& points) {
     const auto [first, last] = std::ranges::minmax(points, {}, &Measured::samples);
-    Decline fit{.reference = std::sqrt(first.samples * last.samples)};
+    ConvergenceCurve fit{.reference = std::sqrt(first.samples * last.samples)};
     const Prior prior = prior_of(law, quantity);
     std::array<double, kShapes> misfit{};
     for (std::size_t shape = 0; shape < kShapes; ++shape) {
@@ -110,7 +110,7 @@ struct Value {
     double deviation = 0.0;
 };
 
-Value value_at(const ErrorLaw& law, Quantity quantity, const Decline& fit, double samples) {
+Value value_at(const ErrorLaw& law, Quantity quantity, const ConvergenceCurve& fit, double samples) {
     double mean = 0.0, square = 0.0;
     for (std::size_t shape = 0; shape < kShapes; ++shape) {
         const double at = law_at(law, quantity, shape, samples, fit.reference);
@@ -126,7 +126,7 @@ Value value_at(const ErrorLaw& law, Quantity quantity, const Decline& fit, doubl
 double scatter_of(const ErrorPoint& point) {
     const double wide =
         std::sqrt(kOwnVariance) * std::log(point.noise_high / point.noise) / kIntervalQuantile;
-    return std::max(wide, kLeastScatter);
+    return std::max(wide, kMinScatter);
 }
 
 double bias_high(const ErrorPoint& point) {
@@ -176,7 +176,7 @@ std::optional<ErrorCurve> fit_error(const ErrorLaw& law, std::span<const ErrorPo
     curve.spread = last->noise_high / last->noise;
     curve.scatter = scatter_of(*last);
     curve.last = last->samples;
-    if (!bias.empty()) curve.doubt = kOneSided95 * last->bias_deviation;
+    if (!bias.empty()) curve.uncertainty = kOneSided95 * last->bias_deviation;
     return curve;
 }
 
@@ -187,9 +187,9 @@ double claimed_error(const ErrorCurve& curve, double samples, double deviations)
     double square = curve.spread * std::max(noise.mean + deviations * wide, 0.0);
     if (curve.law.has_bias) {
         const Value bias = value_at(curve.law, Quantity::bias, curve.bias, samples);
-        // The doubt is a product of two noises of photons.
-        const double doubt = curve.doubt * std::pow(curve.last / samples, curve.law.alpha);
-        square += std::max(bias.mean + deviations * bias.deviation, 0.0) + doubt;
+        // The uncertainty is a product of two noises of photons.
+        const double uncertainty = curve.uncertainty * std::pow(curve.last / samples, curve.law.alpha);
+        square += std::max(bias.mean + deviations * bias.deviation, 0.0) + uncertainty;
     }
     return std::sqrt(square);
 }
@@ -206,8 +206,8 @@ double expected_bias(const ErrorCurve& curve, double samples) {
 
 std::optional<std::uint32_t> samples_for(const ErrorCurve& curve, double error, double deviations) {
     const auto suffices = [&](std::uint32_t n) { return claimed_error(curve, n, deviations) <= error; };
-    if (!suffices(kMostSamples)) return std::nullopt;
-    std::uint32_t too_few = 0, enough = kMostSamples;
+    if (!suffices(kMaxSamples)) return std::nullopt;
+    std::uint32_t too_few = 0, enough = kMaxSamples;
     while (enough - too_few > 1) {
         const std::uint32_t middle = too_few + (enough - too_few) / 2;
         (suffices(middle) ? enough : too_few) = middle;

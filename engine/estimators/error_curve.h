@@ -39,7 +39,7 @@ inline constexpr std::size_t kShapes = 17;
 
 // A quantity that falls as one of kShapes laws, from the slowest to the fastest that theory allows: how
 // likely each is after what was measured, and its factor.
-struct Decline {
+struct ConvergenceCurve {
     std::array<double, kShapes> chance{};
     std::array<double, kShapes> factor{};
     std::array<double, kShapes> deviation{};  // of the factor
@@ -49,12 +49,12 @@ struct Decline {
 // How the claimed error of a render falls.
 struct ErrorCurve {
     ErrorLaw law;
-    Decline noise;
-    Decline bias;          // all zero without bias
-    double spread = 1.0;   // noise_high / noise
-    double scatter = 0.0;  // standard deviation of log(noise) from one set of random numbers to the next
-    double doubt = 0.0;    // bias_high - bias at the last point
-    double last = 1.0;     // its samples
+    ConvergenceCurve noise;
+    ConvergenceCurve bias;     // all zero without bias
+    double spread = 1.0;       // noise_high / noise
+    double scatter = 0.0;      // standard deviation of log(noise) from one set of random numbers to the next
+    double uncertainty = 0.0;  // bias_high - bias at the last point
+    double last = 1.0;         // its samples
 };
 
 // Fits the points, which need not be in order. Nothing when there are none, or one has no noise above 0.
@@ -69,9 +69,9 @@ struct ErrorCurve {
 [[nodiscard]] double expected_bias(const ErrorCurve& curve, double samples);
 
 // Most samples that a film may sum exactly, shared/film_sum.h.
-inline constexpr std::uint32_t kMostSamples = 1u << 20;
+inline constexpr std::uint32_t kMaxSamples = 1u << 20;
 
-// The fewest samples with which claimed_error() is at most `error`; nothing when kMostSamples do not do.
+// The fewest samples with which claimed_error() is at most `error`; nothing when kMaxSamples do not do.
 [[nodiscard]] std::optional<std::uint32_t> samples_for(const ErrorCurve& curve, double error,
                                                        double deviations = 0.0);
 

@@ -41,7 +41,7 @@ constexpr double kAgreement =
 constexpr int kReach = 2;  // pixels: the neighbourhood is 5x5
 constexpr int kLargestBlock = 8;                     // pixels a side
 constexpr std::size_t kManyBlocks = 32;              // blocks shrink until there are so many
-constexpr std::size_t kFewestBlocks = 8;             // below, a variance of blocks means nothing
+constexpr std::size_t kMinBlocks = 8;                // below, a variance of blocks means nothing
 constexpr double kDegreesPerDifference = 2.0 / 3.0;  // successive differences share a block
 // Normal quantile, two-sided, at 97 %: the spread is itself an estimate, and the trials of the tests, which
 // count how often the interval holds the truth, need that much to stay above kErrorConfidence.
@@ -212,7 +212,7 @@ double variance_of_mean(const Blocks& all, CompensatedSum Block::*held, double m
 
 // Half width of the interval of log(relMSE), or infinity with too few blocks.
 double log_spread(const Blocks& all, double pixels) {
-    if (all.blocks.size() < kFewestBlocks) return std::numeric_limits<double>::infinity();
+    if (all.blocks.size() < kMinBlocks) return std::numeric_limits<double>::infinity();
     const double mean = all.cautious.value() / pixels;
     const double of_estimate = variance_of_mean(all, &Block::error, mean, pixels);
     const double of_truth = variance_of_mean(all, &Block::drawn, all.drawn.value() / pixels, pixels);

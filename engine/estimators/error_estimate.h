@@ -17,7 +17,7 @@ struct BiasEstimate {
     double deviation = 0.0;
 
     // The upper end of the interval of squared, 0 or above.
-    [[nodiscard]] double most_squared() const;
+    [[nodiscard]] double max_squared() const;
 };
 
 // How far the beauty is from the converged one, without knowing that: estimate of sqrt(relMSE), a relative

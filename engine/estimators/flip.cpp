@@ -38,9 +38,8 @@ constexpr double kFeatureExponent = 0.5;   // q_f
 constexpr double kCurveA = 0.6 * 0.6 * 2.51, kCurveB = 0.6 * 0.03;
 constexpr double kCurveD = 0.6 * 0.6 * 2.43, kCurveE = 0.6 * 0.59, kCurveF = 0.14;
 constexpr double kShownLuminance = 0.85;
-constexpr double kLeastMedian =
-    std::numeric_limits<float>::epsilon();  // luminance; keeps the exposures finite
-constexpr int kMaxExposures = 64;           // 2^-23 to 2^41 between median and maximum; more is not a picture
+constexpr double kMinMedian = std::numeric_limits<float>::epsilon();  // luminance; keeps the exposures finite
+constexpr int kMaxExposures = 64;  // 2^-23 to 2^41 between median and maximum; more is not a picture
 
 // HyAB distance raised to q_c.
 double colour_distance(const Vec3& a, const Vec3& b) {
@@ -168,10 +167,10 @@ std::optional<FlipExposures> flip_exposures(const Image& reference) {
         luminances[i] = luminance(positive);
     }
     const double brightest = *std::max_element(luminances.begin(), luminances.end());
-    if (!(brightest > kLeastMedian)) return {};
+    if (!(brightest > kMinMedian)) return {};
     const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
     std::nth_element(luminances.begin(), middle, luminances.end());
-    const double median = std::max(*middle, kLeastMedian);
+    const double median = std::max(*middle, kMinMedian);
     // The input that the curve shows as kShownLuminance: the positive root of a quadratic.
     const double a = kCurveA - kShownLuminance * kCurveD, b = kCurveB - kShownLuminance * kCurveE,
                  c = -kShownLuminance * kCurveF;

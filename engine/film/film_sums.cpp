@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kXyz{"X", "Y", "Z"};
 constexpr std::array<const char*, 3> kRgb{"R", "G", "B"};
-constexpr std::size_t kMostComponents = 4;
+constexpr std::size_t kMaxComponents = 4;
 
 std::size_t pixels_of(const FilmSums& film) {
     return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
@@ -122,7 +122,7 @@ std::string word_plane(const std::string& plane, std::size_t component, const ch
 // The components of a plane that an image has words for.
 std::size_t stored_components(const Image& image, const std::string& plane) {
     std::size_t components = 0;
-    while (components < kMostComponents && image.words.contains(word_plane(plane, components, "lo")) &&
+    while (components < kMaxComponents && image.words.contains(word_plane(plane, components, "lo")) &&
            image.words.contains(word_plane(plane, components, "hi")))
         ++components;
     return components;
@@ -189,7 +189,7 @@ void store_sums(FilmSums film, Image& image) {
     while (!film.sums.empty()) {
         const auto plane = film.sums.extract(film.sums.begin());
         const std::size_t components = plane.mapped().size() / pixels_of(film);
-        VX_ASSERT(components <= kMostComponents);
+        VX_ASSERT(components <= kMaxComponents);
         for (std::size_t i = 0; i < components; ++i) {
             std::vector<std::uint32_t> low(pixels_of(film)), high(pixels_of(film));
             for (std::size_t pixel = 0; pixel < low.size(); ++pixel) {

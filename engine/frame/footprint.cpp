@@ -50,23 +50,23 @@ class FootprintSum {
     std::set<std::string> bound_, addressed_;
 };
 
-// Slices of a band that differ in nothing but their first row.
-struct EqualSlices {
-    Slice slice;
+// Dispatch tiles of a film tile that differ in nothing but their first row.
+struct EqualDispatchTiles {
+    DispatchTile tile;
     std::uint64_t count = 0;
 };
 
-std::vector<EqualSlices> slices_of(const RenderPlan& plan) {
-    std::vector<EqualSlices> all;
+std::vector<EqualDispatchTiles> tiles_of(const RenderPlan& plan) {
+    std::vector<EqualDispatchTiles> all;
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
-    for (std::uint32_t band = 0; band < plan.band_count; ++band) {
-        const std::uint32_t first = band * plan.band_rows;
-        const std::uint32_t rows = std::min(plan.band_rows, height - first);
+    for (std::uint32_t film_tile = 0; film_tile < plan.film_tile_count; ++film_tile) {
+        const std::uint32_t first = film_tile * plan.film_tile_rows;
+        const std::uint32_t rows = std::min(plan.film_tile_rows, height - first);
         const auto add = [&](std::uint32_t row_count, std::uint64_t count) {
-            if (row_count * count != 0) all.push_back({{band, first, first, row_count}, count});
+            if (row_count * count != 0) all.push_back({{film_tile, first, first, row_count}, count});
         };
-        add(plan.slice_rows, rows / plan.slice_rows);
-        add(rows % plan.slice_rows, 1);
+        add(plan.tile_rows, rows / plan.tile_rows);
+        add(rows % plan.tile_rows, 1);
     }
     return all;
 }
@@ -128,18 +128,18 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
     sum.add(scene, 1);
     const gpu::FrameParams params = some_params();
     const std::uint32_t samples = plan.samples();
-    for (const EqualSlices& equal : slices_of(plan)) {
+    for (const EqualDispatchTiles& equal : tiles_of(plan)) {
         FrameState state = fullest_state(plan);
         for (std::uint32_t i = 0; i < std::min(samples, 2u); ++i) {
             Recording recording;
-            record(plan, equal.slice, params, {plan.shard.sample(i), state, plan.shard.index}, recording);
+            record(plan, equal.tile, params, {plan.shard.sample(i), state, plan.shard.index}, recording);
             sum.add(recording, equal.count * (i == 0 ? 1 : samples - 1));
             state.finish_sample(params);
         }
     }
     if (plan.needs_pilot()) {  // before the first frame: what it holds is held, what it runs is none of its
         Recording pilot;
-        record(plan_counting(plan, 0.0), slices_of(plan).front().slice, params, {}, pilot);
+        record(plan_counting(plan, 0.0), tiles_of(plan).front().tile, params, {}, pilot);
         sum.add(pilot, 0);
     }
     Recording film;

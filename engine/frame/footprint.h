@@ -13,7 +13,7 @@ namespace voxilux {
 
 struct PlannedPass {
     std::string label;
-    std::uint64_t count = 0;  // dispatches in a frame, when no slice is cut smaller
+    std::uint64_t count = 0;  // dispatches in a frame, when no tile is cut smaller
 
     bool operator==(const PlannedPass&) const = default;
 };
@@ -37,12 +37,12 @@ struct Footprint {
     [[nodiscard]] std::uint64_t total_bytes() const;
 };
 
-// Records one sample of a slice, as record_frame does.
-using SampleRecorder =
-    std::function<void(const RenderPlan&, const Slice&, gpu::FrameParams, const SampleNumber&, Recording&)>;
+// Records one sample of a tile, as record_frame does.
+using SampleRecorder = std::function<void(const RenderPlan&, const DispatchTile&, gpu::FrameParams,
+                                          const SampleNumber&, Recording&)>;
 
 // The footprint of the first frame, world and film included, from recordings that nobody executes: the upload
-// of the scene, and the first two samples of every slice. All samples after the first record what the second
+// of the scene, and the first two samples of every tile. All samples after the first record what the second
 // does. Of a frame range a frame is meant that gives up occlusion cells, as later ones may.
 [[nodiscard]] Footprint footprint(const RenderPlan& plan, const SampleRecorder& record = record_frame);
 

@@ -61,52 +61,52 @@ AoStep ao_step(const RenderPlan& plan, const gpu::FrameParams& params, const Sam
 
 }  // namespace
 
-void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FrameParams params,
                   const SampleNumber& number, Recording& rec) {
     const std::uint32_t sample = number.sample;
     const auto picture_row = static_cast<gpu::uint>(plan.first_pixel.y);
-    params.first_row = picture_row + slice.first_row;
-    params.row_count = slice.row_count;
-    params.band_first_row = picture_row + slice.band_first_row;
+    params.first_row = picture_row + tile.first_row;
+    params.row_count = tile.row_count;
+    params.film_tile_first_row = picture_row + tile.film_tile_first_row;
     number_sample(plan, sample, params);
     record_frame_upload(params, rec);
 
     const Plane voxels = plan.has(Effect::voxels)
-                             ? record_primary_march(plan, slice, record_primary_beam(plan, slice, rec), rec)
+                             ? record_primary_march(plan, tile, record_primary_beam(plan, tile, rec), rec)
                              : constant_miss(rec);
-    const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, slice, voxels, rec) : voxels;
+    const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, tile, voxels, rec) : voxels;
     const SpecularPlanes seen = plan.has(Effect::specular)
-                                    ? record_specular_trace(plan, slice, hits, rec)
+                                    ? record_specular_trace(plan, tile, hits, rec)
                                     : SpecularPlanes{hits, constant_value(1.0f, rec, 3)};
     const Plane ao = plan.has(Effect::ao)
-                         ? record_ao(plan, slice, seen.hits, ao_step(plan, params, number), rec)
+                         ? record_ao(plan, tile, seen.hits, ao_step(plan, params, number), rec)
                          : constant_value(1.0f, rec);
     const Plane sun =
-        plan.has(Effect::sun) ? record_sun_trace(plan, slice, seen.hits, rec) : constant_value(0.0f, rec);
-    const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, slice, seen.hits, rec)
+        plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
+    const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, tile, seen.hits, rec)
                                                   : constant_value(0.0f, rec, 3);
-    const PhotonPlanes photons = record_photons(plan, slice, seen.hits, sample + 1, rec);
+    const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
     const ShadeInputs inputs{.hits = seen.hits,
                              .ao = ao,
                              .sun = sun,
                              .direct = direct,
                              .photons = photons.light,
                              .weights = seen.weights};
-    const Plane color = record_shade_resolve(plan, slice, inputs, rec);
-    record_film_add(plan, slice, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
-    if (plan.sums_squares) record_film_square(plan, slice, {"squares", 3}, color, rec);
+    const Plane color = record_shade_resolve(plan, tile, inputs, rec);
+    record_film_add(plan, tile, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
+    if (plan.sums_squares) record_film_square(plan, tile, {"squares", 3}, color, rec);
     if (plan.sums_bias) {
-        const Plane bias = record_photon_bias(plan, slice, seen, photons, rec);
-        record_film_add(plan, slice, {sample % 2 == 0 ? "bias_a" : "bias_b", 3}, bias, rec);
+        const Plane bias = record_photon_bias(plan, tile, seen, photons, rec);
+        record_film_add(plan, tile, {sample % 2 == 0 ? "bias_a" : "bias_b", 3}, bias, rec);
     }
 
     if (!plan.has(Effect::aov)) return;
-    const SurfacePlanes surface = record_aov_surface(plan, slice, hits, rec);
-    record_film_add(plan, slice, {"albedo", 3}, surface.albedo, rec);
-    record_film_add(plan, slice, {"normal", 3}, surface.normal, rec);
-    if (plan.has(Effect::ao)) record_film_add(plan, slice, {"ao", 1}, ao, rec);
-    if (plan.has(Effect::sun)) record_film_add(plan, slice, {"sun", 1}, sun, rec);
-    if (sample == number.first) record_aov_position(plan, slice, hits, rec);
+    const SurfacePlanes surface = record_aov_surface(plan, tile, hits, rec);
+    record_film_add(plan, tile, {"albedo", 3}, surface.albedo, rec);
+    record_film_add(plan, tile, {"normal", 3}, surface.normal, rec);
+    if (plan.has(Effect::ao)) record_film_add(plan, tile, {"ao", 1}, ao, rec);
+    if (plan.has(Effect::sun)) record_film_add(plan, tile, {"sun", 1}, sun, rec);
+    if (sample == number.first) record_aov_position(plan, tile, hits, rec);
 }
 
 }  // namespace voxilux

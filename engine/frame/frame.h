@@ -8,9 +8,9 @@
 
 namespace voxilux {
 
-// The camera and the lights of a frame in the shaders' terms, relative to the world's corner. Slice and
-// sample are filled per recording. Throws Error(input_refused) for a camera further than 2^23 voxels from the
-// world, where a float can no longer tell neighbouring voxels apart.
+// The camera and the lights of a frame in the shaders' terms, relative to the world's corner. DispatchTile
+// and sample are filled per recording. Throws Error(input_refused) for a camera further than 2^23 voxels from
+// the world, where a float can no longer tell neighbouring voxels apart.
 [[nodiscard]] gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene,
                                             const MarchWorld& march_world);
 
@@ -21,8 +21,8 @@ struct SampleNumber {
     std::uint32_t first = 0;   // the sample that gives the film its positions and depths
 };
 
-// One sample of every pixel of a slice, from camera rays to the film.
-void record_frame(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+// One sample of every pixel of a tile, from camera rays to the film.
+void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FrameParams params,
                   const SampleNumber& number, Recording& recording);
 
 }  // namespace voxilux

@@ -39,7 +39,7 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
 void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
     params.light_count = plan.world.lights.count;
     params.light_power = static_cast<float>(plan.world.lights.power);
-    params.lamp_photons = plan.photons.lamp_photons;
+    params.emitter_photons = plan.photons.emitter_photons;
     params.sun_photons = plan.photons.sun_photons;
     params.sun_disc_centre = glm::vec3(plan.world.lights.sun_disc.centre);
     params.sun_disc_radius = static_cast<float>(plan.world.lights.sun_disc.radius);

@@ -116,7 +116,7 @@ std::vector<Effect> switchable_effects(const Scene& scene, const RenderPlan& pla
 
 std::vector<EffectPrice> price_effects(RenderSession& session, const PriceJob& job) {
     VX_ASSERT(job.samples > 0);
-    VX_ASSERT(job.trials >= kFewestTrials);
+    VX_ASSERT(job.trials >= kMinTrials);
     const auto stops = [&] { return job.stops && job.stops(); };
     std::vector<Entry> entries{{.request = job.request, .radius = job.settings.photons.radius}};
     const RenderPlan plan = warm_up(session, job, entries.front());

@@ -31,8 +31,8 @@ struct PriceJob {
     std::int64_t frame = 0;
     RenderSettings settings;
     PlanRequest request;
-    std::uint32_t samples = 4;  // of each picture
-    std::size_t trials = 3;     // at least kFewestTrials (film/difference_estimate.h); each has its own seed
+    std::uint32_t samples = 4;    // of each picture
+    std::size_t trials = 3;       // at least kMinTrials (film/difference_estimate.h); each has its own seed
     std::vector<Effect> effects;  // none: all that can be switched
     std::function<bool()> stops;  // asked before each picture
 };

@@ -19,7 +19,7 @@ constexpr std::uint32_t kLateSamples = 2;
 double samples_needed(const ErrorPilot& pilot, double error) {
     const auto curve = fit_error(pilot.law, pilot.points);
     if (!curve) return 0.0;
-    return samples_for(*curve, error).value_or(kMostSamples);
+    return samples_for(*curve, error).value_or(kMaxSamples);
 }
 
 void time_late_samples(const PilotJob& job, PilotFilm& film, ErrorPilot& pilot) {
@@ -37,9 +37,9 @@ void time_late_samples(const PilotJob& job, PilotFilm& film, ErrorPilot& pilot) 
 }  // namespace
 
 bool doubles_pilot(std::uint32_t samples, double pixels, double needed) {
-    if (samples < kFewestPilotSamples) return true;
+    if (samples < kMinPilotSamples) return true;
     const double doubled = 2.0 * samples;
-    if (doubled > kMostPilotSamples || doubled > needed) return false;
+    if (doubled > kMaxPilotSamples || doubled > needed) return false;
     return doubled <= kPilotShare * needed || doubled * pixels <= kPilotWork;
 }
 

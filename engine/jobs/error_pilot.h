@@ -38,8 +38,8 @@ struct PilotJob {
 // the target needs, or kPilotWork when that is more.
 inline constexpr double kPilotShare = 0.02;
 inline constexpr double kPilotWork = 1u << 20;  // pixels times samples: a second on two cores
-inline constexpr std::uint32_t kFewestPilotSamples = 8;
-inline constexpr std::uint32_t kMostPilotSamples = 256;
+inline constexpr std::uint32_t kMinPilotSamples = 8;
+inline constexpr std::uint32_t kMaxPilotSamples = 256;
 
 // Whether a pilot of so many samples doubles them. `needed`: samples that the target needs, as known now.
 [[nodiscard]] bool doubles_pilot(std::uint32_t samples, double pixels, double needed);

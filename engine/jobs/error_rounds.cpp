@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t kFirstRound = 8;  // samples, where nothing is known
 // A round that its own picture decides grows it by this at least, so that looks stay few; and by this at
 // most: few samples say little, and of many one bright one may have said too much.
-constexpr double kLeastGrowth = 1.05;
-constexpr double kMostGrowth = 2.0;
-constexpr double kMostEarlyGrowth = 8.0;
+constexpr double kMinGrowth = 1.05;
+constexpr double kMaxGrowth = 2.0;
+constexpr double kMaxEarlyGrowth = 8.0;
 constexpr std::uint32_t kEarly = 64;  // samples
 constexpr double kAim = 0.98;         // of the target, after a claim that passed it
 
@@ -34,7 +34,7 @@ std::string_view name_of(DecidedBy decided_by) {
     VX_ASSERT(false);
 }
 
-ErrorRounds::ErrorRounds(const ErrorLaw& law, double target, const ErrorGuess& guess, std::uint32_t most,
+ErrorRounds::ErrorRounds(const ErrorLaw& law, double target, const ErrorPrior& guess, std::uint32_t most,
                          std::uint32_t done)
     : law_(law), target_(target), most_(most), points_(guess.points), decided_by_(guess.from) {
     const auto curve = fit_error(law, points_);
@@ -57,8 +57,8 @@ bool ErrorRounds::reaches(std::uint32_t samples, const ErrorEstimate& claim) {
         wanted = samples_for(*curve, aim).value_or(most_);
     }
     const double now = samples;
-    const double most_growth = samples < kEarly ? kMostEarlyGrowth : kMostGrowth;
-    const double next = std::clamp(wanted, std::ceil(kLeastGrowth * now) + 1.0, most_growth * now);
+    const double max_growth = samples < kEarly ? kMaxEarlyGrowth : kMaxGrowth;
+    const double next = std::clamp(wanted, std::ceil(kMinGrowth * now) + 1.0, max_growth * now);
     end_ = static_cast<std::uint32_t>(std::min(next, static_cast<double>(most_)));
     end_ = std::min(end_ + end_ % 2, most_);  // halves of one size
     return false;

@@ -20,7 +20,7 @@ enum class DecidedBy : std::uint8_t {
 [[nodiscard]] std::string_view name_of(DecidedBy decided_by);
 
 // What is known of a picture before its first sample.
-struct ErrorGuess {
+struct ErrorPrior {
     std::vector<ErrorPoint> points;
     DecidedBy from = DecidedBy::pilot;
 };
@@ -31,7 +31,7 @@ struct ErrorGuess {
 class ErrorRounds {
   public:
     // `most`: samples that the render may take. `done`: that its film has already.
-    ErrorRounds(const ErrorLaw& law, double target, const ErrorGuess& guess, std::uint32_t most,
+    ErrorRounds(const ErrorLaw& law, double target, const ErrorPrior& guess, std::uint32_t most,
                 std::uint32_t done);
 
     // Samples at which the round ends.

@@ -13,10 +13,10 @@ namespace {
 // Deviations of the claim that a render allows for before it looks at its error. A second round costs little
 // but is decided by the samples it averages.
 constexpr double kPlanDeviations = 0.75;
-constexpr std::uint32_t kFewestSamples = 8;
+constexpr std::uint32_t kMinSamples = 8;
 constexpr std::uint32_t kWholeSamples = 4;  // a multiple: halves of one size
 // Relative: what time of the day does to the speed of a machine, which no pilot sees.
-constexpr double kLeastDrift = 0.08;
+constexpr double kMinDrift = 0.08;
 constexpr double kDriftDeviations = 2.0;
 constexpr std::size_t kTimeGroups = 4;
 // Readings of the error film that the end of a render is worth: reading, picture and estimate of all planes.
@@ -25,7 +25,7 @@ constexpr double kRoundReadings = 1.0;
 
 // Of the mean over a render, from how groups of successive samples differ.
 double drift_of(const std::vector<SampleTime>& times, const TimeCurve& curve) {
-    if (times.size() < 2 * kTimeGroups) return 2.0 * kLeastDrift;
+    if (times.size() < 2 * kTimeGroups) return 2.0 * kMinDrift;
     std::array<double, kTimeGroups> means{};
     for (std::size_t group = 0; group < kTimeGroups; ++group) {
         const std::size_t first = group * times.size() / kTimeGroups;
@@ -39,20 +39,20 @@ double drift_of(const std::vector<SampleTime>& times, const TimeCurve& curve) {
     double square = 0.0;
     for (const double mean : means)
         square += (mean - 1.0) * (mean - 1.0) / static_cast<double>(kTimeGroups - 1);
-    return std::max(kLeastDrift, kDriftDeviations * std::sqrt(square));
+    return std::max(kMinDrift, kDriftDeviations * std::sqrt(square));
 }
 
 std::uint32_t rounded_samples(std::uint32_t samples, std::uint32_t most) {
     const std::uint32_t whole = (samples + kWholeSamples - 1) / kWholeSamples * kWholeSamples;
-    return std::min(std::max(whole, kFewestSamples), most);
+    return std::min(std::max(whole, kMinSamples), most);
 }
 
 std::string reason_of(const ErrorCurve& curve, const Forecast& forecast, std::uint32_t most) {
-    const double at_most = claimed_error(curve, kMostSamples);
+    const double at_most = claimed_error(curve, kMaxSamples);
     if (at_most > forecast.error && curve.law.alpha == 1.0 && curve.law.has_bias)
         return "the blur of a radius that does not shrink stays";
     if (at_most > forecast.error)
-        return fmt::format("{} samples, the most that a film holds, are not enough", kMostSamples);
+        return fmt::format("{} samples, the most that a film holds, are not enough", kMaxSamples);
     return fmt::format("it needs more than the {} samples allowed", most);
 }
 
@@ -99,13 +99,13 @@ double film_values(const RenderPlan& plan) {
 std::optional<std::uint32_t> planned_samples(const ErrorCurve& curve, double error) {
     const auto samples = samples_for(curve, error, kPlanDeviations);
     if (!samples) return std::nullopt;
-    return rounded_samples(*samples, kMostSamples);
+    return rounded_samples(*samples, kMaxSamples);
 }
 
 std::optional<Forecast> make_forecast(const ErrorPilot& pilot, double error, const ForecastNeeds& needs) {
     const auto curve = fit_error(pilot.law, pilot.points);
     if (!curve || pilot.times.empty()) return std::nullopt;
-    const std::uint32_t most = needs.most_samples;
+    const std::uint32_t most = needs.max_samples;
     const auto planned = planned_samples(*curve, error);
     Forecast forecast{.error = error, .is_reachable = planned && *planned <= most, .pilot_s = needs.pilot_s};
     forecast.samples = forecast.is_reachable ? *planned : most;
@@ -119,13 +119,13 @@ std::optional<Forecast> make_forecast(const ErrorPilot& pilot, double error, con
         const double left = samples - std::min(samples, needs.samples_done);
         return left * times.mean_of(samples);
     };
-    const double expected = seconds_to(forecast.samples), most_s = seconds_to(forecast.samples_high);
+    const double expected = seconds_to(forecast.samples), max_s = seconds_to(forecast.samples_high);
     const double end_s = pilot.film_s * (kRoundReadings + kEndReadings * needs.film_values);
     forecast.expected_s = needs.pilot_s + expected + end_s;
     forecast.low_s =
-        needs.pilot_s * (1.0 - needs.pilot_doubt) + expected / (1.0 + times.deviation) + 0.5 * end_s;
+        needs.pilot_s * (1.0 - needs.pilot_uncertainty) + expected / (1.0 + times.deviation) + 0.5 * end_s;
     forecast.high_s =
-        needs.pilot_s * (1.0 + needs.pilot_doubt) + most_s * (1.0 + times.deviation) + 2.0 * end_s;
+        needs.pilot_s * (1.0 + needs.pilot_uncertainty) + max_s * (1.0 + times.deviation) + 2.0 * end_s;
     if (!needs.time_limit_s) return forecast;
     for (double* seconds : {&forecast.expected_s, &forecast.low_s, &forecast.high_s})
         *seconds = std::min(*seconds, *needs.time_limit_s);

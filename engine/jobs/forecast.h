@@ -28,11 +28,11 @@ struct Forecast {
 
 // What is known beside the pilot.
 struct ForecastNeeds {
-    std::uint32_t most_samples = kMostSamples;  // that the render may take
-    std::uint32_t samples_done = 0;             // that a checkpoint holds
-    double pilot_s = 0.0;                       // from the start to the end of the pilot
-    double pilot_doubt = 0.0;  // of pilot_s, relative, where another process will have its own
-    double film_values = 1.0;  // sums of the whole film over those of its error
+    std::uint32_t max_samples = kMaxSamples;  // that the render may take
+    std::uint32_t samples_done = 0;           // that a checkpoint holds
+    double pilot_s = 0.0;                     // from the start to the end of the pilot
+    double pilot_uncertainty = 0.0;           // of pilot_s, relative, where another process will have its own
+    double film_values = 1.0;                 // sums of the whole film over those of its error
     std::optional<double> time_limit_s;
 };
 
@@ -41,7 +41,7 @@ struct ForecastNeeds {
                                                     const ForecastNeeds& needs);
 
 // Samples that a render takes for an error before it looks: fewer than would be certain, more than are
-// likely to be enough. Nothing when kMostSamples are not.
+// likely to be enough. Nothing when kMaxSamples are not.
 [[nodiscard]] std::optional<std::uint32_t> planned_samples(const ErrorCurve& curve, double error);
 
 // Seconds per sample: `constant` + `falling` i^(alpha-1) for sample i, which is what a shrinking disc costs.

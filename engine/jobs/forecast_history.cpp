@@ -59,7 +59,7 @@ void make_room(const fs::path& file, int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return;
     if (::fstat(descriptor, &open_one) != 0 || ::stat(file.c_str(), &named_one) != 0) return;
     if (!is_same_file(open_one, named_one)) return;
-    if (static_cast<std::uint64_t>(open_one.st_size) < kMostHistoryBytes) return;
+    if (static_cast<std::uint64_t>(open_one.st_size) < kMaxHistoryBytes) return;
     (void)::rename(file.c_str(), old_file(file).c_str());
 }
 
@@ -123,8 +123,7 @@ bool append_history(const fs::path& file, const Json& entry) {
     const bool is_written =
         ::write(out.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
     struct stat status {};
-    if (::fstat(out.number(), &status) == 0 &&
-        static_cast<std::uint64_t>(status.st_size) >= kMostHistoryBytes)
+    if (::fstat(out.number(), &status) == 0 && static_cast<std::uint64_t>(status.st_size) >= kMaxHistoryBytes)
         make_room(file, out.number());
     return is_written;
 }

@@ -11,7 +11,7 @@
 namespace voxilux {
 
 // Bytes of a history file before it makes room for a new one: some thousand renders. One old file is kept.
-inline constexpr std::uint64_t kMostHistoryBytes = std::uint64_t{1} << 20;
+inline constexpr std::uint64_t kMaxHistoryBytes = std::uint64_t{1} << 20;
 
 // What is remembered of a render that had a forecast: {time (UTC), version, scene, scene_hash, seed, size,
 // device, forecast}, the forecast with its outcome. `scene_name` is for people.

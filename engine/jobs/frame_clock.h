@@ -24,7 +24,7 @@ class FrameClock {
         recent_s_ = recent_s_ > 0.0 ? recent_s_ + (seconds - recent_s_) * kRecentShare : seconds;
     }
 
-    // Per row, of the last slice.
+    // Per row, of the last tile.
     [[nodiscard]] double row_s() const { return row_s_; }
     // Per sample, of the last ones; 0: unknown.
     [[nodiscard]] double recent_s() const { return recent_s_; }

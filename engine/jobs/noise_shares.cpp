@@ -85,13 +85,13 @@ std::vector<NoiseShare> share_noise(const ShareJob& job, Executor& executor) {
         shares.push_back({.effect = state.effect, .reason = reason_without_share(state.effect)});
         if (shares.back().reason.empty()) films += 1.0;
     }
-    const bool is_dear = films * kShareSamples * job.sample_s > job.budget_s;
+    const bool is_expensive = films * kShareSamples * job.sample_s > job.budget_s;
     // No effect is off; neither are there sums that the shares do not need.
     const FilmSums all =
-        is_dear ? FilmSums{} : render_film(job, plan_without(job.prepared.plan, Effect::aov), executor);
+        is_expensive ? FilmSums{} : render_film(job, plan_without(job.prepared.plan, Effect::aov), executor);
     for (NoiseShare& share : shares) {
         if (!share.reason.empty()) continue;
-        if (is_dear || (job.stops && job.stops())) {
+        if (is_expensive || (job.stops && job.stops())) {
             share.reason = "a sample takes too long to find out";
             continue;
         }

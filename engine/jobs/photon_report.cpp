@@ -6,7 +6,7 @@ nlohmann::ordered_json photons_json(const RenderPlan& plan) {
     if (!plan.photons.runs()) return nullptr;
     const PhotonSettings& settings = plan.settings.photons;
     nlohmann::ordered_json json = {{"per_iteration", plan.photons.count()},
-                                   {"of_lamps", plan.photons.lamp_photons},
+                                   {"of_lamps", plan.photons.emitter_photons},
                                    {"of_sun", plan.photons.sun_photons},
                                    {"capacity", plan.photons.capacity}};
     const bool is_known = plan.photons.radius > 0.0;

@@ -95,9 +95,9 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
         return result;
     }
     const double error = *options.error_target;
-    ForecastNeeds needs{.most_samples = result.plan.samples(),
+    ForecastNeeds needs{.max_samples = result.plan.samples(),
                         .pilot_s = seconds_since(options.started),
-                        .pilot_doubt = kPilotDoubt,
+                        .pilot_uncertainty = kPilotDoubt,
                         .film_values = film_values(result.plan),
                         .time_limit_s = options.time_limit_s};
     const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);

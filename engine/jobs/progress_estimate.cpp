@@ -9,8 +9,8 @@ constexpr double kPaceMargin = 0.05;  // relative, to both sides
 
 }  // namespace
 
-FrameRest estimate_rest(const FrameStand& stand) {
-    FrameRest rest;
+RemainingTime estimate_remaining(const FrameProgress& stand) {
+    RemainingTime rest;
     const double taken = stand.samples - stand.start;
     if (taken > 0.0) {
         const double pace = stand.sampling_s / taken;
@@ -23,11 +23,11 @@ FrameRest estimate_rest(const FrameStand& stand) {
     }
     if (stand.end > 0.0) rest.done = std::min(stand.samples / stand.end, 1.0);
     if (!stand.limit_left_s) return rest;
-    const double most_s = std::max(*stand.limit_left_s, 0.0);
-    if (rest.expected_s > most_s && stand.sampling_s + most_s > 0.0)
-        rest.done = std::max(rest.done, stand.sampling_s / (stand.sampling_s + most_s));
+    const double max_s = std::max(*stand.limit_left_s, 0.0);
+    if (rest.expected_s > max_s && stand.sampling_s + max_s > 0.0)
+        rest.done = std::max(rest.done, stand.sampling_s / (stand.sampling_s + max_s));
     for (double* seconds : {&rest.low_s, &rest.expected_s, &rest.high_s})
-        *seconds = std::min(*seconds, most_s);
+        *seconds = std::min(*seconds, max_s);
     return rest;
 }
 

@@ -5,7 +5,7 @@
 namespace voxilux {
 
 // Where a frame stands. Samples may be broken numbers.
-struct FrameStand {
+struct FrameProgress {
     double start = 0.0;       // samples that the film began with
     double samples = 0.0;     // now
     double end = 0.0;         // expected, as planned
@@ -16,13 +16,13 @@ struct FrameStand {
     std::optional<double> limit_left_s;
 };
 
-struct FrameRest {
+struct RemainingTime {
     double done = 0.0;  // [0,1]
     double low_s = 0.0, expected_s = 0.0, high_s = 0.0;
 };
 
 // How long a frame will take from now on, if the pace stays between that of all samples so far and that of
 // the last ones; never longer than the time limit.
-[[nodiscard]] FrameRest estimate_rest(const FrameStand& stand);
+[[nodiscard]] RemainingTime estimate_remaining(const FrameProgress& stand);
 
 }  // namespace voxilux

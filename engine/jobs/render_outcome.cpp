@@ -3,11 +3,11 @@
 namespace voxilux {
 
 void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& statistics) {
-    for (std::size_t i = 0; i < gpu::kTallyCount; ++i) {
+    for (std::size_t i = 0; i < gpu::kCounterCount; ++i) {
         auto& table = i < gpu::kFaultCount ? statistics.faults : statistics.work;
-        table[gpu::kTallyNames[i]] += step.counters[i];
+        table[gpu::kCounterNames[i]] += step.counters[i];
     }
-    if (plan.photons.runs()) statistics.work["photons_emitted"] += step.slices * plan.photons.count();
+    if (plan.photons.runs()) statistics.work["photons_emitted"] += step.tiles * plan.photons.count();
     if (plan.rays.primary != 0) statistics.work["primary_rays"] += step.pixels;
     add_times(statistics.passes, step.passes);
     for (const PassTime& pass : step.passes)

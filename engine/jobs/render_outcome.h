@@ -28,7 +28,7 @@ struct RenderStatistics {
     double peak_rss_mib = 0.0;
     double load_s = 0.0;  // scene, world and structure, on the CPU
     double first_pixel_s =
-        0.0;  // from RenderOptions::started to the end of the first slice; 0 when there is none
+        0.0;  // from RenderOptions::started to the end of the first tile; 0 when there is none
     double gpu_ms = 0.0;
     std::vector<PassTime> passes;
     std::map<std::string, std::uint64_t> work;

@@ -103,7 +103,7 @@ std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
 }
 
 // The first frame has a pilot; each later one is expected to need what the one before did.
-ErrorGuess RenderSession::guess_error(const RenderOptions& options, std::uint32_t samples_done,
+ErrorPrior RenderSession::error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                       Clock::time_point start) {
     if (!options.error_target) return {};
     if (last_points_) return {.points = *last_points_, .from = DecidedBy::frame_before};
@@ -114,7 +114,7 @@ ErrorGuess RenderSession::guess_error(const RenderOptions& options, std::uint32_
     const std::optional<ErrorPilot> pilot = run_pilot(stops);
     if (!pilot) return {};
     forecast_ = make_forecast(*pilot, *options.error_target,
-                              {.most_samples = plan().samples(),
+                              {.max_samples = plan().samples(),
                                .samples_done = samples_done,
                                .pilot_s = seconds_since(start),
                                .film_values = film_values(plan()),
@@ -135,7 +135,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                              .options = options,
                              .film = film,
                              .start = start,
-                             .guess = guess_error(options, film.position.samples, start),
+                             .guess = error_prior(options, film.position.samples, start),
                              .shares = shares_};
     SampleLoop loop(inputs);
     FrameCalls calls{.on_progress = on_progress, .save = [&] {

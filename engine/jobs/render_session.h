@@ -49,7 +49,7 @@ class RenderSession {
   private:
     void show(std::int64_t frame);
     [[nodiscard]] std::optional<ErrorPilot> run_pilot(const std::function<bool()>& stops);
-    [[nodiscard]] ErrorGuess guess_error(const RenderOptions& options, std::uint32_t samples_done,
+    [[nodiscard]] ErrorPrior error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                          std::chrono::steady_clock::time_point start);
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();

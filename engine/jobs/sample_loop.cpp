@@ -12,7 +12,7 @@ namespace {
 
 // The strip that tells how long the end of a render takes: a part of the image, whole blocks of an EXR.
 constexpr std::uint32_t kStripParts = 32;
-constexpr std::uint32_t kLeastStripRows = 16;
+constexpr std::uint32_t kMinStripRows = 16;
 constexpr double kEndMargin = 1.1;
 // Another process may get in the way of a short one: the median of up to so many, while there is time.
 constexpr std::size_t kRehearsals = 3;
@@ -72,10 +72,10 @@ void SampleLoop::run(const FrameCalls& calls) {
 bool SampleLoop::take_sample(const FrameCalls& calls) {
     Renderer& renderer = inputs_.renderer;
     for (bool has_ended = false; !has_ended;) {
-        const std::uint32_t rows = renderer.film().next_slice().row_count;
+        const std::uint32_t rows = renderer.film().next_tile().row_count;
         const double begin_s = clock_.now_s();
         if (rule_.stops_before(begin_s + clock_.row_s() * rows, samples())) return false;
-        const StepResult step = renderer.step_slice();
+        const StepResult step = renderer.step_tile();
         add_step(step, renderer.plan(), statistics_);
         if (statistics_.first_pixel_s == 0.0) statistics_.first_pixel_s = clock_.now_s();
         clock_.end_slice(begin_s, rows);
@@ -101,7 +101,7 @@ ErrorEstimate SampleLoop::measure_error() {
 // beside the image, and are part of it.
 void SampleLoop::rehearse_end(const std::function<void(RenderOutcome)>& rehearse) {
     const RenderPlan& plan = inputs_.renderer.plan();
-    const RowRange rows = middle_rows(plan, std::max(kLeastStripRows, height_of(plan) / kStripParts));
+    const RowRange rows = middle_rows(plan, std::max(kMinStripRows, height_of(plan) / kStripParts));
     std::vector<double> seconds;
     const double start_s = clock_.now_s();
     do {
@@ -130,7 +130,7 @@ RenderOutcome SampleLoop::outcome() {
     // Halves that share samples are not independent: they agree better than they are right.
     statistics.error = plan.any(&Technique::shares_samples) ? unknown_error() : error_of(film);
     statistics.samples = samples();
-    add_outlook(statistics);
+    add_projection(statistics);
     statistics.live_cells = renderer.film().state().live_cells;
     statistics.memory = renderer.executor().memory();
     statistics.pipelines = renderer.executor().pipelines_created();
@@ -140,7 +140,7 @@ RenderOutcome SampleLoop::outcome() {
 }
 
 // What decided the end, and what a minute more would bring.
-void SampleLoop::add_outlook(RenderStatistics& statistics) const {
+void SampleLoop::add_projection(RenderStatistics& statistics) const {
     if (rule_.rounds()) statistics.rounds = rule_.rounds()->rounds();
     if (statistics.stop == StopReason::error_target) statistics.decided_by = rule_.rounds()->decided_by();
     const auto curve = watch_.curve_with(statistics.samples, statistics.error);
@@ -150,17 +150,17 @@ void SampleLoop::add_outlook(RenderStatistics& statistics) const {
         price_next_minute(*curve, statistics.samples, clock_.sampling_s() / taken, inputs_.shares);
 }
 
-FrameStand SampleLoop::stand() const {
-    FrameStand stand{.start = clock_.first_samples(),
-                     .samples = clock_.samples_at(inputs_.renderer.film().position()),
-                     .end = static_cast<double>(rule_.end()),
-                     .sampling_s = clock_.sampling_s(),
-                     .recent_s = clock_.recent_s(),
-                     .end_s = rule_.kept_s()};
+FrameProgress SampleLoop::stand() const {
+    FrameProgress stand{.start = clock_.first_samples(),
+                        .samples = clock_.samples_at(inputs_.renderer.film().position()),
+                        .end = static_cast<double>(rule_.end()),
+                        .sampling_s = clock_.sampling_s(),
+                        .recent_s = clock_.recent_s(),
+                        .end_s = rule_.kept_s()};
     stand.end_high = stand.end;
     if (rule_.rounds() && watch_.curve()) {
         const auto most = samples_for(*watch_.curve(), *inputs_.options.error_target, kHighDeviations);
-        stand.end_high = std::min(most.value_or(kMostSamples), inputs_.renderer.plan().samples());
+        stand.end_high = std::min(most.value_or(kMaxSamples), inputs_.renderer.plan().samples());
     }
     if (rule_.time_limit_s()) stand.limit_left_s = *rule_.time_limit_s() - clock_.now_s();
     return stand;
@@ -168,10 +168,10 @@ FrameStand SampleLoop::stand() const {
 
 void SampleLoop::report_progress(const std::function<void(const Progress&)>& on_progress) {
     if (!on_progress) return;
-    const FrameStand now = stand();
-    const FrameRest rest = estimate_rest(now);
-    most_done_ = std::max(most_done_, rest.done);  // another round is no step back
-    Progress progress{.done = most_done_,
+    const FrameProgress now = stand();
+    const RemainingTime rest = estimate_remaining(now);
+    max_done_ = std::max(max_done_, rest.done);  // another round is no step back
+    Progress progress{.done = max_done_,
                       .elapsed_s = clock_.now_s(),
                       .remaining_s = rest.expected_s,
                       .remaining_low_s = rest.low_s,

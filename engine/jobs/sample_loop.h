@@ -21,13 +21,13 @@ struct FrameInputs {
     const RenderOptions& options;  // its own time limit
     const FilmStart& film;         // what the film holds already
     std::chrono::steady_clock::time_point start;
-    ErrorGuess guess;                // of the error, when there is a target
+    ErrorPrior guess;                // of the error, when there is a target
     std::vector<NoiseShare> shares;  // of the noise, as far as they are known
 };
 
 // What a frame calls while it runs.
 struct FrameCalls {
-    std::function<void(const Progress&)> on_progress;  // after a slice
+    std::function<void(const Progress&)> on_progress;  // after a tile
     std::function<void()> save;                        // as often as RenderOptions::checkpoint_s says
     // With a time limit, once after the first sample: does to a strip of rows what will be done to the image.
     std::function<void(RenderOutcome strip)> rehearse;
@@ -53,8 +53,8 @@ class SampleLoop {
     [[nodiscard]] ErrorEstimate measure_error();
     void rehearse_end(const std::function<void(RenderOutcome)>& rehearse);
     void report_progress(const std::function<void(const Progress&)>& on_progress);
-    [[nodiscard]] FrameStand stand() const;
-    void add_outlook(RenderStatistics& statistics) const;
+    [[nodiscard]] FrameProgress stand() const;
+    void add_projection(RenderStatistics& statistics) const;
     [[nodiscard]] std::uint32_t samples() const { return inputs_.renderer.film().position().samples; }
 
     const FrameInputs& inputs_;
@@ -63,7 +63,7 @@ class SampleLoop {
     CheckpointTimer checkpoints_;
     FrameClock clock_;
     RenderStatistics statistics_;
-    double most_done_ = 0.0;  // that was told
+    double max_done_ = 0.0;  // that was told
 };
 
 }  // namespace voxilux

@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-StopRule::StopRule(const RenderOptions& options, const RenderPlan& plan, const ErrorGuess& guess,
+StopRule::StopRule(const RenderOptions& options, const RenderPlan& plan, const ErrorPrior& guess,
                    std::uint32_t done)
     : options_(options), max_samples_(plan.samples()) {
     if (options.error_target)

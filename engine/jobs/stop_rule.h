@@ -14,15 +14,15 @@ namespace voxilux {
 class StopRule {
   public:
     // The options outlive this; `done`: samples that the film has already.
-    StopRule(const RenderOptions& options, const RenderPlan& plan, const ErrorGuess& guess,
+    StopRule(const RenderOptions& options, const RenderPlan& plan, const ErrorPrior& guess,
              std::uint32_t done);
 
     // Whether the frame has all its samples. Their error is measured where a round ends, and only there it
     // decides.
     [[nodiscard]] bool is_done(std::uint32_t samples, const std::function<ErrorEstimate()>& measure);
 
-    // Whether no slice may begin that would end at `end_s`, from the start of the frame. The first sample is
-    // always finished, so that the image is whole; later a slice that would end too late to write the image
+    // Whether no tile may begin that would end at `end_s`, from the start of the frame. The first sample is
+    // always finished, so that the image is whole; later a tile that would end too late to write the image
     // in time is not begun.
     [[nodiscard]] bool stops_before(double end_s, std::uint32_t samples);
 

@@ -4,9 +4,9 @@
 #include <bit>
 
 #include "shared/alias.h"
+#include "shared/counters.h"
 #include "shared/gpu_types.h"
 #include "shared/sequence.h"
-#include "shared/tally.h"
 
 namespace voxilux {
 
@@ -44,11 +44,11 @@ std::string frame_buffer(Recording& recording) {
 }
 
 std::string tally_buffer(Recording& recording) {
-    return declare<gpu::uint>(recording, "tally", gpu::kTallyCount);
+    return declare<gpu::uint>(recording, "counters", gpu::kCounterCount);
 }
 
-Extent pixel_extent(const RenderPlan& plan, const Slice& slice) {
-    return {static_cast<std::uint32_t>(plan.settings.size.x), slice.row_count, 1};
+Extent pixel_extent(const RenderPlan& plan, const DispatchTile& tile) {
+    return {static_cast<std::uint32_t>(plan.settings.size.x), tile.row_count, 1};
 }
 
 std::string materials_buffer(const RenderPlan& plan, Recording& recording) {
@@ -114,14 +114,14 @@ std::vector<Constant> surface_constants(const RenderPlan& plan) {
     return constants;
 }
 
-Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
+Plane record_surface_pass(const RenderPlan& plan, const DispatchTile& tile, const SurfacePass& pass,
                           const Plane& hits, Recording& recording) {
     const Plane output{declare_plane<float>(plan, pass.output_buffer, recording)};
     Dispatch dispatch{.label = pass.label,
                       .shader = pass.shader,
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = {{"Frame", frame_buffer(recording)},
-                                   {"Tally", tally_buffer(recording)},
+                                   {"Counters", tally_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Hits", hits.buffer},

@@ -12,29 +12,29 @@
 
 namespace voxilux {
 
-// A per-pixel quantity of the current slice. An effect that is off yields a constant: one element, stride 0,
+// A per-pixel quantity of the current tile. An effect that is off yields a constant: one element, stride 0,
 // so that whoever reads it never changes.
 struct Plane {
     std::string buffer;
     std::uint32_t stride = 1;
 };
 
-// Declares a plane of the current slice: one element for each pixel. Its size is that of the largest slice.
+// Declares a plane of the current tile: one element for each pixel. Its size is that of the largest tile.
 template <class T>
 std::string declare_plane(const RenderPlan& plan, std::string name, Recording& recording,
                           Lifetime lifetime = Lifetime::transient) {
-    return declare<T>(recording, std::move(name), plan.slice_pixels(), lifetime);
+    return declare<T>(recording, std::move(name), plan.tile_pixels(), lifetime);
 }
 
-// A plane of the film in a band: sums, or the positions and depths of one sample.
+// A plane of the film in a film tile: sums, or the positions and depths of one sample.
 template <class T>
-std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint32_t band,
+std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint32_t film_tile,
                        Recording& recording) {
-    return declare<T>(recording, film_buffer(plane.name, band), plan.band_pixels() * plane.components,
-                      Lifetime::persistent);
+    return declare<T>(recording, film_buffer(plane.name, film_tile),
+                      plan.film_tile_pixels() * plane.components, Lifetime::persistent);
 }
 
-// The parameters of the slice, and what its passes count.
+// The parameters of the tile, and what its passes count.
 [[nodiscard]] std::string frame_buffer(Recording& recording);
 [[nodiscard]] std::string tally_buffer(Recording& recording);
 
@@ -45,15 +45,15 @@ std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint
 [[nodiscard]] Plane constant_value(float value, Recording& recording, std::uint32_t components = 1);
 
 // The run of rows of the picture that a recording renders.
-struct Slice {
-    std::uint32_t band = 0;
-    std::uint32_t band_first_row = 0;  // rows of the picture
+struct DispatchTile {
+    std::uint32_t film_tile = 0;
+    std::uint32_t film_tile_first_row = 0;  // rows of the picture
     std::uint32_t first_row = 0;
     std::uint32_t row_count = 0;
 };
 
-// Invocations of a pass over the pixels of a slice.
-[[nodiscard]] Extent pixel_extent(const RenderPlan& plan, const Slice& slice);
+// Invocations of a pass over the pixels of a tile.
+[[nodiscard]] Extent pixel_extent(const RenderPlan& plan, const DispatchTile& tile);
 
 // The world's arrays, or a placeholder that no shader reads when the plan has no voxels. The scratch of the
 // build is left out.
@@ -91,7 +91,7 @@ struct SurfacePass {
     std::vector<Constant> constants;  // beside surface_constants()
 };
 
-[[nodiscard]] Plane record_surface_pass(const RenderPlan& plan, const Slice& slice, const SurfacePass& pass,
-                                        const Plane& hits, Recording& recording);
+[[nodiscard]] Plane record_surface_pass(const RenderPlan& plan, const DispatchTile& tile,
+                                        const SurfacePass& pass, const Plane& hits, Recording& recording);
 
 }  // namespace voxilux

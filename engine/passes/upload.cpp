@@ -5,7 +5,7 @@
 #include "passes/plane.h"
 #include "passes/world.h"
 #include "plan/film_planes.h"
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 
 namespace voxilux {
 namespace {
@@ -14,7 +14,7 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
     std::vector<gpu::SurfaceMaterial> materials(plan.material_count);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        const SurfaceShares shares = plan.has(Effect::specular) ? surface_shares(material) : SurfaceShares{};
+        const LobeWeights shares = plan.has(Effect::specular) ? lobe_weights(material) : LobeWeights{};
         materials[i] = {.albedo = material.albedo,
                         .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
                         .mirror = shares.mirror,
@@ -49,11 +49,11 @@ void record_scene_upload(const RenderPlan& plan, const Scene& scene, const March
                          const LightList& lights, Recording& recording) {
     if (plan.has(Effect::voxels))
         record_world_build(march_world, plan.world.growth, build_buffers(plan, recording), recording);
-    record_matter_upload(plan, scene, march_world.origin, lights, recording);
+    record_materials_upload(plan, scene, march_world.origin, lights, recording);
 }
 
-void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
-                          const LightList& lights, Recording& recording) {
+void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
+                             const LightList& lights, Recording& recording) {
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
         for (const std::uint32_t number : sphere_order(scene))
@@ -64,7 +64,7 @@ void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3
         const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);
         recording.upload(materials_buffer(plan, recording), std::as_bytes(std::span(materials)));
     }
-    if (!plan.has(Effect::direct) && plan.photons.lamp_photons == 0) return;
+    if (!plan.has(Effect::direct) && plan.photons.emitter_photons == 0) return;
     recording.upload(lights_buffer(plan, recording), std::as_bytes(std::span(lights.records)));
     recording.upload(light_table_buffer(plan, recording), std::as_bytes(std::span(lights.table)));
 }
@@ -75,12 +75,12 @@ void record_frame_upload(const gpu::FrameParams& params, Recording& recording) {
 }
 
 void record_film_clear(const RenderPlan& plan, Recording& recording) {
-    for (std::uint32_t band = 0; band < plan.band_count; ++band) {
+    for (std::uint32_t film_tile = 0; film_tile < plan.film_tile_count; ++film_tile) {
         for (const FilmPlane& plane : film_planes(plan))
-            recording.clear(film_plane<std::int64_t>(plan, plane, band, recording));
+            recording.clear(film_plane<std::int64_t>(plan, plane, film_tile, recording));
         if (!plan.has(Effect::aov)) continue;
-        recording.clear(film_plane<float>(plan, {"position", 3}, band, recording));
-        recording.clear(film_plane<float>(plan, {"depth", 1}, band, recording));
+        recording.clear(film_plane<float>(plan, {"position", 3}, film_tile, recording));
+        recording.clear(film_plane<float>(plan, {"depth", 1}, film_tile, recording));
     }
 }
 

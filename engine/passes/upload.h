@@ -6,15 +6,15 @@
 
 namespace voxilux {
 
-// Puts the scene on the device: world, materials, spheres, lamps, whatever the plan has.
+// Puts the scene on the device: world, materials, spheres, emitters, whatever the plan has.
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording);
 
-// Of the above what depends on which effects run, and not on the voxels: materials, spheres, lamps.
-void record_matter_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
-                          const LightList& lights, Recording& recording);
+// Of the above what depends on which effects run, and not on the voxels: materials, spheres, emitters.
+void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
+                             const LightList& lights, Recording& recording);
 
-// Puts the parameters of one slice on the device and sets the tally to zero.
+// Puts the parameters of one tile on the device and sets the counters to zero.
 void record_frame_upload(const gpu::FrameParams& params, Recording& recording);
 
 // Sets every film plane to zero.

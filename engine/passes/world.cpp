@@ -21,16 +21,16 @@ std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int lo
 // the scratch ends in its own buffer.
 static_assert(gpu::kGrowthSteps % 2 == 1);
 
-void record_growth(const MarchWorld& skeleton, const GrowingLevel& level, const WorldBuffers& buffers,
+void record_growth(const MarchWorld& unexpanded, const GrowingLevel& level, const WorldBuffers& buffers,
                    Recording& recording) {
     const int log2 = level.log2;
     gpu::WorldGrowPush push{.count = checked_cast<gpu::uint>(level.cells, "cells"),
-                            .chunks = skeleton.chunks_size};
+                            .chunks = unexpanded.chunks_size};
     WorldBuffers read = buffers;
-    std::string& source = level_buffer(read, skeleton, log2);
+    std::string& source = level_buffer(read, unexpanded, log2);
     std::string target = buffers.grown;
     std::swap(source, target);
-    upload_words(source, level_words(skeleton, log2), recording);
+    upload_words(source, level_words(unexpanded, log2), recording);
     for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
         const gpu::GrowthStep step = gpu::growth_step(number);
         push.axis = step.axis;
@@ -42,7 +42,7 @@ void record_growth(const MarchWorld& skeleton, const GrowingLevel& level, const 
                           .addresses = {{"grown", target}},
                           .constants = {{"level", static_cast<std::uint32_t>(log2)}},
                           .push = to_bytes(push)};
-        point_to_world(skeleton.traversal, read, dispatch);
+        point_to_world(unexpanded.traversal, read, dispatch);
         recording.dispatch(std::move(dispatch));
         std::swap(source, target);
     }
@@ -65,20 +65,20 @@ void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& 
     dispatch.constants.push_back({"traversal", static_cast<std::uint32_t>(traversal)});
 }
 
-void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, const WorldBuffers& buffers,
+void record_world_build(const MarchWorld& unexpanded, const GrowthNeeds& growth, const WorldBuffers& buffers,
                         Recording& recording) {
-    const int root = gpu::root_log2(static_cast<gpu::uint>(skeleton.traversal));
+    const int root = gpu::root_log2(static_cast<gpu::uint>(unexpanded.traversal));
     const auto grows = [&](int log2) {
         return std::ranges::find(growth.levels, log2, &GrowingLevel::log2) != growth.levels.end();
     };
-    if (!grows(root)) upload_words(buffers.roots, skeleton.roots, recording);
+    if (!grows(root)) upload_words(buffers.roots, unexpanded.roots, recording);
     if (root == gpu::kBrickLog2 || !grows(gpu::kBrickLog2))
-        upload_words(buffers.nodes, skeleton.nodes, recording);
-    upload_words(buffers.leaves, skeleton.leaves, recording);
+        upload_words(buffers.nodes, unexpanded.nodes, recording);
+    upload_words(buffers.leaves, unexpanded.leaves, recording);
     for (const GrowingLevel& level : growth.levels) {
-        const std::vector<glm::ivec3> homes = level_homes(skeleton, level.log2);
+        const std::vector<glm::ivec3> homes = level_homes(unexpanded, level.log2);
         recording.upload(buffers.homes, std::as_bytes(std::span(homes)));
-        record_growth(skeleton, level, buffers, recording);
+        record_growth(unexpanded, level, buffers, recording);
     }
 }
 

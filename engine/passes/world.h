@@ -23,10 +23,10 @@ struct WorldBuffers {
 // shaders/lib/world_access.glsl asks for.
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch);
 
-// Puts a skeleton (build_march_skeleton) on the device and grows its boxes there; `growth` is its
-// growth_needs. The result has the bits of build_march_world. Of a skeleton without words nothing is
-// uploaded, but the same passes are recorded.
-void record_world_build(const MarchWorld& skeleton, const GrowthNeeds& growth, const WorldBuffers& buffers,
+// Puts an unexpanded structure (build_unexpanded_world) on the device and grows its boxes there; `growth` is
+// its growth_needs. The result has the bits of build_march_world. Of an unexpanded structure without words
+// nothing is uploaded, but the same passes are recorded.
+void record_world_build(const MarchWorld& unexpanded, const GrowthNeeds& growth, const WorldBuffers& buffers,
                         Recording& recording);
 
 // Puts what an edit changed into buffers that hold the structure as it was and have room for what it added.

@@ -10,7 +10,7 @@ namespace voxilux {
 
 // A quantity that the film sums exactly, one 64-bit sum per component and pixel.
 struct FilmPlane {
-    std::string name;  // of its buffers: film.<name>.<band>
+    std::string name;  // of its buffers: film.<name>.<film_tile>
     std::uint32_t components = 1;
 };
 
@@ -18,6 +18,6 @@ struct FilmPlane {
 // to a; each half has its own sequence (frame/frame.cpp).
 [[nodiscard]] std::vector<FilmPlane> film_planes(const RenderPlan& plan);
 
-[[nodiscard]] std::string film_buffer(const std::string& plane, std::uint32_t band);
+[[nodiscard]] std::string film_buffer(const std::string& plane, std::uint32_t film_tile);
 
 }  // namespace voxilux

@@ -10,17 +10,17 @@
 namespace voxilux {
 namespace {
 
-// Pixels that one film band may have with the hash: every pass then runs over the whole picture before the
+// Pixels that one film tile may have with the hash: every pass then runs over the whole picture before the
 // next one starts, so that no pixel reads sums that others still add to.
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 21;
-constexpr std::uint64_t kFewestSlots = std::uint64_t{1} << 12;
-constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 24;  // 128 MiB of keys: what one binding takes
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 21;
+constexpr std::uint64_t kMinSlots = std::uint64_t{1} << 12;
+constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 24;  // 128 MiB of keys: what one binding takes
 constexpr double kSlotsPerCell = 3.0;
-constexpr double kFewestCells = 2.0 / 3.0;  // per pixel
-constexpr double kMostCells = 4.0;
+constexpr double kMinCells = 2.0 / 3.0;  // per pixel
+constexpr double kMaxCells = 4.0;
 
 // Occlusion rays of a sample of the whole picture: one recording counts them in 32 bits.
-constexpr std::uint64_t kMostRays = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kMaxRays = std::numeric_limits<std::uint32_t>::max();
 
 // Why the hash cannot serve, or nothing.
 std::string hindrance(const RenderSettings& settings, const AoNeeds& needs) {
@@ -28,11 +28,11 @@ std::string hindrance(const RenderSettings& settings, const AoNeeds& needs) {
     if (std::max({needs.world_size.x, needs.world_size.y, needs.world_size.z}) > gpu::kAoMaxEdge)
         return fmt::format("the world is longer than {} voxels", gpu::kAoMaxEdge);
     if (needs.wants_error) return "pixels that share samples give no estimate of the error";
-    if (needs.pixels > kMostPixels) return fmt::format("the picture has over {} pixels", kMostPixels);
-    if (static_cast<std::uint32_t>(settings.size.y) > needs.most_rows)
-        return fmt::format("the picture has over {} rows", needs.most_rows);
-    if (needs.pixels * settings.ao_rays > kMostRays)
-        return fmt::format("a sample of the picture has over {} occlusion rays", kMostRays);
+    if (needs.pixels > kMaxPixels) return fmt::format("the picture has over {} pixels", kMaxPixels);
+    if (static_cast<std::uint32_t>(settings.size.y) > needs.max_rows)
+        return fmt::format("the picture has over {} rows", needs.max_rows);
+    if (needs.pixels * settings.ao_rays > kMaxRays)
+        return fmt::format("a sample of the picture has over {} occlusion rays", kMaxRays);
     return {};
 }
 
@@ -57,10 +57,10 @@ void check_options(const AoSettings& ao) {
 std::uint32_t slots_for(const AoSettings& ao, std::uint64_t pixels) {
     if (ao.slots != 0) return ao.slots;
     const double half_width = 0.5 * static_cast<double>(ao.cell_px);
-    const double cells_per_pixel = std::clamp(1.0 / (half_width * half_width), kFewestCells, kMostCells);
+    const double cells_per_pixel = std::clamp(1.0 / (half_width * half_width), kMinCells, kMaxCells);
     const auto wanted =
         static_cast<std::uint64_t>(kSlotsPerCell * cells_per_pixel * static_cast<double>(pixels));
-    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp(wanted, kFewestSlots, kMostSlots)));
+    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp(wanted, kMinSlots, kMaxSlots)));
 }
 
 }  // namespace

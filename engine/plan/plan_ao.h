@@ -25,18 +25,18 @@ struct AoPlan {
 // What the choice depends on beside the settings.
 struct AoNeeds {
     bool has_voxels = false;
-    glm::ivec3 world_size{0};                                             // cells
-    std::uint64_t pixels = 0;                                             // of the picture
-    std::uint32_t most_rows = std::numeric_limits<std::uint32_t>::max();  // that one dispatch takes
-    std::uint32_t frames = 1;                                             // that will be rendered
-    bool moves_voxels = false;                                            // between these frames
-    bool is_cpu = true;                                                   // the device is one
+    glm::ivec3 world_size{0};                                            // cells
+    std::uint64_t pixels = 0;                                            // of the picture
+    std::uint32_t max_rows = std::numeric_limits<std::uint32_t>::max();  // that one dispatch takes
+    std::uint32_t frames = 1;                                            // that will be rendered
+    bool moves_voxels = false;                                           // between these frames
+    bool is_cpu = true;                                                  // the device is one
     bool wants_error = false;  // an error target decides when to stop
 };
 
 // The hash for frame ranges of voxels that stay, brute force else, unless the settings name one. Throws
 // Error(input_refused) when the hash is asked for and cannot serve: no voxels, a world too long for its keys,
-// a picture that needs more than one film band or dispatch, more rays in a sample than are counted; and for
+// a picture that needs more than one film tile or dispatch, more rays in a sample than are counted; and for
 // options that exclude each other.
 [[nodiscard]] AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs);
 

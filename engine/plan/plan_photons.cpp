@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
 
@@ -19,26 +19,26 @@ constexpr double kPhotonsPerLane = 128.0;
 // Turns of all loops that one invocation may be expected to take: a quarter of what lavapipe allows.
 constexpr double kLaneTurns = 16384.0;
 constexpr double kMarchTurns = 32.0;  // of a ray through voxels
-constexpr std::uint32_t kFewestPhotons = 1u << 14;
-constexpr std::uint32_t kMostPhotons = 1u << 24;
-constexpr std::uint32_t kFewestBuckets = 1u << 10;
-constexpr std::uint32_t kMostBuckets = 1u << 22;
+constexpr std::uint32_t kMinPhotons = 1u << 14;
+constexpr std::uint32_t kMaxPhotons = 1u << 24;
+constexpr std::uint32_t kMinBuckets = 1u << 10;
+constexpr std::uint32_t kMaxBuckets = 1u << 22;
 // Places in the store that an invocation takes together where it traces many photons.
 constexpr std::uint32_t kSlotsAtOnce = 16;
-constexpr std::uint32_t kMostGatherLanes = 32;
+constexpr std::uint32_t kMaxGatherLanes = 32;
 constexpr std::uint64_t kCellsPerPixel = 4;  // twice as many buckets gain nothing (passes/README.md)
 // Surfaces that receive a photon are a geometric series in the albedo; the deviation of their sum over all
 // photons is far below a half. Below: of photons that bounce between caustics only.
 constexpr double kStoreMargin = 1.5;
-constexpr double kMostStored = 64.0;
+constexpr double kMaxStored = 64.0;
 // Over the rounding of a photon's power on the device, four products: no photon may seem to pass the most.
 constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
-double stored_per_photon(double most_albedo, const PhotonSettings& settings, bool keeps_indirect) {
+double stored_per_photon(double max_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
     if (!settings.roulette) return settings.depth;  // no path ends before, however dark the surfaces
-    const double endless = 1.0 / std::max(1.0 - most_albedo, 1.0 / kMostStored);
-    return std::min(kStoreMargin * endless, kMostStored);
+    const double endless = 1.0 / std::max(1.0 - max_albedo, 1.0 / kMaxStored);
+    return std::min(kStoreMargin * endless, kMaxStored);
 }
 
 std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
@@ -50,7 +50,7 @@ std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
 // `most` of them fit in the store.
 std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixels, double most) {
     if (settings.count != 0) return settings.count;
-    const auto wanted = std::clamp<std::uint64_t>(pixels, kFewestPhotons, kMostPhotons);
+    const auto wanted = std::clamp<std::uint64_t>(pixels, kMinPhotons, kMaxPhotons);
     return static_cast<std::uint32_t>(std::min(static_cast<double>(wanted), std::floor(most)));
 }
 
@@ -58,21 +58,21 @@ std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixel
 // they are mostly the same.
 std::uint32_t bucket_count(std::uint32_t capacity, std::uint64_t pixels) {
     const std::uint64_t cells = std::min<std::uint64_t>(capacity, kCellsPerPixel * pixels);
-    const std::uint64_t most = kMostBuckets;
-    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(cells, kFewestBuckets, most)));
+    const std::uint64_t most = kMaxBuckets;
+    return static_cast<std::uint32_t>(std::bit_ceil(std::clamp<std::uint64_t>(cells, kMinBuckets, most)));
 }
 
 }  // namespace
 
 std::uint32_t gather_lanes(const DeviceLimits& limits) {
-    return limits.is_cpu ? std::min(limits.subgroup_size, kMostGatherLanes) : 0;
+    return limits.is_cpu ? std::min(limits.subgroup_size, kMaxGatherLanes) : 0;
 }
 
 LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec3 world_size,
                           glm::ivec3 origin) {
     LightFacts facts{.count = static_cast<std::uint32_t>(lights.records.size()),
                      .power = lights.power,
-                     .most_power = lights.most_power,
+                     .max_power = lights.max_power,
                      .sun_disc = lights.sun_disc};
     facts.extent = std::max({world_size.x, world_size.y, world_size.z, 1});
     for (const Sphere& sphere : scene.spheres) {
@@ -80,10 +80,10 @@ LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec
         facts.extent = std::max({facts.extent, far.x, far.y, far.z});
     }
     for (const Material& material : scene.materials) {
-        const SurfaceShares shares = surface_shares(material);
+        const LobeWeights shares = lobe_weights(material);
         if (shares.mirror + shares.glass >= 1.0f) continue;
         const float albedo = std::max({material.albedo.x, material.albedo.y, material.albedo.z});
-        facts.most_albedo = std::max(facts.most_albedo, static_cast<double>(albedo));
+        facts.max_albedo = std::max(facts.max_albedo, static_cast<double>(albedo));
     }
     return facts;
 }
@@ -94,13 +94,13 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const double sun_area = std::numbers::pi * needs.lights.sun_disc.radius * needs.lights.sun_disc.radius;
     const glm::dvec3 sun_power = glm::dvec3(needs.sun_irradiance) * sun_area;
     const double sun = needs.has_sun ? sun_power.x + sun_power.y + sun_power.z : 0.0;
-    const double lamps = needs.has_lamps ? needs.lights.power : 0.0;
-    if (!(sun + lamps > 0.0)) return plan;
-    const double met = stored_per_photon(needs.lights.most_albedo, settings, needs.keeps_indirect);
+    const double emitters = needs.has_emitters ? needs.lights.power : 0.0;
+    if (!(sun + emitters > 0.0)) return plan;
+    const double met = stored_per_photon(needs.lights.max_albedo, settings, needs.keeps_indirect);
     const double room = static_cast<double>(limits.max_binding_bytes) / sizeof(gpu::StoredPhoton);
     const std::uint32_t wanted = wanted_photons(settings, needs.pixels, room / met);
-    plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + lamps))));
-    plan.lamp_photons = wanted - plan.sun_photons;
+    plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + emitters))));
+    plan.emitter_photons = wanted - plan.sun_photons;
     const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
     plan.lanes = (wanted + per_lane - 1) / per_lane;
     plan.gather_lanes = gather_lanes(limits);
@@ -116,11 +116,11 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const double slots = stored + static_cast<double>(plan.lanes) * (plan.slots_at_once - 1);
     plan.capacity = static_cast<std::uint32_t>(std::min(slots, room));
     plan.buckets = bucket_count(plan.capacity, needs.pixels);
-    if (plan.lamp_photons != 0)
-        plan.most_power = needs.lights.most_power / static_cast<double>(plan.lamp_photons);
+    if (plan.emitter_photons != 0)
+        plan.max_power = needs.lights.max_power / static_cast<double>(plan.emitter_photons);
     if (plan.sun_photons != 0)
-        plan.most_power = glm::max(plan.most_power, sun_power / static_cast<double>(plan.sun_photons));
-    plan.most_power *= kPowerMargin;
+        plan.max_power = glm::max(plan.max_power, sun_power / static_cast<double>(plan.sun_photons));
+    plan.max_power *= kPowerMargin;
     return plan;
 }
 

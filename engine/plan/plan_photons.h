@@ -10,14 +10,14 @@
 
 namespace voxilux {
 
-// What a plan needs to know of the lamps.
+// What a plan needs to know of the emitters.
 struct LightFacts {
     std::uint32_t count = 0;
-    double power = 0.0;          // brightness of radiance times etendue, summed
-    glm::dvec3 most_power{0.0};  // most that all photons together would carry if each were as the strongest
+    double power = 0.0;         // brightness of radiance times etendue, summed
+    glm::dvec3 max_power{0.0};  // most that all photons together would carry if each were as the strongest
     SunDisc sun_disc;
-    double extent = 0.0;       // largest magnitude of a coordinate that a photon can meet, local to the world
-    double most_albedo = 0.0;  // of a diffuse material
+    double extent = 0.0;      // largest magnitude of a coordinate that a photon can meet, local to the world
+    double max_albedo = 0.0;  // of a diffuse material
 
     bool operator==(const LightFacts&) const = default;
 };
@@ -27,25 +27,25 @@ struct LightFacts {
 
 // How photons run. All zero when none do.
 struct PhotonPlan {
-    std::uint32_t lamp_photons = 0;  // emitted per iteration
+    std::uint32_t emitter_photons = 0;  // emitted per iteration
     std::uint32_t sun_photons = 0;
     std::uint32_t lanes = 0;          // invocations that trace them
     std::uint32_t capacity = 0;       // photons that can be stored in an iteration
     std::uint32_t slots_at_once = 0;  // of these that an invocation takes together
     std::uint32_t buckets = 0;        // that they are sorted into, a power of two
     std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
-    glm::dvec3 most_power{0.0};      // of one photon, W
+    glm::dvec3 max_power{0.0};       // of one photon, W
     double radius = 0.0;             // of the first iteration, voxels; 0: a pilot has to find it
 
     bool operator==(const PhotonPlan&) const = default;
-    [[nodiscard]] std::uint32_t count() const { return lamp_photons + sun_photons; }
+    [[nodiscard]] std::uint32_t count() const { return emitter_photons + sun_photons; }
     [[nodiscard]] bool runs() const { return count() != 0; }
 };
 
 // What the plan of photons depends on beside the settings.
 struct PhotonNeeds {
     LightFacts lights;
-    bool has_lamps = false;
+    bool has_emitters = false;
     bool has_sun = false;
     bool keeps_indirect = false;
     glm::vec3 sun_irradiance{0.0f};

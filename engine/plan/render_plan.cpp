@@ -6,15 +6,15 @@
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "plan/film_planes.h"
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 #include "shared/gpu_types.h"
 
 namespace voxilux {
 namespace {
 
-// Pixels of one film band: small enough that every buffer of a band stays far below 128 MiB, large enough
-// that pictures up to 1024 x 1024 are one band.
-constexpr std::uint64_t kBandPixels = std::uint64_t{1} << 20;
+// Pixels of one film tile: small enough that every buffer of a film tile stays far below 128 MiB, large
+// enough that pictures up to 1024 x 1024 are one film_tile.
+constexpr std::uint64_t kFilmTilePixels = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMaxImagePixels =
     (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
 constexpr int kMaxImageSide =
@@ -84,24 +84,24 @@ void decide_sums(RenderPlan& plan, bool wants_error) {
 }
 
 // One dispatch takes at most so many rows.
-void split_image(RenderPlan& plan, std::uint32_t most_rows) {
+void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint64_t rows =
-        std::max<std::uint64_t>(kBandPixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
-    plan.band_rows = plan.any(&Technique::whole_frame)
-                         ? height
-                         : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
-    plan.band_count = (height + plan.band_rows - 1) / plan.band_rows;
-    plan.slice_rows = std::min(plan.band_rows, most_rows);  // groups may be one row high
+        std::max<std::uint64_t>(kFilmTilePixels / width / kGroupEdge * kGroupEdge, kGroupEdge);
+    plan.film_tile_rows = plan.any(&Technique::whole_frame)
+                              ? height
+                              : static_cast<std::uint32_t>(std::min<std::uint64_t>(rows, height));
+    plan.film_tile_count = (height + plan.film_tile_rows - 1) / plan.film_tile_rows;
+    plan.tile_rows = std::min(plan.film_tile_rows, max_rows);  // groups may be one row high
 }
 
 void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
                                   static_cast<std::uint64_t>(plan.settings.size.y) * plan.samples();
     plan.rays.primary = plan.has(Effect::voxels) || plan.has(Effect::spheres) ? samples : 0;
-    const std::uint64_t most_samples = std::numeric_limits<std::uint64_t>::max() / plan.settings.ao_rays;
-    plan.rays.ao = plan.has(Effect::ao) ? std::min(samples, most_samples) * plan.settings.ao_rays : 0;
+    const std::uint64_t max_samples = std::numeric_limits<std::uint64_t>::max() / plan.settings.ao_rays;
+    plan.rays.ao = plan.has(Effect::ao) ? std::min(samples, max_samples) * plan.settings.ao_rays : 0;
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
@@ -137,8 +137,8 @@ std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     return planes;
 }
 
-std::string film_buffer(const std::string& plane, std::uint32_t band) {
-    return fmt::format("film.{}.{}", plane, band);
+std::string film_buffer(const std::string& plane, std::uint32_t film_tile) {
+    return fmt::format("film.{}.{}", plane, film_tile);
 }
 
 RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
@@ -158,7 +158,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     if (plan.has(Effect::caustics) || plan.has(Effect::indirect)) {
         plan.photons = plan_photons(plan.settings.photons,
                                     {.lights = world.lights,
-                                     .has_lamps = plan.has(Effect::emission),
+                                     .has_emitters = plan.has(Effect::emission),
                                      .has_sun = plan.has(Effect::sun),
                                      .keeps_indirect = plan.has(Effect::indirect),
                                      .sun_irradiance = scene.sun.irradiance,
@@ -170,7 +170,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
-                                      .most_rows = limits.max_groups[1],
+                                      .max_rows = limits.max_groups[1],
                                       .frames = request.frames,
                                       .moves_voxels = request.moves_voxels,
                                       .is_cpu = limits.is_cpu,
@@ -208,7 +208,7 @@ RenderPlan plan_with_radius(RenderPlan plan, double radius) {
 
 RenderPlan plan_of_rows(RenderPlan plan, std::uint32_t rows) {
     plan.settings.size.y = static_cast<int>(rows);
-    split_image(plan, plan.slice_rows);
+    split_image(plan, plan.tile_rows);
     return plan;
 }
 

@@ -69,12 +69,12 @@ struct RenderPlan {
     std::uint32_t sphere_count = 0;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
-    PhotonPlan photons;           // all zero without caustics and indirect light
-    bool sums_squares = false;    // of the beauty, for its variance
-    bool sums_bias = false;       // of photons
-    std::uint32_t band_rows = 0;  // rows of one film band: what one set of film buffers covers
-    std::uint32_t band_count = 0;
-    std::uint32_t slice_rows = 0;  // most rows that one recording renders
+    PhotonPlan photons;                // all zero without caustics and indirect light
+    bool sums_squares = false;         // of the beauty, for its variance
+    bool sums_bias = false;            // of photons
+    std::uint32_t film_tile_rows = 0;  // rows of one film tile: what one set of film buffers covers
+    std::uint32_t film_tile_count = 0;
+    std::uint32_t tile_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
     std::vector<std::string> notes;  // what the picture will lack, one line each
 
@@ -99,15 +99,15 @@ struct RenderPlan {
     [[nodiscard]] bool needs_pilot() const {
         return any(&Technique::needs_pilot) && !settings.photons.radius;
     }
-    [[nodiscard]] std::uint64_t slice_pixels() const {
-        return std::uint64_t{slice_rows} * static_cast<std::uint64_t>(settings.size.x);
+    [[nodiscard]] std::uint64_t tile_pixels() const {
+        return std::uint64_t{tile_rows} * static_cast<std::uint64_t>(settings.size.x);
     }
-    [[nodiscard]] std::uint64_t slice_tiles() const {
-        return std::uint64_t{gpu::beam_count(slice_rows)} *
+    [[nodiscard]] std::uint64_t tile_beams() const {
+        return std::uint64_t{gpu::beam_count(tile_rows)} *
                gpu::beam_count(static_cast<gpu::uint>(settings.size.x));
     }
-    [[nodiscard]] std::uint64_t band_pixels() const {
-        return std::uint64_t{band_rows} * static_cast<std::uint64_t>(settings.size.x);
+    [[nodiscard]] std::uint64_t film_tile_pixels() const {
+        return std::uint64_t{film_tile_rows} * static_cast<std::uint64_t>(settings.size.x);
     }
 };
 

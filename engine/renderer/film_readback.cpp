@@ -9,7 +9,7 @@
 namespace voxilux {
 namespace {
 
-// Rows of one film quantity, bands joined.
+// Rows of one film quantity, film tiles joined.
 template <class T>
 std::vector<T> read_plane(const RenderPlan& plan, const FilmPlane& plane, RowRange rows, Executor& executor) {
     const std::size_t row_values = static_cast<std::size_t>(plan.settings.size.x) * plane.components;
@@ -17,11 +17,11 @@ std::vector<T> read_plane(const RenderPlan& plan, const FilmPlane& plane, RowRan
     values.reserve(row_values * rows.count);
     const std::uint32_t end = rows.first + rows.count;
     for (std::uint32_t row = rows.first; row < end;) {
-        const std::uint32_t band = row / plan.band_rows;
-        const std::uint32_t count = std::min((band + 1) * plan.band_rows, end) - row;
+        const std::uint32_t film_tile = row / plan.film_tile_rows;
+        const std::uint32_t count = std::min((film_tile + 1) * plan.film_tile_rows, end) - row;
         Recording recording;
-        const std::string buffer = film_plane<T>(plan, plane, band, recording);
-        recording.readback(buffer, row_values * (row - band * plan.band_rows) * sizeof(T),
+        const std::string buffer = film_plane<T>(plan, plane, film_tile, recording);
+        recording.readback(buffer, row_values * (row - film_tile * plan.film_tile_rows) * sizeof(T),
                            row_values * count * sizeof(T));
         const RunResult result = executor.run(recording);
         const std::vector<std::byte>& bytes = result.readbacks.at(buffer);
@@ -62,12 +62,12 @@ FilmSums read_error_film(const RenderPlan& plan, Executor& executor) {
 
 RowRange middle_rows(const RenderPlan& plan, std::uint32_t count) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
-    const std::uint32_t band = height / 2 / plan.band_rows;
-    const std::uint32_t band_first = band * plan.band_rows;
-    const std::uint32_t band_count = std::min(plan.band_rows, height - band_first);
-    const std::uint32_t rows = std::min(count, band_count);
-    const std::uint32_t wanted = std::max(height / 2, band_first + rows / 2) - rows / 2;
-    return {std::min(wanted, band_first + band_count - rows), rows};
+    const std::uint32_t film_tile = height / 2 / plan.film_tile_rows;
+    const std::uint32_t film_tile_first = film_tile * plan.film_tile_rows;
+    const std::uint32_t film_tile_count = std::min(plan.film_tile_rows, height - film_tile_first);
+    const std::uint32_t rows = std::min(count, film_tile_count);
+    const std::uint32_t wanted = std::max(height / 2, film_tile_first + rows / 2) - rows / 2;
+    return {std::min(wanted, film_tile_first + film_tile_count - rows), rows};
 }
 
 FilmSums read_film(const RenderPlan& plan, Executor& executor) {

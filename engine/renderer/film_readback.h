@@ -6,11 +6,11 @@
 
 namespace voxilux {
 
-// Reads the film from the device: every plane that the plan has, bands joined. The caller knows how many
+// Reads the film from the device: every plane that the plan has, film tiles joined. The caller knows how many
 // samples each row has received.
 [[nodiscard]] FilmSums read_film(const RenderPlan& plan, Executor& executor);
 
-// Rows of the picture that lie in one film band.
+// Rows of the picture that lie in one film tile.
 struct RowRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;

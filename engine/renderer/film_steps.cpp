@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rows of the first slice of a step, when nothing is known of how long one takes.
+// Rows of the first tile of a step, when nothing is known of how long one takes.
 constexpr std::uint32_t kFirstRows = 16;
 
 }  // namespace
@@ -39,15 +39,15 @@ void FilmSteps::clear_film() {
     (void)executor_->run(recording);
 }
 
-Slice FilmSteps::next_slice(double budget_s) const {
+DispatchTile FilmSteps::next_tile(double budget_s) const {
     const double rows = row_s_ > 0.0 ? std::clamp(budget_s / row_s_, 1.0, 1e6) : kFirstRows;
-    return governor_.slice_at(position_.rows_ahead, static_cast<std::uint32_t>(rows));
+    return governor_.tile_at(position_.rows_ahead, static_cast<std::uint32_t>(rows));
 }
 
-StepResult FilmSteps::step_slice() {
+StepResult FilmSteps::step_tile() {
     clear_film();
     StepResult done;
-    (void)take(next_slice(), done);
+    (void)take(next_tile(), done);
     return done;
 }
 
@@ -55,40 +55,40 @@ StepResult FilmSteps::step(double budget_s) {
     const auto start = Clock::now();
     clear_film();
     StepResult done;
-    Slice next = next_slice(budget_s);
+    DispatchTile next = next_tile(budget_s);
     double left_s = budget_s;
     do {
         (void)take(next, done);
         left_s = budget_s - seconds_since(start);
-        next = next_slice(left_s);
+        next = next_tile(left_s);
     } while (row_s_ * next.row_count <= left_s);
     return done;
 }
 
-RunResult FilmSteps::take(const Slice& slice, StepResult& done, std::span<const std::string> kept) {
-    VX_ASSERT_EQ(slice.first_row, position_.rows_ahead);
+RunResult FilmSteps::take(const DispatchTile& tile, StepResult& done, std::span<const std::string> kept) {
+    VX_ASSERT_EQ(tile.first_row, position_.rows_ahead);
     const auto start = Clock::now();
     Recording recording;
-    record_frame(*plan_, slice, params_, {plan_->shard.sample(position_.samples), state_, plan_->shard.index},
+    record_frame(*plan_, tile, params_, {plan_->shard.sample(position_.samples), state_, plan_->shard.index},
                  recording);
-    recording.readback("tally");
+    recording.readback("counters");
     for (const std::string& buffer : kept)
         recording.readback(buffer);
     RunResult result = executor_->run(recording);
-    row_s_ = seconds_since(start) / slice.row_count;
+    row_s_ = seconds_since(start) / tile.row_count;
     double max_ms = 0.0;
     for (const PassTime& pass : result.passes)
         max_ms = std::max(max_ms, pass.max_ms);
-    governor_.adapt(slice.row_count, max_ms);
+    governor_.adapt(tile.row_count, max_ms);
 
-    const auto counted = values_of<gpu::uint>(result, "tally");
-    for (std::size_t i = 0; i < gpu::kTallyCount; ++i)
+    const auto counted = values_of<gpu::uint>(result, "counters");
+    for (std::size_t i = 0; i < gpu::kCounterCount; ++i)
         done.counters[i] += counted[i];
     state_.live_cells += std::uint64_t{counted[gpu::kWorkAoClaimed]} - counted[gpu::kWorkAoEvicted];
     add_times(done.passes, result.passes);
-    done.pixels += std::uint64_t{params_.column_count} * slice.row_count;
-    ++done.slices;
-    position_.rows_ahead += slice.row_count;
+    done.pixels += std::uint64_t{params_.column_count} * tile.row_count;
+    ++done.tiles;
+    position_.rows_ahead += tile.row_count;
     if (position_.rows_ahead < static_cast<std::uint32_t>(plan_->settings.size.y)) return result;
     position_ = {position_.samples + 1, 0};
     state_.finish_sample(params_);

@@ -11,7 +11,7 @@
 #include "passes/display/display.h"
 #include "renderer/film_readback.h"
 #include "renderer/slices.h"
-#include "shared/tally.h"
+#include "shared/counters.h"
 #include "vk/executor.h"
 
 namespace voxilux {
@@ -30,14 +30,14 @@ struct FilmPosition {
 
 // What was done in a step.
 struct StepResult {
-    std::uint32_t slices = 0;
+    std::uint32_t tiles = 0;
     std::uint32_t samples = 0;  // of the whole image that ended
     std::uint64_t pixels = 0;   // that got a sample
-    std::array<std::uint64_t, gpu::kTallyCount> counters{};
+    std::array<std::uint64_t, gpu::kCounterCount> counters{};
     std::vector<PassTime> passes;
 };
 
-// Takes samples of one plan, slice by slice, on a device that holds the world: the one loop over slices.
+// Takes samples of one plan, tile by tile, on a device that holds the world: the one loop over tiles.
 class FilmSteps {
   public:
     // The plan and the executor outlive this. `state` is what earlier frames left on the device.
@@ -47,19 +47,19 @@ class FilmSteps {
     // the caller's.
     void start_frame(const gpu::FrameParams& params, FilmPosition start = {});
 
-    // The next slice that step_slice would take, or one that a step would take in so many seconds.
-    [[nodiscard]] Slice next_slice() const { return governor_.slice_at(position_.rows_ahead); }
-    [[nodiscard]] Slice next_slice(double budget_s) const;
+    // The next tile that step_tile would take, or one that a step would take in so many seconds.
+    [[nodiscard]] DispatchTile next_tile() const { return governor_.tile_at(position_.rows_ahead); }
+    [[nodiscard]] DispatchTile next_tile(double budget_s) const;
 
-    // Renders one slice, as large as the device should take at once.
-    StepResult step_slice();
+    // Renders one tile, as large as the device should take at once.
+    StepResult step_tile();
 
-    // Renders slices until `budget_s` is over: one at least, and no other that is expected to end later.
+    // Renders tiles until `budget_s` is over: one at least, and no other that is expected to end later.
     StepResult step(double budget_s);
 
-    // Renders this slice, which begins at the position, into a film that need not be empty; what it did is
+    // Renders this tile, which begins at the position, into a film that need not be empty; what it did is
     // added to `done`. `kept`: buffers to read back when it is rendered.
-    RunResult take(const Slice& slice, StepResult& done, std::span<const std::string> kept = {});
+    RunResult take(const DispatchTile& tile, StepResult& done, std::span<const std::string> kept = {});
 
     // Means of the film in a buffer on the device.
     DisplayBuffer display();
@@ -67,7 +67,7 @@ class FilmSteps {
     // The film of this frame with the samples of its rows; the second one without what no error needs.
     [[nodiscard]] FilmSums read();
     [[nodiscard]] FilmSums read_for_error();
-    // Some rows, all in one film band.
+    // Some rows, all in one film tile.
     [[nodiscard]] FilmSums read_rows(RowRange rows);
 
     [[nodiscard]] FilmPosition position() const { return position_; }
@@ -80,13 +80,13 @@ class FilmSteps {
 
     const RenderPlan* plan_;
     Executor* executor_;
-    SliceGovernor governor_;
+    TileGovernor governor_;
     FrameState state_;
     gpu::FrameParams params_{};
     FilmPosition start_;
     FilmPosition position_;
     bool is_cleared_ = false;
-    double row_s_ = 0.0;  // of the last slice, per row
+    double row_s_ = 0.0;  // of the last tile, per row
 };
 
 }  // namespace voxilux

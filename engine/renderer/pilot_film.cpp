@@ -37,7 +37,7 @@ PilotFilm::PilotFilm(const RenderPlan& plan, const PreparedScene& prepared, cons
 double PilotFilm::take(std::uint32_t sample) {
     const auto start = std::chrono::steady_clock::now();
     if (sample != steps_.position().samples) steps_.start_frame(params_, {.samples = sample});
-    while (steps_.step_slice().samples == 0) {
+    while (steps_.step_tile().samples == 0) {
     }
     return seconds_since(start);
 }

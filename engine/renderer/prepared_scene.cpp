@@ -38,7 +38,7 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
     TraversalChoice choice;
     if (facts.has_voxels) {
         choice = choose_traversal(take_census(world), request.traversal, request.memory_budget_bytes, limits);
-        prepared.march_world = build_march_skeleton(world, choice.traversal);
+        prepared.march_world = build_unexpanded_world(world, choice.traversal);
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};

@@ -18,7 +18,7 @@ namespace {
 constexpr double kPilotPhotons = 10.0;
 constexpr double kSmallestPilot = 0.0625;  // voxels
 constexpr double kPilotGrowth = 4.0;
-constexpr int kMostPilots = 10;  // up to a radius of 16,384 voxels
+constexpr int kMaxPilots = 10;  // up to a radius of 16,384 voxels
 // Fewer photons in the middle disc say too little.
 constexpr double kEnoughPhotons = 3.0;
 // Parts of the longest side of a world of voxels that no disc may be wider than: where hardly a photon comes,
@@ -31,10 +31,10 @@ std::vector<float> count_photons(const RenderPlan& pilot, const gpu::FrameParams
     static const std::array<std::string, 1> kept{"photon.radii"};
     FilmSteps steps(pilot, executor, true);
     steps.start_frame(params);
-    const Slice slice = steps.next_slice();
+    const DispatchTile tile = steps.next_tile();
     StepResult done;
-    auto radii = values_of<gpu::PixelRadius>(steps.take(slice, done, kept), kept[0]);
-    radii.resize(std::size_t{slice.row_count} * static_cast<std::size_t>(pilot.settings.size.x));
+    auto radii = values_of<gpu::PixelRadius>(steps.take(tile, done, kept), kept[0]);
+    radii.resize(std::size_t{tile.row_count} * static_cast<std::size_t>(pilot.settings.size.x));
     std::vector<float> photons;
     for (const gpu::PixelRadius& pixel : radii)
         photons.push_back(pixel.photons);
@@ -61,10 +61,10 @@ double pilot_radius(const PreparedScene& prepared, const Scene& scene, Executor&
     double radius = kSmallestPilot;
     double met = 0.0;
     const double most = largest_radius(prepared);
-    for (int i = 0; i < kMostPilots; ++i) {
+    for (int i = 0; i < kMaxPilots; ++i) {
         const RenderPlan pilot = plan_counting(prepared.plan, radius);
         met = median_of_met(count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor));
-        if (met >= kEnoughPhotons || radius >= most || i + 1 == kMostPilots) break;
+        if (met >= kEnoughPhotons || radius >= most || i + 1 == kMaxPilots) break;
         radius *= kPilotGrowth;
     }
     if (!(met > 0.0)) return kUnlitRadius;

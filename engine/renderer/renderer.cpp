@@ -107,8 +107,8 @@ void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted)
     scene_ = std::move(scene);
     prepared_->plan = std::move(plan);
     if (had_voxels)
-        record_matter_upload(prepared_->plan, scene_, prepared_->march_world.origin, prepared_->lights,
-                             pending_);
+        record_materials_upload(prepared_->plan, scene_, prepared_->march_world.origin, prepared_->lights,
+                                pending_);
     else
         record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
     start_plan({});
@@ -147,8 +147,8 @@ StepResult Renderer::step(double budget_s) {
     return with_uploads(ready_film().step(budget_s));
 }
 
-StepResult Renderer::step_slice() {
-    return with_uploads(ready_film().step_slice());
+StepResult Renderer::step_tile() {
+    return with_uploads(ready_film().step_tile());
 }
 
 DisplayBuffer Renderer::display() {

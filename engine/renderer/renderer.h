@@ -49,7 +49,7 @@ class Renderer {
 
     // The steps of the film (film_steps.h), uploads included. prepare() comes first.
     StepResult step(double budget_s);
-    StepResult step_slice();
+    StepResult step_tile();
 
     // The film so far, read from the device.
     [[nodiscard]] FilmSums read_film() { return ready_film().read(); }

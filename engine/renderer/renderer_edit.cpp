@@ -63,7 +63,7 @@ bool Renderer::edit_structure(std::span<const VoxelEdit> cells) {
     prepared_->lights = std::move(lights);
     upload();
     record_world_edit(built, changes, world_buffers(plan(), pending_), pending_);
-    record_matter_upload(plan(), scene_, built.origin, prepared_->lights, pending_);
+    record_materials_upload(plan(), scene_, built.origin, prepared_->lights, pending_);
     FrameState state = steps_->state();
     state.change_world();
     start_plan(state);

@@ -8,17 +8,17 @@
 
 namespace voxilux {
 
-// Cuts the image into slices so that no dispatch lasts long: a GPU's watchdog kills what runs for seconds,
+// Cuts the image into tiles so that no dispatch lasts long: a GPU's watchdog kills what runs for seconds,
 // and the user may want to stop. The cut never changes the image, because pixels do not depend on it.
-class SliceGovernor {
+class TileGovernor {
   public:
-    SliceGovernor(const RenderPlan& plan, bool is_cpu);
+    TileGovernor(const RenderPlan& plan, bool is_cpu);
 
-    // The slice from row `row` on: at most `max_rows` rows, unless the plan needs the image in one piece.
-    [[nodiscard]] Slice slice_at(std::uint32_t row,
-                                 std::uint32_t max_rows = std::numeric_limits<std::uint32_t>::max()) const;
+    // The tile from row `row` on: at most `max_rows` rows, unless the plan needs the image in one piece.
+    [[nodiscard]] DispatchTile tile_at(
+        std::uint32_t row, std::uint32_t max_rows = std::numeric_limits<std::uint32_t>::max()) const;
 
-    // Sizes the slices to come by one that was rendered: its rows and its longest dispatch.
+    // Sizes the tiles to come by one that was rendered: its rows and its longest dispatch.
     void adapt(std::uint32_t rows_done, double max_ms);
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
@@ -28,8 +28,8 @@ class SliceGovernor {
 
   private:
     std::uint32_t height_;
-    std::uint32_t band_rows_;
-    std::uint32_t most_rows_;
+    std::uint32_t film_tile_rows_;
+    std::uint32_t max_rows_;
     std::uint32_t rows_;
     double target_ms_;
     bool keeps_whole_ = false;

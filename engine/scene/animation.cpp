@@ -11,8 +11,8 @@ namespace voxilux {
 namespace {
 
 // What bounds_of_frames looks at: a file may have any number of keys, and a key any number of instances.
-constexpr std::size_t kMostFramedKeys = 256;
-constexpr std::size_t kMostFramedInstances = std::size_t{1} << 22;
+constexpr std::size_t kMaxFramedKeys = 256;
+constexpr std::size_t kMaxFramedInstances = std::size_t{1} << 22;
 
 // The instances of a placement at `frame`, in the scene.
 std::vector<Instance> placed_at(const Animation& animation, const std::vector<VoxelModel>& models,
@@ -49,8 +49,8 @@ Box bounds_of_frames(const Scene& scene) {
     std::vector<Instance> all = scene.instances;
     for (const VoxPlacement& placement : animation.placements) {
         const auto keys = key_frames_of(animation.files[placement.file].graph);
-        const std::size_t stride = (keys.size() + kMostFramedKeys - 1) / kMostFramedKeys;
-        for (std::size_t i = 0; i < keys.size() && all.size() < kMostFramedInstances; i += stride) {
+        const std::size_t stride = (keys.size() + kMaxFramedKeys - 1) / kMaxFramedKeys;
+        for (std::size_t i = 0; i < keys.size() && all.size() < kMaxFramedInstances; i += stride) {
             const auto shown = placed_at(animation, scene.models, placement, keys[i]);
             all.insert(all.end(), shown.begin(), shown.end());
         }

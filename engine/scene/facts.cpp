@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 
 namespace voxilux {
 namespace {
@@ -35,7 +35,7 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
         const Material& material = scene.materials[m];
         ++facts.material_count;
         facts.has_emitters |= any_positive(material.emission);
-        const SurfaceShares shares = surface_shares(material);
+        const LobeWeights shares = lobe_weights(material);
         facts.has_glass |= shares.glass > 0.0f;
         facts.has_metal |= shares.mirror > 0.0f;
     }

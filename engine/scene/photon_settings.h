@@ -7,7 +7,7 @@ namespace voxilux {
 
 // How photons find indirect light and caustics; one sample of a pixel is one iteration.
 struct PhotonSettings {
-    static constexpr std::int64_t kMostCount = std::int64_t{1} << 24;
+    static constexpr std::int64_t kMaxCount = std::int64_t{1} << 24;
 
     std::uint32_t count = 0;       // per iteration; 0: as many as the picture has pixels
     std::optional<double> radius;  // of the first iteration, voxels; absent: from a pilot

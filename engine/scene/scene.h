@@ -18,7 +18,7 @@ namespace voxilux {
 // Scene space: right handed, z up, one unit is one voxel, and a cell c covers [c, c+1) on each axis. It is
 // MagicaVoxel's world space. Colours are linear Rec. 709.
 
-// How light leaves a surface; surface_shares() says what the passes make of it.
+// How light leaves a surface; lobe_weights() says what the passes make of it.
 enum class Surface : std::uint8_t { diffuse, metal, glass, emit, blend, media };
 // Those that scene files name.
 inline constexpr std::array<std::string_view, 4> kSurfaceNames{"diffuse", "metal", "glass", "emit"};

@@ -128,7 +128,7 @@ void visit_settings(AoSettings& settings, auto&& visit) {
 
 void visit_settings(PhotonSettings& settings, auto&& visit) {
     auto& [count, radius, alpha, scatter, classic, roulette, depth, caustics, indirect] = settings;
-    visit({"count", {0, PhotonSettings::kMostCount}, "in an iteration; 0: one for each pixel"}, count);
+    visit({"count", {0, PhotonSettings::kMaxCount}, "in an iteration; 0: one for each pixel"}, count);
     visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
     visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
     visit({"scatter", {}, "photons look for points: the same sums, slower"}, scatter);

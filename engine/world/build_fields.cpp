@@ -109,7 +109,7 @@ std::uint32_t store_chunk(MarchWorld& built, BrickCells& cells, glm::ivec3 chunk
 
 }  // namespace
 
-void build_skeleton(const VoxelWorld& world, MarchWorld& built) {
+void build_unexpanded(const VoxelWorld& world, MarchWorld& built) {
     const int log2 = gpu::root_log2(static_cast<gpu::uint>(built.traversal));
     const glm::ivec3 grid = built.size() >> log2;
     built.roots.assign(static_cast<std::size_t>(grid.x) * static_cast<std::size_t>(grid.y) *

@@ -9,7 +9,7 @@ namespace voxilux {
 
 // Fills the arrays of `built`, whose traversal (one with boxes) and size are set, as world_cell.h says,
 // except for the boxes that grow afterwards: their distances are 0. Equal mixed bricks are stored once.
-void build_skeleton(const VoxelWorld& world, MarchWorld& built);
+void build_unexpanded(const VoxelWorld& world, MarchWorld& built);
 
 // log2 of the cell edges, in voxels, of the levels whose boxes grow, in the order they must grow in.
 [[nodiscard]] std::vector<int> growing_levels(Traversal traversal);
@@ -33,7 +33,8 @@ struct GrowingLevel {
     bool operator==(const GrowingLevel&) const = default;
 };
 
-// What growing a skeleton on the device takes: bytes of scratch, and the levels, in the order they grow in.
+// What growing an unexpanded structure on the device takes: bytes of scratch, and the levels, in the order
+// they grow in.
 struct GrowthNeeds {
     std::uint64_t home_bytes = 0;
     std::uint64_t grown_bytes = 0;
@@ -41,6 +42,6 @@ struct GrowthNeeds {
 
     bool operator==(const GrowthNeeds&) const = default;
 };
-[[nodiscard]] GrowthNeeds growth_needs(const MarchWorld& skeleton);
+[[nodiscard]] GrowthNeeds growth_needs(const MarchWorld& unexpanded);
 
 }  // namespace voxilux

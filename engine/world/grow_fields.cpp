@@ -1,4 +1,4 @@
-// The boxes of a skeleton, on the CPU: the oracle of passes/world.h.
+// The boxes of an unexpanded structure, on the CPU: the oracle of passes/world.h.
 
 #include <algorithm>
 
@@ -59,10 +59,10 @@ void grow_level(MarchWorld& built, int log2) {
     }
 }
 
-GrowthNeeds growth_needs(const MarchWorld& skeleton) {
+GrowthNeeds growth_needs(const MarchWorld& unexpanded) {
     GrowthNeeds needs;
-    for (const int log2 : growing_levels(skeleton.traversal)) {
-        const std::uint64_t cells = level_words(skeleton, log2).size();
+    for (const int log2 : growing_levels(unexpanded.traversal)) {
+        const std::uint64_t cells = level_words(unexpanded, log2).size();
         if (cells == 0) continue;
         const std::uint64_t homes = log2 == gpu::kChunkLog2 ? 1 : cells / 64;
         needs.home_bytes = std::max(needs.home_bytes, homes * sizeof(glm::ivec3));

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 #include "shared/light.h"
 #include "shared/world_cell.h"
 
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMostLights = std::size_t{1} << 24;
+constexpr std::size_t kMaxLights = std::size_t{1} << 24;
 // Spheres up to this many voxels count as things that the sun lights; larger ones are walls and grounds,
 // whose disc would waste all photons.
 constexpr double kLargestLitSphere = 1024.0;
@@ -19,7 +19,7 @@ constexpr double kDiscMargin = 1.001;  // over the rounding of positions on the 
 bool is_open(const Scene& scene, const VoxelWorld& world, glm::ivec3 cell) {
     const std::uint16_t voxel = world.get(cell);
     if (voxel == VoxelWorld::kEmpty) return true;
-    return surface_shares(scene.materials.at(voxel & 0x7FFFu)).glass > 0.0f;
+    return lobe_weights(scene.materials.at(voxel & 0x7FFFu)).glass > 0.0f;
 }
 
 struct Collector {
@@ -27,11 +27,11 @@ struct Collector {
     std::vector<double> powers;
 
     void add(const gpu::LightRecord& record, double power) {
-        if (list.records.size() + 1 >= kMostLights)
+        if (list.records.size() + 1 >= kMaxLights)
             throw Error(ExitCode::input_refused,
                         fmt::format("the scene has {} lamps or more (each face of an emitting voxel is one); "
                                     "use fewer emitting voxels",
-                                    kMostLights));
+                                    kMaxLights));
         list.records.push_back(record);
         powers.push_back(power);
     }
@@ -72,7 +72,7 @@ void measure_power(const Scene& scene, Collector& lights) {
         const glm::dvec3 emission(scene.materials.at(material).emission);
         const double etendue = lights.powers[i] / (emission.x + emission.y + emission.z);
         const auto pdf = static_cast<double>(lights.list.table[i].pdf);
-        lights.list.most_power = glm::max(lights.list.most_power, emission * (etendue / pdf));
+        lights.list.max_power = glm::max(lights.list.max_power, emission * (etendue / pdf));
     }
 }
 

@@ -17,16 +17,16 @@ struct SunDisc {
     bool operator==(const SunDisc&) const = default;
 };
 
-// All lamps of a scene: emitting spheres, and the faces of emitting voxels that no opaque voxel covers.
+// All emitters of a scene: emitting spheres, and the faces of emitting voxels that no opaque voxel covers.
 struct LightList {
     std::vector<gpu::LightRecord> records;  // spheres are numbered as sphere_order() says
-    std::vector<gpu::AliasEntry> table;     // draws a lamp by its power
+    std::vector<gpu::AliasEntry> table;     // draws an emitter by its power
     double power = 0.0;                     // brightness of radiance times etendue, summed
-    glm::dvec3 most_power{0.0};             // per channel the most that radiance times etendue / pdf comes to
+    glm::dvec3 max_power{0.0};              // per channel the most that radiance times etendue / pdf comes to
     SunDisc sun_disc;                       // radius 0 where there is nothing to light
 };
 
-// Faces that touch glass count: glass lets light out. Throws Error(input_refused) for 2^24 lamps and more,
+// Faces that touch glass count: glass lets light out. Throws Error(input_refused) for 2^24 emitters and more,
 // which the table could not tell apart.
 [[nodiscard]] LightList find_lights(const Scene& scene, const VoxelWorld* world, glm::ivec3 origin);
 

@@ -37,7 +37,7 @@ Traversal traversal_named(std::string_view name) {
                 fmt::format("no traversal '{}'; there are {}", name, fmt::join(kNames, ", ")));
 }
 
-MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal) {
+MarchWorld build_unexpanded_world(const VoxelWorld& world, Traversal traversal) {
     MarchWorld built{.traversal = traversal, .origin = world.origin(), .chunks_size = world.chunks()};
     switch (traversal) {
         case Traversal::dda:
@@ -48,13 +48,13 @@ MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal) {
             build_masks(world, built);
             break;
         default:
-            build_skeleton(world, built);
+            build_unexpanded(world, built);
     }
     return built;
 }
 
 MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
-    MarchWorld built = build_march_skeleton(world, traversal);
+    MarchWorld built = build_unexpanded_world(world, traversal);
     for (const int log2 : growing_levels(traversal))
         grow_level(built, log2);
     return built;

@@ -57,6 +57,6 @@ struct MarchWorld {
 
 // The same before its boxes grow: a march through it is right but slow. The device goes on from here
 // (passes/world.h).
-[[nodiscard]] MarchWorld build_march_skeleton(const VoxelWorld& world, Traversal traversal);
+[[nodiscard]] MarchWorld build_unexpanded_world(const VoxelWorld& world, Traversal traversal);
 
 }  // namespace voxilux

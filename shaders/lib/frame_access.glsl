@@ -11,7 +11,7 @@ layout(scalar) uniform Frame {
 struct Pixel {
     uint x;      // image column
     uint y;      // image row, 0 at the top
-    uint index;  // in the buffers of this slice
+    uint index;  // in the buffers of this tile
     bool inside;
 };
 

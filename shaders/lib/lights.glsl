@@ -1,4 +1,4 @@
-// Lamps. Include lib/path.glsl first.
+// Emitters. Include lib/path.glsl first.
 #ifndef VX_LIGHTS_GLSL
 #define VX_LIGHTS_GLSL
 
@@ -12,7 +12,7 @@ layout(scalar) readonly buffer LightTable {
     AliasEntry light_table[];
 };
 
-// A lamp, and the probability with which it was drawn.
+// An emitter, and the probability with which it was drawn.
 struct DrawnLight {
     LightParts parts;
     ivec3 cell;
@@ -20,7 +20,7 @@ struct DrawnLight {
     float pdf;
 };
 
-DrawnLight draw_light(uint bits, float u) {
+DrawnLight sample_light(uint bits, float u) {
     uint bucket = min(alias_bucket(bits, frame.light_count), frame.light_count - 1u);
     uint i = alias_choice(light_table[bucket], bucket, u);
     DrawnLight drawn;
@@ -36,7 +36,7 @@ vec3 sphere_centre(Sphere shape) {
     return shape.anchor - shape.normal / shape.curvature;
 }
 
-// Per solid angle: the density with which a lamp drawn by its power, and a point of it, give the direction from
+// Per solid angle: the density with which an emitter drawn by its power, and a point of it, give the direction from
 // `origin` to a hit on it. 0 where the hit does not shine at `origin`. In weights only: draws use the table's numbers.
 float light_pdf(vec3 origin, vec3 direction, Hit hit, vec3 emission) {
     float shining = brightness(emission) / frame.light_power;

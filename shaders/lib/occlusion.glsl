@@ -21,7 +21,7 @@ uvec2 ray_number(uvec2 first, uint i) {
 
 // Share of a pixel's cosine-weighted rays off its hit that meet nothing within the radius; `first` numbers the
 // first of them in the pixel's stream.
-float trace_openness(Pixel pixel, Hit hit, uvec2 first) {
+float trace_visibility(Pixel pixel, Hit hit, uvec2 first) {
     uint own = own_sphere(hit);
     uint stream = pixel_stream(pixel);
     uint open = 0u;

@@ -1,4 +1,4 @@
-// Paths of light, from the camera or from a lamp: where a ray goes next, and what mirrors and glass make of it. Include
+// Paths of light, from the camera or from an emitter: where a ray goes next, and what mirrors and glass make of it. Include
 // lib/address.glsl first.
 //
 // A point inside several glass spheres is in the smallest of them; else it is in the glass of the voxel around it, else
@@ -126,7 +126,7 @@ void find_voxel(PathRay path, inout PathHit found) {
     CellExit way;
     if (has_glass_voxels != 0u) {
         way = exit_cell(path);
-        Ray probe = leave_surface(path.cell, way.face, way.fraction, path.direction, kProbeLength);
+        Ray probe = spawn_ray(path.cell, way.face, way.fraction, path.direction, kProbeLength);
         ray.cell = inside ? probe.cell : ray.cell;
         ray.fraction = inside ? probe.fraction : ray.fraction;
         ray.t_max = inside ? probe.t_max : ray.t_max;
@@ -244,7 +244,7 @@ const uint kEventPass = 1u;     // it goes on as if nothing were there
 const uint kEventMirror = 2u;
 const uint kEventRefract = 3u;
 
-struct PathEvent {
+struct BsdfSample {
     uint kind;
     vec3 albedo;     // of the surface
     vec3 direction;  // in which it goes on
@@ -254,12 +254,12 @@ struct PathEvent {
 // Which of the material's surfaces a ray meets, and where it leaves to. `u` are two numbers in [0, 1): for the choice
 // of the surface and for Fresnel's. Mirror and glass are drawn with the probability that is their share, and
 // reflection with that of the reflectance, so that no weight but the albedo remains.
-PathEvent path_event(PathRay path, PathHit found, vec2 u) {
+BsdfSample path_event(PathRay path, PathHit found, vec2 u) {
     SurfaceMaterial material = materials[found.hit.material];
     bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
     bool is_glass_here = material.glass > 0.0 && (from_inside || u.x < material.glass);
     bool is_mirror_here = !is_glass_here && u.x < material.glass + material.mirror;
-    PathEvent event;
+    BsdfSample event;
     event.kind = is_mirror_here ? kEventMirror : kEventDiffuse;
     event.albedo = material.albedo;
     event.eta = 1.0;
@@ -278,7 +278,7 @@ PathEvent path_event(PathRay path, PathHit found, vec2 u) {
 }
 
 // The ray after an event that is not diffuse.
-PathRay path_after(PathRay path, PathHit found, PathEvent event) {
+PathRay path_after(PathRay path, PathHit found, BsdfSample event) {
     PathRay next;
     next.direction = event.direction;
     next.medium = path.medium;
@@ -292,7 +292,7 @@ PathRay path_after(PathRay path, PathHit found, PathEvent event) {
     }
     // The cell of the hit is on the near side only on the way out of glass.
     bool stays_in_cell = found.leaves_medium != crosses;
-    Ray ray = leave_surface(found.hit.cell, found.hit.face, found.hit.fraction, event.direction, kUnbounded);
+    Ray ray = spawn_ray(found.hit.cell, found.hit.face, found.hit.fraction, event.direction, kUnbounded);
     next.cell = stays_in_cell ? found.hit.cell : ray.cell;
     next.fraction = stays_in_cell ? found.hit.fraction : ray.fraction;
     next.medium = crosses ? found.far_medium : path.medium;

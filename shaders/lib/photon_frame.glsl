@@ -11,7 +11,7 @@ layout(scalar) uniform PhotonFrame {
 PhotonParams photon;
 
 // Takes the parameters once, at the start of main(): in a loop, lavapipe would load them anew in every turn.
-void open_photons() {
+void init_photons() {
     photon = photon_block;
 }
 

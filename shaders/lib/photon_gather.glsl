@@ -13,7 +13,7 @@
 #include "lib/loops.glsl"
 #include "lib/photon_light.glsl"
 #include "lib/photon_words.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 
 VX_SPECIALIZED(uint, own_radii, 0u);
 

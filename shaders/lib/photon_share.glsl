@@ -21,7 +21,7 @@ vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 r
     return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
 }
 
-// The shares of a hit's two discs, in [kLeastShare, 1].
+// The shares of a hit's two discs, in [kMinShare, 1].
 vec2 disc_shares(Hit hit, vec2 radii) {
     vec2 shares = vec2(1.0);
     if (sphere_count == 0u || photon_surface(hit) == kNoSurface) return shares;
@@ -35,7 +35,7 @@ vec2 disc_shares(Hit hit, vec2 radii) {
         for (uint i = 0u; i < sphere_count; ++i)
             shares *= shares_left(spheres[i].shape, i, own, point, normal, radii);
     }
-    return max(shares, vec2(kLeastShare));
+    return max(shares, vec2(kMinShare));
 }
 
 #endif

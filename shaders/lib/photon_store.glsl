@@ -5,7 +5,7 @@
 #include "lib/constants.glsl"
 #include "lib/photon_frame.glsl"
 #include "lib/photon_words.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 

@@ -23,7 +23,7 @@ SphereRecord held_spheres[kFewSpheres];
 
 // Takes the few spheres once. Lavapipe loads from a uniform block for each invocation apart, even from constant places,
 // and again in every turn of a loop: three quarters of a test of a sphere would be loads.
-void hold_spheres() {
+void load_spheres() {
     for (uint i = 0u; i < kFewSpheres; ++i)
         held_spheres[i] = sphere_table[i];
 }

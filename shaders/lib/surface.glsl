@@ -6,7 +6,7 @@
 #include "lib/frame_access.glsl"
 #include "lib/samples.glsl"
 #include "lib/spheres.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "lib/world_access.glsl"
 #include "shared/sampling.h"
 
@@ -44,9 +44,9 @@ vec3 surface_normal(Hit hit) {
 }
 
 // Makes the world and the spheres ready for rays. At the start of main(), while all invocations are active.
-void open_scene() {
-    open_world();
-    if (sphere_count != 0u && sphere_count <= kFewSpheres) hold_spheres();
+void init_scene() {
+    init_world();
+    if (sphere_count != 0u && sphere_count <= kFewSpheres) load_spheres();
 }
 
 struct NearestSphere {
@@ -99,7 +99,7 @@ Ray ray_from(Hit hit, vec3 direction, float t_max) {
         ray.t_max = t_max;
         return ray;
     }
-    return leave_surface(hit.cell, hit.face, hit.fraction, direction, t_max);
+    return spawn_ray(hit.cell, hit.face, hit.fraction, direction, t_max);
 }
 
 bool hits_voxels(Ray ray) {

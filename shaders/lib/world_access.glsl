@@ -1,6 +1,6 @@
 // The device side of march.h: the world's three arrays, reached by their addresses because each may be larger than a
 // binding, and the traversal that reads them. Include lib/address.glsl before any other file, define VX_PUSH before
-// this one to what the push block holds beside the world, and call open_world() at the start of main().
+// this one to what the push block holds beside the world, and call init_world() at the start of main().
 #ifndef VX_WORLD_ACCESS_GLSL
 #define VX_WORLD_ACCESS_GLSL
 
@@ -28,7 +28,7 @@ WorldWords node_cells;
 WorldWords leaf_cells;
 
 // Takes the pointers once, while all invocations are active: VX_POINTER says why.
-void open_world() {
+void init_world() {
     root_cells = VX_POINTER(WorldWords, roots);
     node_cells = VX_POINTER(WorldWords, nodes);
     leaf_cells = VX_POINTER(WorldWords, leaves);

@@ -10,7 +10,7 @@
 #include "lib/invocation.glsl"
 
 #include "lib/frame_access.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 
 #include "shared/cell_age.h"
 

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// One iteration of the a-trous filter of openness. Only voxel faces are filtered: spheres keep their own rays' value.
+// One iteration of the a-trous filter of visibility. Only voxel faces are filtered: spheres keep their own rays' value.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -44,9 +44,9 @@ void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit centre = hits[pixel.index];
-    float openness = ao[pixel.index];
+    float visibility = ao[pixel.index];
     float spread = variance[pixel.index];
-    vec3 sum = vec3(openness, spread, 1.0) * 36.0;
+    vec3 sum = vec3(visibility, spread, 1.0) * 36.0;
     ivec2 place = ivec2(pixel.x - frame.first_column, pixel.y - frame.first_row);
     float footprint = centre.t * pixel_width() * float(push.step);
     for (int i = 0; i < 25 && centre.face < kFaceInside; ++i) {
@@ -58,7 +58,7 @@ void main() {
         Hit tap = hits[index];
         if (tap.face != centre.face) continue;
         float weight = spline_weight(offset.x) * spline_weight(offset.y) *
-                       plane_weight(height_over(centre, tap), footprint) * value_weight(ao[index] - openness, spread);
+                       plane_weight(height_over(centre, tap), footprint) * value_weight(ao[index] - visibility, spread);
         sum += weight * vec3(ao[index], variance[index], 1.0);
     }
     filtered_ao[pixel.index] = sum.x / sum.z;

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Openness of each hit: that of its cell, or of its own rays where it has none.
+// Visibility of each hit: that of its cell, or of its own rays where it has none.
 
 #include "lib/address.glsl"
 
@@ -28,7 +28,7 @@ layout(scalar) readonly buffer Opens {
     uint64_t opens[];
 };
 layout(scalar) readonly buffer Own {
-    float own_openness[];
+    float own_visibility[];
 };
 layout(scalar) writeonly buffer Ao {
     float ao[];
@@ -41,13 +41,13 @@ void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     uint slot = slots[pixel.index];
-    float openness = own_openness[pixel.index];
+    float visibility = own_visibility[pixel.index];
     float taken = float(ao_rays);
     if (slot != kNoSlot) {
         slot &= ~kSlotRests;
         taken = float(samples[slot]);
-        openness = float(opens[slot]) / taken;
+        visibility = float(opens[slot]) / taken;
     }
-    ao[pixel.index] = openness;
-    if (wants_variance != 0u) variance[pixel.index] = openness_variance(openness, taken);
+    ao[pixel.index] = visibility;
+    if (wants_variance != 0u) variance[pixel.index] = visibility_variance(visibility, taken);
 }

@@ -5,7 +5,7 @@
 // Occlusion samples for the cells that the hits lie in. The number of samples that a cell already has is the number of the
 // next one in the cell's own sequence, which gives its direction and the point of the cell that it starts from: sums
 // depend on how many samples were taken, not on who took them. Hits without a cell (on spheres, or when the table has
-// no room) keep their own rays' openness instead.
+// no room) keep their own rays' visibility instead.
 
 #include "lib/address.glsl"
 
@@ -32,7 +32,7 @@ layout(scalar) readonly buffer Located {
     uint located[];
 };
 layout(scalar) writeonly buffer Own {
-    float own_openness[];
+    float own_visibility[];
 };
 
 uint locate(Hit hit) {
@@ -80,7 +80,7 @@ uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
 }
 
 void main() {
-    open_scene();
+    init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];
@@ -95,5 +95,5 @@ void main() {
     if (takes && slot != kNoSlot) atomicAdd(opens[slot], uint64_t(open));
     count(kWorkAoRays, takes ? ao_rays : 0u);
     count(kWorkAoOwnRays, takes && slot == kNoSlot ? ao_rays : 0u);
-    own_openness[pixel.index] = is_lit ? float(open) / float(ao_rays) : (hit.face == kFaceInside ? 0.0 : 1.0);
+    own_visibility[pixel.index] = is_lit ? float(open) / float(ao_rays) : (hit.face == kFaceInside ? 0.0 : 1.0);
 }

@@ -9,7 +9,7 @@
 #include "lib/invocation.glsl"
 
 #include "lib/frame_access.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 
 #include "lib/ao_cells.glsl"
 

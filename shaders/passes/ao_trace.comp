@@ -19,14 +19,14 @@ layout(scalar) writeonly buffer Ao {
 };
 
 void main() {
-    open_scene();
+    init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];
-    float openness = 1.0;
-    if (hit.face == kFaceInside) openness = 0.0;
+    float visibility = 1.0;
+    if (hit.face == kFaceInside) visibility = 0.0;
     bool traced = is_surface(hit) && hit.face != kFaceInside;
-    if (traced) openness = trace_openness(pixel, hit, first_ray(frame.sample_index, ao_rays));
+    if (traced) visibility = trace_visibility(pixel, hit, first_ray(frame.sample_index, ao_rays));
     count(kWorkAoRays, traced ? ao_rays : 0u);
-    ao[pixel.index] = openness;
+    ao[pixel.index] = visibility;
 }

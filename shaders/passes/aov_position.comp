@@ -29,7 +29,7 @@ void main() {
     Hit hit = hits[pixel.index * hits_stride];
     bool is_hit = hit.face <= kFaceSphereInside;
     vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
-    uint film_index = (pixel.y - frame.band_first_row) * frame.column_count + pixel.x - frame.first_column;
+    uint film_index = (pixel.y - frame.film_tile_first_row) * frame.column_count + pixel.x - frame.first_column;
     position[film_index] = is_hit ? vec3(frame.world_origin + hit.cell) + hit.fraction : vec3(0.0);
     depth[film_index] = is_hit ? dot(from_camera, frame.camera_forward) : kMissDepth;
 }

@@ -20,7 +20,7 @@ layout(scalar) writeonly buffer BenchHits {
 };
 
 void main() {
-    open_world();
+    init_world();
     uint i = linear_id();
     if (i >= push.count) return;
     WorldEntry entry = enter_world(rays[i], push.chunks << kChunkLog2);

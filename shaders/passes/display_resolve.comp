@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Means of the two halves of a film band together, one value per invocation.
+// Means of the two halves of a film tile together, one value per invocation.
 
 #include "lib/invocation.glsl"
 

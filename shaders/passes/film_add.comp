@@ -6,7 +6,7 @@
 
 #include "lib/invocation.glsl"
 
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "shared/film_sum.h"
 #include "shared/gpu_types.h"
 

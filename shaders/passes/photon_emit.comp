@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the photons of a sample start. Lamps are Lambertian emitters; the sun's photons come from a disc that faces it.
+// Where the photons of a sample start. Emitters are Lambertian emitters; the sun's photons come from a disc that faces it.
 // All the photons of a sample are one set of points of the sample sequence, scrambled by the number of the sample.
 
 #include "lib/address.glsl"
@@ -23,26 +23,26 @@ PhotonStart start_at(vec3 position) {
     return start;
 }
 
-PhotonStart leave_sphere(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
-    Sphere shape = spheres[lamp.parts.sphere].shape;
+PhotonStart leave_sphere(DrawnLight emitter, vec2 u_point, vec2 u_direction) {
+    Sphere shape = spheres[emitter.parts.sphere].shape;
     SphereEmission emission = sphere_emission(u_point, u_direction);
     PhotonStart start = start_at(shape.anchor + (emission.normal - shape.normal) / shape.curvature);
     start.direction = emission.direction;
-    start.sphere = lamp.parts.sphere;
-    start.power = lamp.emission * sphere_emission_etendue(1.0 / shape.curvature);
+    start.sphere = emitter.parts.sphere;
+    start.power = emitter.emission * sphere_emission_etendue(1.0 / shape.curvature);
     return start;
 }
 
-PhotonStart leave_face(DrawnLight lamp, vec2 u_point, vec2 u_direction) {
-    uint axis = lamp.parts.face >> 1u;
+PhotonStart leave_face(DrawnLight emitter, vec2 u_point, vec2 u_direction) {
+    uint axis = emitter.parts.face >> 1u;
     vec3 fraction = vec3(u_point.x, axis == 0u ? u_point.x : u_point.y, u_point.y);
-    Ray ray = leave_surface(lamp.cell, lamp.parts.face, fraction, cosine_on_face(lamp.parts.face, u_direction), kUnbounded);
+    Ray ray = spawn_ray(emitter.cell, emitter.parts.face, fraction, cosine_on_face(emitter.parts.face, u_direction), kUnbounded);
     PhotonStart start;
     start.cell = ray.cell;
     start.fraction = ray.fraction;
     start.direction = ray.direction;
     start.sphere = kNoSphere;
-    start.power = lamp.emission * kFaceEtendue;
+    start.power = emitter.emission * kFaceEtendue;
     return start;
 }
 
@@ -58,23 +58,23 @@ PhotonStart leave_sun(vec2 u_point, vec2 u_direction) {
 
 void main() {
     uint id = linear_id();
-    if (id >= frame.lamp_photons + frame.sun_photons) return;
+    if (id >= frame.emitter_photons + frame.sun_photons) return;
     SampleKey key = sample_key(frame.sample_index, uvec2(id, 0u), frame.seed);
     vec2 u_choice = draw_2d(key, kPairPhoton);
     vec2 u_point = draw_2d(key, kPairPhoton + 1u);
     vec2 u_direction = draw_2d(key, kPairPhoton + 2u);
     PhotonStart start;
-    if (id >= frame.lamp_photons) {
+    if (id >= frame.emitter_photons) {
         start = leave_sun(u_point, u_direction);
         start.power /= float(frame.sun_photons);
     } else {
-        DrawnLight lamp = draw_light(unit_bits(u_choice.x), u_choice.y);
-        if (lamp.parts.kind == kLightSphere) {
-            start = leave_sphere(lamp, u_point, u_direction);
+        DrawnLight emitter = sample_light(unit_bits(u_choice.x), u_choice.y);
+        if (emitter.parts.kind == kLightSphere) {
+            start = leave_sphere(emitter, u_point, u_direction);
         } else {
-            start = leave_face(lamp, u_point, u_direction);
+            start = leave_face(emitter, u_point, u_direction);
         }
-        start.power /= lamp.pdf * float(frame.lamp_photons);
+        start.power /= emitter.pdf * float(frame.emitter_photons);
     }
     start.noise = rng_uint(frame.seed, frame.sample_index, id, 2u * kPairBounce);
     put_start(id, start);

@@ -33,7 +33,7 @@ PixelRadius radius_of(Pixel pixel) {
 }
 
 void main() {
-    open_photons();
+    init_photons();
     Pixel pixel = tile_pixel();
     // Invocations outside the picture go along: photons are fetched by all of a subgroup.
     Hit hit;

@@ -36,7 +36,7 @@ void mark_cells(uint first_key, uint cells) {
 }
 
 void main() {
-    open_photons();
+    init_photons();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

@@ -25,7 +25,7 @@ layout(scalar) writeonly buffer SortedPoints {
 };
 
 void main() {
-    open_photons();
+    init_photons();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

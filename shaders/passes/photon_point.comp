@@ -22,7 +22,7 @@ layout(scalar) writeonly buffer PointRanks {
 };
 
 void main() {
-    open_photons();
+    init_photons();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

@@ -22,7 +22,7 @@ layout(scalar) readonly buffer PhotonTotals {
 };
 
 void main() {
-    open_photons();
+    init_photons();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

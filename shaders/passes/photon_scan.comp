@@ -56,8 +56,8 @@ void scan_runs_of_all(uint runs, uint buckets) {
     bucket_starts[buckets] = before;
     uint kept = min(head.count, photon.capacity);
     uint groups = (kept + kLinearGroup - 1u) / kLinearGroup;
-    head.groups_x = min(groups, kMostGroups);
-    head.groups_y = (groups + kMostGroups - 1u) / kMostGroups;
+    head.groups_x = min(groups, kMaxGroups);
+    head.groups_y = (groups + kMaxGroups - 1u) / kMaxGroups;
     head.groups_z = 1u;
 }
 
@@ -70,7 +70,7 @@ void write_starts(uint run, uint buckets) {
 }
 
 void main() {
-    open_photons();
+    init_photons();
     uint i = linear_id();
     uint buckets = photon.grid.mask + 1u;
     uint runs = scan_runs(buckets);

@@ -26,7 +26,7 @@ layout(scalar) writeonly buffer SortedPhotons {
 };
 
 void main() {
-    open_photons();
+    init_photons();
     uint i = linear_id();
     if (i >= min(head.count, photon.capacity)) return;
     uvec2 bucket_rank = unpack32(stored_words[kStoredWords * i + kSortedWords]);

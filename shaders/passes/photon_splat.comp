@@ -12,7 +12,7 @@
 #include "lib/loops.glsl"
 #include "lib/photon_frame.glsl"
 #include "lib/photon_words.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 
@@ -61,7 +61,7 @@ void splat_row(SortedPhoton from, int y, int z) {
 }
 
 void main() {
-    open_photons();
+    init_photons();
     uint i = linear_id();
     if (i >= min(head.count, photon.capacity)) return;
     uint word = kStoredWords * i;

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Carries photons from surface to surface and stores them where diffuse ones receive them, but for light straight from
-// a lamp, which direct.trace finds. An invocation traces several photons, surface by surface in one loop, so that those
+// an emitter, which direct.trace finds. An invocation traces several photons, surface by surface in one loop, so that those
 // whose photons end early do not wait for the others.
 
 #include "lib/address.glsl"
@@ -63,7 +63,7 @@ vec2 draw_pair(inout Photon photon) {
 
 // Sends the photon on from what it has met. False where it ends.
 bool bounce(inout Photon photon, PathHit found) {
-    PathEvent event = path_event(photon.path, found, draw_pair(photon));
+    BsdfSample event = path_event(photon.path, found, draw_pair(photon));
     PathRay next = path_after(photon.path, found, event);
     bool is_diffuse = event.kind == kEventDiffuse;
     bool is_caustic = (photon.bounces > 0u || photon.has_passed) && !photon.is_scattered;
@@ -88,18 +88,18 @@ bool bounce(inout Photon photon, PathHit found) {
 }
 
 void main() {
-    open_photons();
-    open_scene();
+    init_photons();
+    init_scene();
     uint lane = linear_id();
     if (lane >= lanes) return;
-    uint count_all = frame.lamp_photons + frame.sun_photons;
+    uint count_all = frame.emitter_photons + frame.sun_photons;
     uint next_id = lane;
     uint segments = 0u;
     uint passes = 0u;
     uint too_long = 0u;
     bool is_alive = false;
     Photon photon;
-    for (uint step = 0u; step < kMostPhotonSteps; ++step) {
+    for (uint step = 0u; step < kMaxPhotonSteps; ++step) {
         if (!is_alive) {
             if (next_id >= count_all) break;
             photon = start_photon(next_id);
@@ -109,8 +109,8 @@ void main() {
         PathHit found = next_hit(photon.path);
         ++segments;
         ++passes;
-        too_long += passes == kMostBounces ? 1u : 0u;
-        is_alive = is_surface(found.hit) && (found.hit.face != kFaceInside || found.stays) && passes < kMostBounces;
+        too_long += passes == kMaxBounces ? 1u : 0u;
+        is_alive = is_surface(found.hit) && (found.hit.face != kFaceInside || found.stays) && passes < kMaxBounces;
         if (is_alive) is_alive = bounce(photon, found);
     }
     close_store();

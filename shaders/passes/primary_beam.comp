@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the camera rays of each beam tile of the slice may start.
+// Where the camera rays of each beam tile of the tile may start.
 
 #include "lib/address.glsl"
 #include "lib/invocation.glsl"
@@ -16,7 +16,7 @@ layout(scalar) writeonly buffer Starts {
 };
 
 void main() {
-    open_world();
+    init_world();
     uint i = linear_id();
     uint columns = beam_count(frame.column_count);
     if (i >= columns * beam_count(frame.row_count)) return;

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// First voxel that each camera ray of the slice meets.
+// First voxel that each camera ray of the tile meets.
 
 #include "lib/address.glsl"
 
@@ -11,7 +11,7 @@
 
 #include "lib/frame_access.glsl"
 #include "lib/samples.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "lib/world_access.glsl"
 #include "shared/beam.h"
 
@@ -41,7 +41,7 @@ Hit no_hit() {
 }
 
 void main() {
-    open_world();
+    init_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = no_hit();

@@ -3,14 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Radiance of each camera ray: emission, and off Lambertian surfaces the constant sky through the ambient occlusion, the
-// sun, the lamps, and what photons brought. An effect that is off is a constant of stride 0.
+// sun, the emitters, and what photons brought. An effect that is off is a constant of stride 0.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
 #include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
-#include "lib/tally_access.glsl"
+#include "lib/counters_access.glsl"
 #include "shared/limits.h"
 
 VX_SPECIALIZED(uint, hits_stride, 1u);
@@ -55,9 +55,9 @@ void main() {
         SurfaceMaterial material = materials[hit.material];
         vec3 ambient = frame.sky_radiance * ao[pixel.index * ao_stride];
         vec3 sunlight = frame.sun_irradiance * (sun[pixel.index * sun_stride] * kInversePi);
-        vec3 lamplight = direct[pixel.index * direct_stride] + kInversePi * photons[pixel.index * photons_stride];
+        vec3 emitter_light = direct[pixel.index * direct_stride] + kInversePi * photons[pixel.index * photons_stride];
         vec3 emission = hit.face == kFaceSphereInside ? vec3(0.0) : material.emission;
-        radiance = emission + material.albedo * (ambient + sunlight + lamplight);
+        radiance = emission + material.albedo * (ambient + sunlight + emitter_light);
     }
     count(kWorkHits, is_hit ? 1u : 0u);
     color[pixel.index] = radiance * weights[pixel.index * weights_stride];

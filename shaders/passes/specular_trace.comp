@@ -46,7 +46,7 @@ PathRay first_ray(Pixel pixel) {
 }
 
 void main() {
-    open_scene();
+    init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     SampleKey key = pixel_key(pixel);
@@ -57,11 +57,11 @@ void main() {
     uint segments = 0u;
     bool is_open = true;
     uint bounce = 0u;
-    for (; bounce < kMostBounces; ++bounce) {
+    for (; bounce < kMaxBounces; ++bounce) {
         if (!is_surface(found.hit)) break;
         uint pair = kPairBounce + kPairsOfBounce * bounce;
         vec2 u = bounce < kSureBounces ? draw_2d(key, pair) : sample_2d(kSequenceWhite, key, pair);
-        PathEvent event = path_event(path, found, u);
+        BsdfSample event = path_event(path, found, u);
         if (event.kind == kEventDiffuse) break;
         if (event.kind != kEventPass) weight *= event.albedo;
         if (event.kind == kEventRefract) weight *= radiance_scale(event.eta);
@@ -77,10 +77,10 @@ void main() {
         ++segments;
     }
     count(kWorkPathSegments, segments);
-    count(kFaultPathTooLong, bounce == kMostBounces ? 1u : 0u);
+    count(kFaultPathTooLong, bounce == kMaxBounces ? 1u : 0u);
     found.hit.t = length_so_far;
-    if (!is_open || bounce == kMostBounces) found = no_hit();
+    if (!is_open || bounce == kMaxBounces) found = no_hit();
     if (!is_surface(found.hit)) found.hit.t = 0.0;
     hits[pixel.index] = found.hit;
-    weights[pixel.index] = is_open && bounce < kMostBounces ? weight : vec3(0.0);
+    weights[pixel.index] = is_open && bounce < kMaxBounces ? weight : vec3(0.0);
 }

@@ -22,7 +22,7 @@ layout(scalar) writeonly buffer Hits {
 };
 
 void main() {
-    hold_spheres();
+    load_spheres();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = voxel_hits[pixel.index * hits_stride];

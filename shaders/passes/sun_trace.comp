@@ -20,7 +20,7 @@ layout(scalar) writeonly buffer Sun {
 };
 
 void main() {
-    open_scene();
+    init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

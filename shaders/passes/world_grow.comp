@@ -26,7 +26,7 @@ layout(scalar) readonly buffer Homes {
 };
 
 void main() {
-    open_world();
+    init_world();
     GrownWords grown_words = VX_POINTER(GrownWords, grown);
     uint i = linear_id();
     if (i >= push.count) return;

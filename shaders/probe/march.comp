@@ -19,7 +19,7 @@ layout(scalar) writeonly buffer Out {
 };
 
 void main() {
-    open_world();
+    init_world();
     uint i = linear_id();
     if (i >= count) return;
     outputs[i] = probe_march(inputs[i], chunks);

@@ -16,7 +16,7 @@ layout(scalar) readonly buffer In {
 layout(push_constant, scalar) uniform Push { uint count; } push;
 
 void main() {
-    open_photons();
+    init_photons();
     uint i = linear_id();
     if (i >= push.count) return;
     PhotonIn given = inputs[i];

@@ -1,4 +1,4 @@
-// An edge-avoiding a-trous filter of openness. Source: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet
+// An edge-avoiding a-trous filter of visibility. Source: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet
 // Transform for fast Global Illumination Filtering", HPG, section 3: a 5x5 B3 spline whose taps move apart by
 // powers of two. Our edge stops: the depth stop measures the tap's distance from the plane of the centre's
 // face, which is the depth's analytic gradient without its division; the stop on values takes its width from
@@ -11,10 +11,10 @@
 
 VX_BEGIN
 
-// Variance of a share `openness` of `taken` rays: binomial, with the share shrunk by Laplace's rule
+// Variance of a share `visibility` of `taken` rays: binomial, with the share shrunk by Laplace's rule
 // of succession, so that a share of 0 or 1 of few rays is not taken for certain.
-VX_FN float openness_variance(float openness, float taken) {
-    const float share = (openness * taken + 1.0f) / (taken + 2.0f);
+VX_FN float visibility_variance(float visibility, float taken) {
+    const float share = (visibility * taken + 1.0f) / (taken + 2.0f);
     return share * (1.0f - share) / max(taken, 1.0f);
 }
 

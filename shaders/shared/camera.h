@@ -16,11 +16,11 @@ VX_BEGIN
 VX_CONST(uint, kPairOcclusion, 0u);
 VX_CONST(uint, kPairPixel, 1u);
 VX_CONST(uint, kPairSun, 2u);
-VX_CONST(uint, kPairLamp, 3u);       // which lamp
-VX_CONST(uint, kPairLampPoint, 4u);  // which point of it
-VX_CONST(uint, kPairSurface, 5u);    // where a diffuse surface sends light
-VX_CONST(uint, kPairPhoton, 6u);     // three pairs, of the emission of a photon
-VX_CONST(uint, kPairBounce, 16u);    // kPairsOfBounce for each surface that a path meets
+VX_CONST(uint, kPairEmitter, 3u);       // which emitter
+VX_CONST(uint, kPairEmitterPoint, 4u);  // which point of it
+VX_CONST(uint, kPairSurface, 5u);       // where a diffuse surface sends light
+VX_CONST(uint, kPairPhoton, 6u);        // three pairs, of the emission of a photon
+VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path meets
 VX_CONST(uint, kPairsOfBounce, 3u);
 
 // The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its

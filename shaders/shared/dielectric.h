@@ -23,11 +23,11 @@ struct Dielectric {
     bool is_total;      // total internal reflection: there is no refracted direction
 };
 
-// Reflection and refraction for cos_incidence in [0, 1] and eta = n_far / n_near in [1 / kMostEta, kMostEta];
+// Reflection and refraction for cos_incidence in [0, 1] and eta = n_far / n_near in [1 / kMaxEta, kMaxEta];
 // what lies outside is moved to the nearest end. Never NaN. The reflectance is exactly 0 for eta = 1.
 VX_FN Dielectric dielectric(float cos_incidence, float eta) {
     float c = cos_incidence > 0.0f ? min(cos_incidence, 1.0f) : 0.0f;
-    float n = eta > 1.0f / kMostEta ? min(eta, kMostEta) : 1.0f / kMostEta;
+    float n = eta > 1.0f / kMaxEta ? min(eta, kMaxEta) : 1.0f / kMaxEta;
     TwoFloat n2 = two_prod(n, n);
     TwoFloat gap = tf_add(n2, two_float(-1.0f, 0.0f));  // eta^2 - 1
     TwoFloat g2 = tf_add(gap, two_prod(c, c));

@@ -31,7 +31,7 @@ struct Hit {
     uint sphere;    // index into Spheres when face is kFaceSphere or kFaceSphereInside
 };
 
-// Camera rays start a beam tile at a time (beam.h): one float for each one of a slice, row by row.
+// Camera rays start a beam tile at a time (beam.h): one float for each one of a tile, row by row.
 VX_CONST(uint, kBeamPixels, 8u);  // edge of a beam tile
 
 // Tiles that cover a row or a column of `pixels`.
@@ -49,7 +49,7 @@ struct SurfaceMaterial {
     float ior;      // of the glass
 };
 
-// A lamp, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
+// An emitter, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
 struct LightRecord {
     ivec3 cell;  // of a face: its voxel, local to the world
     uint what;
@@ -61,7 +61,7 @@ struct SphereRecord {
     uint material;
 };
 
-// What all passes of one slice of one sample share. A slice is a run of rows of the picture, and the picture
+// What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
 // the whole image or a window of it.
 struct FrameParams {
     ivec3 chunks;        // of the world, per axis
@@ -73,11 +73,11 @@ struct FrameParams {
     vec3 camera_forward;  // unit
     uint width;           // of the whole image, pixels
     uint height;
-    uint first_row;  // of the slice, image row
+    uint first_row;  // of the tile, image row
     uint row_count;
     uint first_column;  // of the picture, image column
     uint column_count;
-    uint band_first_row;  // of the film band that the slice is in, image row
+    uint film_tile_first_row;  // of the film tile that the tile is in, image row
     uint sample_index;
     uint seed;
     float ao_radius;  // voxels
@@ -86,10 +86,10 @@ struct FrameParams {
     vec3 sun_irradiance;    // on a surface facing the sun
     float sun_cone_height;  // cone_height of the sun's angular radius
     uint light_count;
-    float light_power;  // of all lamps: brightness() times etendue, summed
-    // Photons of one sample: those of the lamps first, then those of the sun, which start on a disc that
+    float light_power;  // of all emitters: brightness() times etendue, summed
+    // Photons of one sample: those of the emitters first, then those of the sun, which start on a disc that
     // covers what the sun can reach.
-    uint lamp_photons;
+    uint emitter_photons;
     uint sun_photons;
     vec3 sun_disc_centre;   // local to the world
     float sun_disc_radius;  // voxels
@@ -157,11 +157,11 @@ struct FilmAddPush {
     uint first_sum;      // where the values' sums begin
 };
 
-// Push constants of display_resolve, for one film band.
+// Push constants of display_resolve, for one film tile.
 struct DisplayResolvePush {
-    uint count;        // values of the band
+    uint count;        // values of the film tile
     uint row_values;   // of a row of the image
-    uint first_row;    // of the band in the image
+    uint first_row;    // of the film tile in the image
     uint samples;      // of all rows
     uint rows_ahead;   // rows from the top of the image that have one sample more
     uint rows_behind;  // rows from the top that have one less

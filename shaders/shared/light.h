@@ -1,5 +1,5 @@
-// Lamps: how they are packed, and how likely a direction or a photon is to be drawn. A lamp is drawn in
-// proportion to its power, brightness() of its radiance times its etendue (power over radiance).
+// Emitters: how they are packed, and how likely a direction or a photon is to be drawn. An emitter is drawn
+// in proportion to its power, brightness() of its radiance times its etendue (power over radiance).
 #ifndef VX_LIGHT_H
 #define VX_LIGHT_H
 
@@ -10,7 +10,7 @@
 
 VX_BEGIN
 
-// Kinds of lamps, the lowest bit of LightRecord::what.
+// Kinds of emitters, the lowest bit of LightRecord::what.
 VX_CONST(uint, kLightSphere, 0u);
 VX_CONST(uint, kLightFace, 1u);
 
@@ -40,7 +40,7 @@ VX_FN LightParts light_parts(uint what) {
     return parts;
 }
 
-// What colours count for when lamps are chosen.
+// What colours count for when emitters are chosen.
 VX_FN float brightness(vec3 v) {
     return v.x + v.y + v.z;
 }

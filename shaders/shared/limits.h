@@ -39,7 +39,7 @@ VX_CONST(float, kPlaneMargin, 0.015625f);
 // Steps of a march beyond the number of planes of the world: entering, leaving, and the border box.
 VX_CONST(uint, kMarchSlack, 3u);
 // Planes that a ray may have crossed where its march starts: more than a world has.
-VX_CONST(int, kMostPlanes, 1 << 24);
+VX_CONST(int, kMaxPlanes, 1 << 24);
 // t_max of a ray without end; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
 
@@ -94,7 +94,7 @@ VX_CONST(uint, kCellMaxAge, 32u);
 // The same when the table fills up. Longer than a touch may be late (kCellTouchPeriod).
 VX_CONST(uint, kCellMinAge, 16u);
 VX_CONST(uint, kCellTouchPeriod, 8u);  // frames; a power of two
-// Standard deviations beyond which two openness values are taken to differ. SVGF (Schied et al. 2017,
+// Standard deviations beyond which two visibility values are taken to differ. SVGF (Schied et al. 2017,
 // section 4.4) uses 4 for luminance.
 VX_CONST(float, kAoFilterSigmas, 4.0f);
 
@@ -106,19 +106,19 @@ VX_CONST(uint, kFewSpheres, 16u);
 // none.
 VX_CONST(float, kProbeLength, 1.0e-30f);
 // Surfaces that one path may meet. Roulette ends all but those between perfect mirrors, which never end.
-VX_CONST(uint, kMostBounces, 4096u);
+VX_CONST(uint, kMaxBounces, 4096u);
 // Steps of the loop of an invocation that traces photons one after the other.
-VX_CONST(uint, kMostPhotonSteps, 16777216u);
+VX_CONST(uint, kMaxPhotonSteps, 16777216u);
 // Surfaces that a path from the camera meets before roulette may end it: it costs more noise than time there.
 VX_CONST(uint, kSureBounces, 8u);
 
 // Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so that ratios lie in [1/4,
 // 4].
-VX_CONST(float, kMostEta, 16.0f);
+VX_CONST(float, kMaxEta, 16.0f);
 
 // Photons. Smallest radius of a gather, in voxels: the distance of neighbouring floats between 1024 and 2048.
 // A smaller disc would measure the rounding of positions.
-VX_CONST(float, kLeastPhotonRadius, 1.220703125e-4f);  // 2^-13
+VX_CONST(float, kMinPhotonRadius, 1.220703125e-4f);  // 2^-13
 // Factor by which a disc is widened when its cells are looked up: several roundings of a distance.
 VX_CONST(float, kPhotonReach, 1.00000095367431640625f);  // 1 + 2^-20
 // Number of the farthest cell of photons; what lies beyond is in it, too.
@@ -133,12 +133,12 @@ VX_CONST(uint, kMarksPerBucket, 8u);
 VX_CONST(float, kGatherSpread, 4.0f);
 // A sphere cuts the disc of a point only where the sine of the angle between their surfaces is above this:
 // nearly parallel surfaces lie on each other or are apart, and where they cross is rounding.
-VX_CONST(float, kLeastSlope, 0.001f);
+VX_CONST(float, kMinSlope, 0.001f);
 // A disc counts as no less than this share of it: what a corner of three walls leaves. In narrower corners
 // cuts are not independent, and dividing by less would amplify noise.
-VX_CONST(float, kLeastShare, 0.25f);
+VX_CONST(float, kMinShare, 0.25f);
 // Workgroups along x of an indirect dispatch; the others go along y. The least limit that Vulkan allows.
-VX_CONST(uint, kMostGroups, 65535u);
+VX_CONST(uint, kMaxGroups, 65535u);
 
 VX_END
 

@@ -27,16 +27,17 @@
 VX_BEGIN
 
 // What does not change along a ray. Axis a advances by planes: after n crossings the ray is in cell[a] + n or
-// cell[a] - n. `flip` is 0 for directions >= 0 and -1 below, so (n ^ flip) - flip is the signed step.
+// cell[a] - n. `sign_mask` is 0 for directions >= 0 and -1 below, so (n ^ sign_mask) - sign_mask is the
+// signed step.
 struct MarchAxes {
     ivec3 cell;  // of the start
-    ivec3 flip;
-    vec3 speed;       // |direction|, 0 where it counts as zero
-    vec3 pace;        // 1 / speed, or kNeverCrossed
-    vec3 offset;      // T(j) = (j + flip + offset) * pace
-    ivec3 toward;     // number of the direction -x +x -y +y -z +z that the ray takes on each axis
+    ivec3 sign_mask;
+    vec3 speed;               // |direction|, 0 where it counts as zero
+    vec3 inverse_direction;   // 1 / speed, or kNeverCrossed
+    vec3 offset;              // T(j) = (j + sign_mask + offset) * inverse_direction
+    ivec3 direction_numbers;  // number of the direction -x +x -y +y -z +z that the ray takes on each axis
     ivec3 far_shift;  // where its distances start in fields of kFarBits; in fields of kNearBits at twice
-                      // `toward`
+                      // `direction_numbers`
 };
 
 VX_CONST(uint, kMarchFine, 0u);
@@ -74,25 +75,27 @@ VX_FN MarchAxes march_axes(Ray ray) {
     MarchAxes axes;
     axes.cell = ray.cell;
     axes.speed = speed * used;
-    axes.flip = ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
-                      axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
-    axes.pace =
+    axes.sign_mask =
+        ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
+              axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
+    axes.inverse_direction =
         vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
              used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
-    axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.flip);
-    axes.toward = ivec3(1, 3, 5) + axes.flip;
-    axes.far_shift = axes.toward * int(kFarBits);
+    axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.sign_mask);
+    axes.direction_numbers = ivec3(1, 3, 5) + axes.sign_mask;
+    axes.far_shift = axes.direction_numbers * int(kFarBits);
     return axes;
 }
 
 // Number of the direction that the ray takes on an axis.
-VX_FN int toward_axis(MarchAxes axes, int axis) {
-    return axis == 0 ? axes.toward.x : (axis == 1 ? axes.toward.y : axes.toward.z);
+VX_FN int direction_number(MarchAxes axes, int axis) {
+    return axis == 0 ? axes.direction_numbers.x
+                     : (axis == 1 ? axes.direction_numbers.y : axes.direction_numbers.z);
 }
 
 // Times at which plane j of each axis is crossed. The only place where such a time is computed.
 VX_FN vec3 plane_times(MarchAxes axes, ivec3 j) {
-    VX_PRECISE vec3 t = (vec3(j + axes.flip) + axes.offset) * axes.pace;
+    VX_PRECISE vec3 t = (vec3(j + axes.sign_mask) + axes.offset) * axes.inverse_direction;
     return t;
 }
 
@@ -105,7 +108,7 @@ VX_FN int first_axis(vec3 t) {
 // Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
 // `high` are not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
 VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
-    const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.flip) - kPlaneMargin;
+    const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.sign_mask) - kPlaneMargin;
     ivec3 n = clamp(ivec3(floor(estimate)), low, high);
     const vec3 next = plane_times(axes, n + 1);
     n.x += next.x < t || (next.x == t && 0 < axis) ? 1 : 0;
@@ -118,19 +121,20 @@ VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 hi
 VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     const uint ones = (1u << found.bits) - 1u;
     const uint payload = cell_payload(found.cell);
-    const ivec3 shift = found.bits == kFarBits ? axes.far_shift : axes.toward + axes.toward;
+    const ivec3 shift =
+        found.bits == kFarBits ? axes.far_shift : axes.direction_numbers + axes.direction_numbers;
     const ivec3 extent = ivec3(int((payload >> uint(shift.x)) & ones), int((payload >> uint(shift.y)) & ones),
                                int((payload >> uint(shift.z)) & ones));
-    const ivec3 passed = (local ^ axes.flip) & ((1 << found.log2) - 1);
+    const ivec3 passed = (local ^ axes.sign_mask) & ((1 << found.log2) - 1);
     return ((extent + 1) << found.log2) - passed;
 }
 
 // Planes that a ray from inside the world can cross. (A limit that is the same for all rays would be another
 // bound of the loop for each world, and lavapipe would compile the march anew for each dispatch.)
 VX_FN uint planes_ahead(MarchAxes axes, ivec3 size) {
-    const ivec3 ahead = ivec3(axes.flip.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
-                              axes.flip.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
-                              axes.flip.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
+    const ivec3 ahead = ivec3(axes.sign_mask.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
+                              axes.sign_mask.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
+                              axes.sign_mask.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
     return uint(max(ahead.x + ahead.y + ahead.z, 0));
 }
 
@@ -158,14 +162,14 @@ VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     if (!(from < ray.t_max)) return hit;
     int axis = -1;
     if (start > 0.0f) {
-        hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMostPlanes));
-        hit.cell = axes.cell + (hit.crossed ^ axes.flip) - axes.flip;
+        hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMaxPlanes));
+        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
     }
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
         if (is_outside(hit.cell, size)) return hit;
         const MarchCell found = find_cell(VX_WORLD_ARG hit.cell, chunks);
         if (cell_state(found.cell) == kCellSolid) {
-            hit.face = axis < 0 ? kFaceInside : uint(toward_axis(axes, axis) ^ 1);
+            hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
             hit.material = cell_payload(found.cell);
             return hit;
         }
@@ -176,7 +180,7 @@ VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
         if (!(t < ray.t_max)) return hit;
         const ivec3 n = planes_before(axes, t, axis, hit.crossed, exit - 1);
         hit.crossed = ivec3(axis == 0 ? exit.x : n.x, axis == 1 ? exit.y : n.y, axis == 2 ? exit.z : n.z);
-        hit.cell = axes.cell + (hit.crossed ^ axes.flip) - axes.flip;
+        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
         hit.t = t;
     }
     hit.fault = kMarchExhausted;
@@ -194,20 +198,20 @@ VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
 // one rounding of a number that a mirrored ray has, too, so mirrored hits have mirrored fractions.
 VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
     const MarchAxes axes = march_axes(ray);
-    VX_PRECISE vec3 passed = hit.t * axes.speed - (vec3(hit.crossed + axes.flip) + axes.offset);
+    VX_PRECISE vec3 passed = hit.t * axes.speed - (vec3(hit.crossed + axes.sign_mask) + axes.offset);
     const vec3 along = clamp(passed, vec3(0.0f), vec3(1.0f));
     const float on_face = float(hit.face & 1u);
     vec3 fraction;
-    fraction.x = axes.speed.x == 0.0f ? ray.fraction.x : (axes.flip.x < 0 ? 1.0f - along.x : along.x);
-    fraction.y = axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - along.y : along.y);
-    fraction.z = axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - along.z : along.z);
+    fraction.x = axes.speed.x == 0.0f ? ray.fraction.x : (axes.sign_mask.x < 0 ? 1.0f - along.x : along.x);
+    fraction.y = axes.speed.y == 0.0f ? ray.fraction.y : (axes.sign_mask.y < 0 ? 1.0f - along.y : along.y);
+    fraction.z = axes.speed.z == 0.0f ? ray.fraction.z : (axes.sign_mask.z < 0 ? 1.0f - along.z : along.z);
     const uint a = hit.face >> 1u;
     return vec3(a == 0u ? on_face : fraction.x, a == 1u ? on_face : fraction.y,
                 a == 2u ? on_face : fraction.z);
 }
 
 // Where a ray that leaves the surface starts: the cell in front of the face, with the position on the face.
-VX_FN Ray leave_surface(ivec3 cell, uint face, vec3 fraction, vec3 direction, float t_max) {
+VX_FN Ray spawn_ray(ivec3 cell, uint face, vec3 fraction, vec3 direction, float t_max) {
     const uint a = face >> 1u;
     const int outward = int(face & 1u) * 2 - 1;
     const float behind = 1.0f - float(face & 1u);

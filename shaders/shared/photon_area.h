@@ -28,7 +28,7 @@ VX_FN float share_taken(Sphere sphere, vec3 point, vec3 normal, float radius) {
     vec3 along = gradient - dot(gradient, normal) * normal;
     float slope_squared = dot(along, along);
     VX_PRECISE float root_squared = slope_squared - sphere.curvature * f;
-    if (!(slope_squared > kLeastSlope * kLeastSlope && root_squared >= 0.0f)) return 0.0f;
+    if (!(slope_squared > kMinSlope * kMinSlope && root_squared >= 0.0f)) return 0.0f;
     float cut = abs(f) / (sqrt(slope_squared) + sqrt(root_squared));
     float taken = cut < radius ? disc_beyond(cut / radius) : 0.0f;
     float reach = sphere.curvature * radius;

@@ -61,7 +61,7 @@ static_assert(sizeof(StoredPhoton) == 8 * kStoredWords);
 struct PhotonPoint {
     vec3 position;  // local to the world, voxels
     uint surface;   // photon_surface()
-    uint pixel;     // of the slice
+    uint pixel;     // of the tile
 };
 
 // Head of the store: the workgroups of passes over all photons in it, as an indirect dispatch reads them, and

@@ -14,11 +14,11 @@ VX_BEGIN
 #ifdef __cplusplus
 // Radius of iteration 1, 2, ..., in the units of `first` > 0, for alpha in (0, 1]: r_i^2 = r_(i-1)^2 (i - 1 +
 // alpha) / i, as gamma functions: first^2 Gamma(i + alpha) / (Gamma(1 + alpha) Gamma(i + 1)). Relative error
-// below 1e-8 up to 2^32 iterations. Never below kLeastPhotonRadius.
+// below 1e-8 up to 2^32 iterations. Never below kMinPhotonRadius.
 inline double photon_radius(double first, double alpha, std::uint32_t iteration) {
     const double i = iteration;
     const double log_square = std::lgamma(i + alpha) - std::lgamma(i + 1.0) - std::lgamma(1.0 + alpha);
-    return max(first * std::exp(0.5 * log_square), static_cast<double>(kLeastPhotonRadius));
+    return max(first * std::exp(0.5 * log_square), static_cast<double>(kMinPhotonRadius));
 }
 #endif
 
@@ -41,7 +41,7 @@ VX_FN PixelRadius shrunk_radius(PixelRadius before, float met, float alpha) {
     VX_PRECISE float all_met = before.photons + met;
     VX_PRECISE float ratio = kept / all_met;
     after.photons = kept;
-    after.squared = max(before.squared * ratio, kLeastPhotonRadius * kLeastPhotonRadius);
+    after.squared = max(before.squared * ratio, kMinPhotonRadius * kMinPhotonRadius);
     return after;
 }
 

@@ -18,7 +18,7 @@ using test::SourceFile;
 
 // Blocks that shaders both read and write, and why.
 const std::map<std::string, std::string> kReadAndWritten = {
-    {"Tally", "atomic counters"},
+    {"Counters", "atomic counters"},
     {"Sums", "film_add adds to what is there; each sum belongs to one invocation"},
     {"Keys", "slots are claimed by atomics in one pass and emptied in another"},
     {"Samples",

@@ -1,4 +1,4 @@
-// Weights of the a-trous filter of openness.
+// Weights of the a-trous filter of visibility.
 
 #include <gtest/gtest.h>
 
@@ -37,35 +37,36 @@ TEST(AoFilter, plane_weight_is_in_the_unit_interval_and_falls_to_0_at_the_footpr
 
 TEST(AoFilter, variance_is_that_of_the_share_after_one_more_success_and_failure) {
     for (const double taken : {1.0, 7.0, 500.0, 65536.0}) {
-        for (const double openness : {0.0, 0.25, 0.5, 1.0}) {
-            const double p = (openness * taken + 1.0) / (taken + 2.0);
-            const float got = gpu::openness_variance(static_cast<float>(openness), static_cast<float>(taken));
+        for (const double visibility : {0.0, 0.25, 0.5, 1.0}) {
+            const double p = (visibility * taken + 1.0) / (taken + 2.0);
+            const float got =
+                gpu::visibility_variance(static_cast<float>(visibility), static_cast<float>(taken));
             EXPECT_NEAR(static_cast<double>(got) / (p * (1.0 - p) / taken), 1.0, 1e-4)
-                << openness << " of " << taken;
+                << visibility << " of " << taken;
         }
     }
 }
 
 TEST(AoFilter, variance_is_finite_and_not_negative_for_any_number_of_samples) {
     for (const float taken : kTaken) {
-        for (const float openness : {0.0f, 0x1p-30f, 0.5f, 0x1.fffffep-1f, 1.0f}) {
-            const float variance = gpu::openness_variance(openness, taken);
+        for (const float visibility : {0.0f, 0x1p-30f, 0.5f, 0x1.fffffep-1f, 1.0f}) {
+            const float variance = gpu::visibility_variance(visibility, taken);
             EXPECT_TRUE(variance >= 0.0f && variance <= 0.25f)
-                << openness << " of " << taken << ": " << variance;
+                << visibility << " of " << taken << ": " << variance;
         }
     }
 }
 
 TEST(AoFilter, value_weight_is_in_the_unit_interval_for_any_number_of_samples) {
     for (const float taken : kTaken) {
-        for (const float openness : {0.0f, 0.3f, 1.0f}) {
-            const float variance = gpu::openness_variance(openness, taken);
+        for (const float visibility : {0.0f, 0.3f, 1.0f}) {
+            const float variance = gpu::visibility_variance(visibility, taken);
             for (const float difference : {0.0f, 0x1p-40f, 0x1p-24f, 0.01f, 1.0f, -0.5f, -1.0f}) {
                 const float weight = gpu::value_weight(difference, variance);
                 EXPECT_TRUE(weight >= 0.0f && weight <= 1.0f)
-                    << difference << " from " << openness << " of " << taken << ": " << weight;
+                    << difference << " from " << visibility << " of " << taken << ": " << weight;
             }
-            EXPECT_EQ(gpu::value_weight(0.0f, variance), 1.0f) << openness << " of " << taken;
+            EXPECT_EQ(gpu::value_weight(0.0f, variance), 1.0f) << visibility << " of " << taken;
         }
     }
     EXPECT_EQ(gpu::value_weight(1.0f, 0.01f), 0.0f);
@@ -73,7 +74,7 @@ TEST(AoFilter, value_weight_is_in_the_unit_interval_for_any_number_of_samples) {
 }
 
 struct Tap {
-    float openness;
+    float visibility;
     float taken;
     float height;
 };
@@ -81,16 +82,16 @@ struct Tap {
 // The filter of one pixel over 25 taps, the 12th of which is its own, as the pass does it.
 float filtered(const std::array<Tap, 25>& taps, float footprint) {
     const Tap& centre = taps[12];
-    const float variance = gpu::openness_variance(centre.openness, centre.taken);
-    float sum = 36.0f * centre.openness;
+    const float variance = gpu::visibility_variance(centre.visibility, centre.taken);
+    float sum = 36.0f * centre.visibility;
     float weights = 36.0f;
     for (int i = 0; i < 25; ++i) {
         if (i == 12) continue;
         const Tap& tap = taps[static_cast<std::size_t>(i)];
         const float weight = gpu::spline_weight(i % 5 - 2) * gpu::spline_weight(i / 5 - 2) *
                              gpu::plane_weight(tap.height, footprint) *
-                             gpu::value_weight(tap.openness - centre.openness, variance);
-        sum += weight * tap.openness;
+                             gpu::value_weight(tap.visibility - centre.visibility, variance);
+        sum += weight * tap.visibility;
         weights += weight;
     }
     return sum / weights;
@@ -119,9 +120,9 @@ TEST(AoFilter, result_is_between_its_taps) {
             const auto choice = static_cast<std::size_t>(random.bits64() % kTaken.size());
             tap = {static_cast<float>(random.uniform(0.0, 1.0)), kTaken[choice],
                    static_cast<float>(random.uniform(-1.0, 1.0))};
-            if (random.bits64() % 4 == 0) tap.openness = std::round(tap.openness);
-            low = std::min(low, tap.openness);
-            high = std::max(high, tap.openness);
+            if (random.bits64() % 4 == 0) tap.visibility = std::round(tap.visibility);
+            low = std::min(low, tap.visibility);
+            high = std::max(high, tap.visibility);
         }
         const float value = filtered(taps, i % 3 == 0 ? 0.0f : 1.5f);
         ASSERT_TRUE(value >= low * (1.0f - 1e-6f) && value <= high * (1.0f + 1e-6f)) << value;
@@ -134,7 +135,7 @@ TEST(AoFilter, smoothing_fades_with_the_number_of_samples) {
     for (const float taken : {1.0f, 16.0f, 256.0f, 4096.0f}) {
         std::array<Tap, 25> taps{};
         taps.fill({0.5f, taken, 0.0f});
-        taps[12].openness = 0.75f;
+        taps[12].visibility = 0.75f;
         const float kept = filtered(taps, 1.0f) - 0.5f;
         EXPECT_GE(kept, last) << taken;
         last = kept;

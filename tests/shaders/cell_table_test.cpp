@@ -80,7 +80,7 @@ int live_count(const CellTable& table) {
     return static_cast<int>(table.keys.size()) - static_cast<int>(std::ranges::count(table.keys, 0u));
 }
 
-// Judges a table after a pass that began with `live_before` slots taken.
+// Checkers a table after a pass that began with `live_before` slots taken.
 Faults faults_of(const CellTable& table, const Searches& searches, int live_before) {
     Faults faults;
     std::map<std::uint64_t, int> live;

@@ -103,7 +103,7 @@ TEST(PhotonArea, a_corner_of_three_walls_leaves_about_what_counting_says) {
     EXPECT_LT(worst, 0.04);
     const glm::dvec3 corner(1e-4, 1e-4, 0.0);
     EXPECT_NEAR(computed_share({kWallX, kWallY}, corner, 2.0), 0.25, 0.002);
-    EXPECT_GE(computed_share({kWallX, kWallY}, corner, 2.0), 0.999 * static_cast<double>(gpu::kLeastShare));
+    EXPECT_GE(computed_share({kWallX, kWallY}, corner, 2.0), 0.999 * static_cast<double>(gpu::kMinShare));
 }
 
 // A ball that stands on the plane touches it in a point and takes nothing.

@@ -27,7 +27,7 @@ TEST(PhotonRadius, follows_the_recurrence_of_the_paper) {
         for (std::uint32_t i = 1; i <= 100000; ++i) {
             if (i > 1) square *= (i - 1.0 + alpha) / i;
             if (i > 3 && i % 997 != 0) continue;
-            const double want = std::max(std::sqrt(square), double(gpu::kLeastPhotonRadius));
+            const double want = std::max(std::sqrt(square), double(gpu::kMinPhotonRadius));
             ASSERT_NEAR(gpu::photon_radius(2.0, alpha, i) / want, 1.0, 1e-9) << alpha << ' ' << i;
         }
     }
@@ -43,7 +43,7 @@ TEST(PhotonRadius, slope_is_the_published_one_and_never_rises) {
         for (std::uint32_t i = 1; i < 100000; i += 7)
             ASSERT_LT(gpu::photon_radius(2.0, alpha, i + 1), gpu::photon_radius(2.0, alpha, i));
     }
-    EXPECT_EQ(gpu::photon_radius(2.0, 0.1, 0xFFFFFFFFu), double(gpu::kLeastPhotonRadius));
+    EXPECT_EQ(gpu::photon_radius(2.0, 0.1, 0xFFFFFFFFu), double(gpu::kMinPhotonRadius));
     EXPECT_NEAR(gpu::photon_radius(2.0, 1.0, 0xFFFFFFFFu), 2.0, 1e-6);
 }
 
@@ -54,7 +54,7 @@ TEST(PhotonRadius, index_off_by_one_is_caught) {
 }
 
 TEST(PhotonKernel, integrates_to_1_over_the_disc_and_stays_finite) {
-    for (const float radius : {gpu::kLeastPhotonRadius, 0.5f, 2.0f, 1000.0f}) {
+    for (const float radius : {gpu::kMinPhotonRadius, 0.5f, 2.0f, 1000.0f}) {
         double sum = 0.0;
         constexpr int kRings = 1000;
         for (int ring = 0; ring < 2 * kRings; ++ring) {

@@ -16,7 +16,7 @@ namespace {
 // have the same order in floats.
 constexpr double kUncertain = 8.0 * 0x1p-24;
 // The same of one time, in units in the last place, which are at least 2^-24.
-constexpr double kMostUlps = 4.0;
+constexpr double kMaxUlps = 4.0;
 
 struct State {
     glm::ivec3 crossed{0};
@@ -162,8 +162,7 @@ std::string disagreement(const std::vector<PossibleHit>& possible, const gpu::Ma
         if (one.face == gpu::kFaceMiss) return "";
         const auto t = static_cast<float>(one.t);
         const double ulp = static_cast<double>(std::nextafter(t, gpu::kUnbounded) - t);
-        if (one.cell == hit.cell && std::abs(static_cast<double>(hit.t) - one.t) <= kMostUlps * ulp)
-            return "";
+        if (one.cell == hit.cell && std::abs(static_cast<double>(hit.t) - one.t) <= kMaxUlps * ulp) return "";
     }
     std::string text = fmt::format("hit face {} of ({}, {}, {}) at {}; possible:", hit.face, hit.cell.x,
                                    hit.cell.y, hit.cell.z, hit.t);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 
 namespace voxilux::test {
 namespace {
@@ -59,11 +59,11 @@ std::vector<LightPicture> render_light(Scene scene, const LightRequest& request)
         pictures.push_back({blocks, std::vector<TruthPixel>(static_cast<std::size_t>(blocks.x * blocks.y),
                                                             {glm::dvec3(0.0), glm::dvec3(0.0)})});
     }
-    FrameRig rig(scene, {.effects = request.effects});
+    FrameFixture rig(scene, {.effects = request.effects});
     for (std::uint32_t i = 0; i < request.iterations; ++i) {
         const FramePlanes planes = rig.render(i);
         for (std::size_t f = 0; f < gpu::kFaultCount; ++f)
-            EXPECT_EQ(planes.tally[f], 0u) << "fault " << gpu::kTallyNames[f];
+            EXPECT_EQ(planes.counters[f], 0u) << "fault " << gpu::kCounterNames[f];
         for (std::size_t p = 0; p < pictures.size(); ++p) {
             for (int y = 0; y < pictures[p].size.y; ++y) {
                 for (int x = 0; x < pictures[p].size.x; ++x)
@@ -109,7 +109,7 @@ PictureZ light_z(const LightPicture& traced, const LightPicture& expected) {
 namespace {
 
 constexpr double kFarOff = 4.0;  // standard deviations; normal noise passes them once in 16000 times
-constexpr double kMostBeyond4 = 0.02;
+constexpr double kMaxBeyond4 = 0.02;
 
 double farthest(const PictureZ& z) {
     return std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
@@ -119,14 +119,14 @@ double farthest(const PictureZ& z) {
 
 bool is_equal_light(const LightPicture& a, const LightPicture& b) {
     const PictureZ z = light_z(a, b);
-    return z.rms < kMostRms && z.beyond_4 < kMostBeyond4 && farthest(z) < kFarOff;
+    return z.rms < kMaxRms && z.beyond_4 < kMaxBeyond4 && farthest(z) < kFarOff;
 }
 
 void expect_equal_light(const LightPicture& a, const LightPicture& b, const char* what) {
     const PictureZ z = light_z(a, b);
     testing::Test::RecordProperty(what, std::to_string(z.rms));
-    EXPECT_LT(z.rms, kMostRms) << what;
-    EXPECT_LT(z.beyond_4, kMostBeyond4) << what;
+    EXPECT_LT(z.rms, kMaxRms) << what;
+    EXPECT_LT(z.beyond_4, kMaxBeyond4) << what;
     EXPECT_LT(farthest(z), kFarOff) << what;
 }
 

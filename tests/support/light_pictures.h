@@ -46,7 +46,7 @@ struct LightRequest {
 [[nodiscard]] PictureZ light_z(const LightPicture& traced, const LightPicture& expected);
 
 // The most that light_z's rms may be for equal pictures.
-inline constexpr double kMostRms = 1.3;
+inline constexpr double kMaxRms = 1.3;
 
 // Whether two pictures are equal but for their noise.
 [[nodiscard]] bool is_equal_light(const LightPicture& a, const LightPicture& b);

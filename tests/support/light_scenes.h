@@ -31,8 +31,8 @@ inline std::uint16_t add_diffuse(Scene& scene, float albedo) {
     return add_material(scene, {.name = "diffuse", .albedo = glm::vec3(albedo)});
 }
 
-// A lamp of that radiance and albedo.
-inline std::uint16_t add_lamp(Scene& scene, float radiance, float albedo = 0.0f) {
+// An emitter of that radiance and albedo.
+inline std::uint16_t add_emitter(Scene& scene, float radiance, float albedo = 0.0f) {
     return add_material(scene, {.name = "lamp",
                                 .albedo = glm::vec3(albedo),
                                 .emission = glm::vec3(radiance),

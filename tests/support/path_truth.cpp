@@ -12,8 +12,8 @@ namespace {
 using glm::dvec3;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kSureBounces = 4;         // before roulette
-constexpr double kMostSurvival = 0.95;  // so that paths between perfect mirrors end too
+constexpr int kSureBounces = 4;        // before roulette
+constexpr double kMaxSurvival = 0.95;  // so that paths between perfect mirrors end too
 
 struct Tracer {
     const TruthWorld& world;
@@ -37,10 +37,11 @@ dvec3 in_cone(const Tracer& tracer, const dvec3& axis, double height) {
     return around(axis, 1.0 - h, std::sqrt(h * (2.0 - h)), 2.0 * kPi * tracer.draw());
 }
 
-// 1 - cos of the angle under which a sphere is seen from `point`; 0 from inside, where a lamp does not shine.
-double disc_height(const TruthSphere& lamp, const dvec3& point) {
-    const dvec3 way = lamp.centre - point;
-    const double sine2 = lamp.radius * lamp.radius / glm::dot(way, way);
+// 1 - cos of the angle under which a sphere is seen from `point`; 0 from inside, where an emitter does not
+// shine.
+double disc_height(const TruthSphere& emitter, const dvec3& point) {
+    const dvec3 way = emitter.centre - point;
+    const double sine2 = emitter.radius * emitter.radius / glm::dot(way, way);
     return sine2 < 1.0 ? sine2 / (1.0 + std::sqrt(1.0 - sine2)) : 0.0;
 }
 
@@ -52,7 +53,7 @@ dvec3 emission_of(const TruthWorld& world, std::uint32_t material) {
     return world.materials[material].emission;
 }
 
-// Radiance / albedo of a diffuse point by the sphere lamps: one of them, by solid angle and brightness.
+// Radiance / albedo of a diffuse point by the sphere emitters: one of them, by solid angle and brightness.
 dvec3 light_of_spheres(const Tracer& tracer, const TruthHit& at) {
     const TruthWorld& world = tracer.world;
     const auto weight_of = [&](std::size_t i) {
@@ -60,26 +61,26 @@ dvec3 light_of_spheres(const Tracer& tracer, const TruthHit& at) {
                disc_height(world.spheres[i], at.point);
     };
     double total = 0.0;
-    for (const std::size_t i : world.lamps)
+    for (const std::size_t i : world.emitters)
         total += weight_of(i);
     if (!(total > 0.0)) return dvec3(0.0);
     double left = tracer.draw() * total;
     std::size_t chosen = kNoTruthSphere;
     double weight = 0.0;
-    for (const std::size_t i : world.lamps) {
-        const double lamp_weight = weight_of(i);
-        if (lamp_weight == 0.0) continue;
+    for (const std::size_t i : world.emitters) {
+        const double emitter_weight = weight_of(i);
+        if (emitter_weight == 0.0) continue;
         chosen = i;
-        weight = lamp_weight;
-        left -= lamp_weight;
+        weight = emitter_weight;
+        left -= emitter_weight;
         if (left < 0.0) break;
     }
-    const TruthSphere& lamp = world.spheres[chosen];
-    const double height = disc_height(lamp, at.point);
-    const dvec3 direction = in_cone(tracer, glm::normalize(lamp.centre - at.point), height);
+    const TruthSphere& emitter = world.spheres[chosen];
+    const double height = disc_height(emitter, at.point);
+    const dvec3 direction = in_cone(tracer, glm::normalize(emitter.centre - at.point), height);
     const double cosine = glm::dot(direction, at.normal);
     if (cosine <= 0.0 || first_hit(world, ray_off(at, direction)).sphere != chosen) return dvec3(0.0);
-    return emission_of(world, lamp.material) * (cosine / kPi * 2.0 * kPi * height * total / weight);
+    return emission_of(world, emitter.material) * (cosine / kPi * 2.0 * kPi * height * total / weight);
 }
 
 // The same by the faces of emitting voxels: one of them, by brightness, and a point of it.
@@ -104,11 +105,11 @@ dvec3 light_of_faces(const Tracer& tracer, const TruthHit& at) {
     const double square = glm::dot(way, way);
     const dvec3 direction = way / std::sqrt(square);
     const double cosine = glm::dot(direction, at.normal);
-    const double lamp_cosine = (chosen->is_high ? -1.0 : 1.0) * direction[chosen->axis];
-    if (!(cosine > 0.0 && lamp_cosine > 0.0)) return dvec3(0.0);
+    const double emitter_cosine = (chosen->is_high ? -1.0 : 1.0) * direction[chosen->axis];
+    if (!(cosine > 0.0 && emitter_cosine > 0.0)) return dvec3(0.0);
     const TruthHit met = first_hit(world, ray_off(at, direction));
     if (!met.is_hit || met.sphere != kNoTruthSphere || !(met.face == *chosen)) return dvec3(0.0);
-    return emission * (cosine * lamp_cosine / (kPi * square) * total / brightness(emission));
+    return emission * (cosine * emitter_cosine / (kPi * square) * total / brightness(emission));
 }
 
 dvec3 light_of_sun(const Tracer& tracer, const TruthHit& at) {
@@ -171,16 +172,16 @@ struct Path {
     TruthRay ray;
     dvec3 total{0.0};
     dvec3 throughput{1.0};
-    double scale = 1.0;         // of radiance, by the media that the path has gone through
-    bool counts_lamps = true;   // false where the last diffuse surface has sampled them
-    bool is_scattered = false;  // by a diffuse surface: from then on it may find the sun
+    double scale = 1.0;           // of radiance, by the media that the path has gone through
+    bool counts_emitters = true;  // false where the last diffuse surface has sampled them
+    bool is_scattered = false;    // by a diffuse surface: from then on it may find the sun
 };
 
 // Sends the path on from what it has met.
 void bounce(const Tracer& tracer, Path& path, const TruthHit& hit) {
     const TruthMaterial& material = tracer.world.materials[hit.material];
     const dvec3 incoming = path.ray.direction;
-    path.counts_lamps = true;
+    path.counts_emitters = true;
     if (material.surface == Surface::glass) {
         const GlassEvent event = cross_glass(tracer, incoming, hit);
         path.throughput *= event.colour;
@@ -193,11 +194,11 @@ void bounce(const Tracer& tracer, Path& path, const TruthHit& hit) {
     } else {
         path.throughput *= material.albedo;
         if (path.throughput == dvec3(0.0)) return;
-        if (tracer.request.samples_lamps) {
+        if (tracer.request.samples_emitters) {
             const dvec3 light =
                 light_of_spheres(tracer, hit) + light_of_faces(tracer, hit) + light_of_sun(tracer, hit);
             path.total += path.throughput * path.scale * light;
-            path.counts_lamps = false;
+            path.counts_emitters = false;
         }
         path.is_scattered = true;
         const double sine2 = tracer.draw();
@@ -213,18 +214,18 @@ dvec3 radiance_along(const Tracer& tracer, const TruthRay& ray) {
     for (int bounces = 1;; ++bounces) {
         const TruthHit hit = first_hit(world, path.ray);
         if (!hit.is_hit) {
-            const bool finds_sun = path.counts_lamps && path.is_scattered;
+            const bool finds_sun = path.counts_emitters && path.is_scattered;
             const dvec3 sun = finds_sun ? disc_of_sun(world, path.ray.direction) : dvec3(0.0);
             return path.total + path.throughput * path.scale * (world.sky + sun);
         }
         if (hit.is_within) return path.total;
-        if (path.counts_lamps && !hit.leaves)
+        if (path.counts_emitters && !hit.leaves)
             path.total += path.throughput * path.scale * emission_of(world, hit.material);
         bounce(tracer, path, hit);
         if (path.throughput == dvec3(0.0)) return path.total;
         if (bounces < kSureBounces) continue;
         const double survival =
-            std::min(kMostSurvival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+            std::min(kMaxSurvival, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
         if (tracer.draw() >= survival) return path.total;
         path.throughput /= survival;
     }

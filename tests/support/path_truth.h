@@ -3,9 +3,9 @@
 // An independent truth for pictures of analytic spheres and voxels: a path tracer in double precision that
 // shares no code with the shaders. It is slow, plain and unbiased. Diffuse surfaces sample the sun, one
 // sphere over the solid angle of its disc, and one face of a voxel over its area; light that a path reaches
-// behind a mirror or glass counts when the path hits the lamp. So each path of light is found in exactly one
-// way. Source: Kajiya 1986, "The Rendering Equation"; solid angle of a sphere: Shirley, Wang and Zimmerman
-// 1996, "Monte Carlo Techniques for Direct Lighting", section 3.2.
+// behind a mirror or glass counts when the path hits the emitter. So each path of light is found in exactly
+// one way. Source: Kajiya 1986, "The Rendering Equation"; solid angle of a sphere: Shirley, Wang and
+// Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting", section 3.2.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +23,8 @@ struct TruthRequest {
     glm::ivec2 size{32, 32};  // pixels: box filter, so a small picture is the mean of the pixels of a big one
     int spp = 256;            // >= 2
     std::uint64_t seed = 1;
-    // False: lamps count only when a path hits them, another estimator of the same picture.
-    bool samples_lamps = true;
+    // False: emitters count only when a path hits them, another estimator of the same picture.
+    bool samples_emitters = true;
     // True: sin t = (eta sin i)^2 in place of Snell's law, which a judge has to catch.
     bool squares_the_sine = false;
 };

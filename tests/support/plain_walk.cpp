@@ -15,7 +15,7 @@ gpu::MarchHit walk(const World& world, const gpu::Ray& ray, AxisOrder order) {
     while (world.contains(hit.cell)) {
         const std::uint16_t voxel = world.get(hit.cell);
         if (voxel != VoxelWorld::kEmpty) {
-            hit.face = axis < 0 ? gpu::kFaceInside : static_cast<gpu::uint>(axes.toward[axis] ^ 1);
+            hit.face = axis < 0 ? gpu::kFaceInside : static_cast<gpu::uint>(axes.direction_numbers[axis] ^ 1);
             hit.material = voxel & gpu::kVoxelPayloadMask;
             return hit;
         }
@@ -25,7 +25,7 @@ gpu::MarchHit walk(const World& world, const gpu::Ray& ray, AxisOrder order) {
         if (!(times[axis] < ray.t_max)) return hit;
         hit.t = times[axis];
         ++hit.crossed[axis];
-        hit.cell[axis] += axes.flip[axis] < 0 ? -1 : 1;
+        hit.cell[axis] += axes.sign_mask[axis] < 0 ? -1 : 1;
         ++hit.steps;
         times = gpu::plane_times(axes, hit.crossed + 1);
     }

@@ -40,10 +40,10 @@ class Pattern {
 
     // The first match in `line` and its groups; nothing when there is none.
     [[nodiscard]] std::vector<std::string> find(const std::string& line) const {
-        constexpr std::size_t kMostGroups = 4;
-        ::regmatch_t found[kMostGroups];
+        constexpr std::size_t kMaxGroups = 4;
+        ::regmatch_t found[kMaxGroups];
         std::vector<std::string> groups;
-        if (::regexec(&compiled_, line.c_str(), kMostGroups, found, 0) != 0) return groups;
+        if (::regexec(&compiled_, line.c_str(), kMaxGroups, found, 0) != 0) return groups;
         for (const ::regmatch_t& group : found) {
             const auto start = static_cast<std::size_t>(group.rm_so);
             const auto length = static_cast<std::size_t>(group.rm_eo - group.rm_so);

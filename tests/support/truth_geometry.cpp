@@ -208,7 +208,7 @@ TruthWorld truth_world(const Scene& scene) {
         world.materials.push_back(truth_material(material));
     for (const Sphere& sphere : scene.spheres) {
         if (brightness(world.materials.at(sphere.material).emission) > 0.0)
-            world.lamps.push_back(world.spheres.size());
+            world.emitters.push_back(world.spheres.size());
         world.spheres.push_back({sphere.centre, sphere.radius, sphere.material});
     }
     fill_grid(scene, world.grid);

@@ -47,13 +47,13 @@ struct TruthGrid {
     [[nodiscard]] std::uint32_t at(glm::ivec3 cell) const;
 };
 
-// A scene as the tracer sees it. Lamps shine outwards only. Glass reflects or refracts by Fresnel's equations
-// and takes its colour from either. A point inside several glass spheres is in the smallest of them, else in
-// the glass of its voxel; where one material is on both sides of a surface there is none.
+// A scene as the tracer sees it. Emitters shine outwards only. Glass reflects or refracts by Fresnel's
+// equations and takes its colour from either. A point inside several glass spheres is in the smallest of
+// them, else in the glass of its voxel; where one material is on both sides of a surface there is none.
 struct TruthWorld {
     std::vector<TruthMaterial> materials;
     std::vector<TruthSphere> spheres;
-    std::vector<std::size_t> lamps;  // of `spheres`
+    std::vector<std::size_t> emitters;  // of `spheres`
     TruthGrid grid;
     std::vector<TruthFace> faces;  // that emit
     glm::dvec3 sky;

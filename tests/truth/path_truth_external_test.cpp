@@ -33,7 +33,7 @@ struct Reference {
     glm::ivec2 dark_high{0};
 };
 // In the corner behind the mirror ball the reference has a quarter less light than our tracer, which agrees
-// there with itself when it samples no lamps (PathTruth.sampled_lamps_give_what_chance_gives).
+// there with itself when it samples no emitters (PathTruth.sampled_emitters_give_what_chance_gives).
 const Reference kCornell{"cornell", "cornell_256.exr", kCornellVariance, {40, 168}, {64, 200}};
 const Reference kSurgery{"surgery", "surgery_512x384.exr", kSurgeryVariance};
 
@@ -71,9 +71,9 @@ TruthPixel block_of(const Image& image, int block, glm::ivec2 at) {
     return result;
 }
 
-// Two samples of a block may be equal and the next one differ: at the rim of a lamp, or where a bright path
-// is rare. A variance that has not seen it is too small, so each is the mean over a block and its neighbours,
-// and at least that between the reference's pixels inside the block (law of total variance).
+// Two samples of a block may be equal and the next one differ: at the rim of an emitter, or where a bright
+// path is rare. A variance that has not seen it is too small, so each is the mean over a block and its
+// neighbours, and at least that between the reference's pixels inside the block (law of total variance).
 void smooth_variances(Part part, std::vector<TruthPixel>& traced, const std::vector<TruthPixel>& theirs) {
     const std::vector<TruthPixel> before = traced;
     const glm::ivec2 size = part.high - part.low;
@@ -126,19 +126,19 @@ void record(const PictureZ& z) {
 }
 
 // Of pictures that agree. Smoothed variances make the root of the mean square somewhat smaller than 1.
-constexpr double kMostRms = 1.06;
-constexpr double kLeastRms = 0.85;
-constexpr double kMostBeyond4 = 0.0015;  // two other programs that agree had 0.0012
-constexpr double kMostOfMean = 3.0;
+constexpr double kMaxRms = 1.06;
+constexpr double kMinRms = 0.85;
+constexpr double kMaxBeyond4 = 0.0015;  // two other programs that agree had 0.0012
+constexpr double kMaxOfMean = 3.0;
 // Where most of the light has gone through glass, bright paths are so rare that tails stay heavy.
-constexpr double kMostRmsOfGlass = 1.2;
+constexpr double kMaxRmsOfGlass = 1.2;
 // Of pictures that differ.
 constexpr double kClearRms = 1.4;
 constexpr double kClearBeyond4 = 0.01;
 
 bool agrees(const PictureZ& z) {
     const double worst = std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
-    return z.rms > kLeastRms && z.rms < kMostRms && z.beyond_4 < kMostBeyond4 && worst < kMostOfMean;
+    return z.rms > kMinRms && z.rms < kMaxRms && z.beyond_4 < kMaxBeyond4 && worst < kMaxOfMean;
 }
 
 // The glass ball and its caustic.
@@ -155,7 +155,7 @@ TEST(PathTruthExternal, glass_ball_and_caustic_agree_with_the_reference) {
     SKIP_WITHOUT_SHARED_DATA();
     const PictureZ z = z_against(kCornell, scene_of(kCornell), kGlass);
     record(z);
-    EXPECT_LT(z.rms, kMostRmsOfGlass);
+    EXPECT_LT(z.rms, kMaxRmsOfGlass);
     EXPECT_LT(z.beyond_4, kClearBeyond4);
 }
 
@@ -169,7 +169,7 @@ TEST(PathTruthExternal, wrong_law_of_refraction_is_caught) {
     EXPECT_GT(z.beyond_4, kClearBeyond4);
 }
 
-TEST(PathTruthExternal, lamp_moved_by_one_unit_is_caught) {
+TEST(PathTruthExternal, emitter_moved_by_one_unit_is_caught) {
     SKIP_WITHOUT_SHARED_DATA();
     Scene scene = scene_of(kCornell);
     scene.spheres.at(7).centre.x += 1.0;

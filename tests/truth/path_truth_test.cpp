@@ -40,13 +40,13 @@ double z_of(const TruthPixel& pixel, double expected) {
     return (pixel.mean.x - expected) / std::sqrt(variance);
 }
 
-// A lamp of radius r and radiance L in the middle of a hollow ball of radius R and albedo a. The wall gets
-// pi L F straight from it, with F = (r / R)^2, and from itself all that it sends but the part F that ends in
-// the lamp: its radiance is a L F / (1 - a (1 - F)).
-constexpr double kLampRadiance = 8.0;
-constexpr double kLampPart = 0.25 * 0.25;
+// An emitter of radius r and radiance L in the middle of a hollow ball of radius R and albedo a. The wall
+// gets pi L F straight from it, with F = (r / R)^2, and from itself all that it sends but the part F that
+// ends in the emitter: its radiance is a L F / (1 - a (1 - F)).
+constexpr double kEmitterRadiance = 8.0;
+constexpr double kEmitterPart = 0.25 * 0.25;
 double wall_radiance(double albedo) {
-    return albedo * kLampRadiance * kLampPart / (1.0 - albedo * (1.0 - kLampPart));
+    return albedo * kEmitterRadiance * kEmitterPart / (1.0 - albedo * (1.0 - kEmitterPart));
 }
 
 Scene hollow_ball(const std::string& wall) {
@@ -59,7 +59,7 @@ Scene hollow_ball(const std::string& wall) {
         "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"lamp\"\n");
 }
 
-TEST(PathTruth, lamp_in_a_hollow_ball_gives_the_series_of_reflections) {
+TEST(PathTruth, emitter_in_a_hollow_ball_gives_the_series_of_reflections) {
     const Scene scene = hollow_ball("albedo = [0.25, 0.5, 0.75]\n");
     const TruthPixel pixel = one_pixel(scene, 40000);
     for (int c = 0; c < 3; ++c) {
@@ -107,9 +107,9 @@ TEST(PathTruth, radiance_in_glass_is_n_squared_times_that_outside) {
     EXPECT_LT(std::abs(z_of(one_pixel(scene, 10000), 2.25)), kFarOff);
 }
 
-// A lamp in the middle of a glass ball, seen straight on through it: L (1 - R) / n^2 with R = ((n - 1) / (n +
-// 1))^2, since what the surface reflects ends in the lamp.
-TEST(PathTruth, lamp_inside_glass_is_dimmed_by_fresnel_and_n_squared) {
+// An emitter in the middle of a glass ball, seen straight on through it: L (1 - R) / n^2 with R = ((n - 1) /
+// (n + 1))^2, since what the surface reflects ends in the emitter.
+TEST(PathTruth, emitter_inside_glass_is_dimmed_by_fresnel_and_n_squared) {
     const Scene scene = dark_scene(
         "[camera]\nposition = [0, -10, 0]\nlook_at = [0, 0, 0]\nfov = 0.01\n"
         "[material.g]\nalbedo = [1, 1, 1]\nsurface = \"glass\"\nior = 2\n"
@@ -143,9 +143,9 @@ struct ScenePixel {
     glm::ivec2 pixel;  // of 32 x 32
 };
 
-// Two estimators of one picture: lamps sampled, and lamps hit by chance. The pixels: the corner behind the
-// mirror ball, caustics, the ceiling, and diffuse surfaces seen through glass and inside it.
-TEST(PathTruth, sampled_lamps_give_what_chance_gives) {
+// Two estimators of one picture: emitters sampled, and emitters hit by chance. The pixels: the corner behind
+// the mirror ball, caustics, the ceiling, and diffuse surfaces seen through glass and inside it.
+TEST(PathTruth, sampled_emitters_give_what_chance_gives) {
     for (const ScenePixel& at :
          {ScenePixel{"cornell", {6, 23}}, ScenePixel{"cornell", {24, 26}}, ScenePixel{"cornell", {14, 3}},
           ScenePixel{"glass_in_glass", {24, 21}}, ScenePixel{"glass_in_glass", {8, 21}}}) {
@@ -153,7 +153,7 @@ TEST(PathTruth, sampled_lamps_give_what_chance_gives) {
             load_scene(std::filesystem::path(VX_SOURCE_DIR) / "scenes" / (std::string(at.scene) + ".toml")));
         const TruthPixel sampled = trace_truth_pixel(world, {.spp = 20000, .seed = 4}, at.pixel);
         const TruthPixel hit =
-            trace_truth_pixel(world, {.spp = 60000, .seed = 5, .samples_lamps = false}, at.pixel);
+            trace_truth_pixel(world, {.spp = 60000, .seed = 5, .samples_emitters = false}, at.pixel);
         const double variance = sampled.variance_of_mean.x + hit.variance_of_mean.x;
         EXPECT_LT(std::abs(sampled.mean.x - hit.mean.x), kFarOff * std::sqrt(variance)) << at.pixel.x;
         EXPECT_LT(std::sqrt(variance), 0.05 * hit.mean.x) << at.scene << at.pixel.x;

@@ -158,18 +158,19 @@ TEST(Emission, colours_of_emitters_and_of_others_do_not_mix) {
                        "mtllib a.mtl\nv 0 0 0\nv 3.3 0 0\nv 3.3 4 0\nv 0 4 0\nv 8 0 0\nv 8 4 0\n"
                        "usemtl lamp\nf 1 2 3 4\nusemtl wall\nf 2 5 6 3\n",
                        "newmtl lamp\nKd 0 0 0\nKe 0 9 0\nnewmtl wall\nKd 1 0 0\n");
-    std::size_t lamps = 0, walls = 0;
+    std::size_t emitters = 0, walls = 0;
     for (const Material& material : voxelized(mesh, 8)) {
-        const bool is_lamp = material.surface == Surface::emit && is_radiance(material.emission, {0, 9, 0});
+        const bool is_emitter =
+            material.surface == Surface::emit && is_radiance(material.emission, {0, 9, 0});
         const bool is_wall = material.surface == Surface::diffuse && material.albedo == glm::vec3(1, 0, 0);
-        EXPECT_NE(is_lamp, is_wall);
-        (is_lamp ? lamps : walls) += 1;
+        EXPECT_NE(is_emitter, is_wall);
+        (is_emitter ? emitters : walls) += 1;
     }
-    EXPECT_EQ(lamps, 12u) << "three columns, and of the fourth 0.3 only";
+    EXPECT_EQ(emitters, 12u) << "three columns, and of the fourth 0.3 only";
     EXPECT_EQ(walls, 20u);
 }
 
-TEST(Emission, few_lamps_keep_their_colours_beside_thousands_of_others) {
+TEST(Emission, few_emitters_keep_their_colours_beside_thousands_of_others) {
     VoxelSet set;
     set.blocks.emplace_back();
     std::mt19937 random(1);
@@ -180,15 +181,15 @@ TEST(Emission, few_lamps_keep_their_colours_beside_thousands_of_others) {
                                          .b = static_cast<std::uint8_t>(b),
                                          .look = packed(look)});
     };
-    const Look lamp{.kind = LookKind::emit, .level = 15};
+    const Look emitter{.kind = LookKind::emit, .level = 15};
     for (int i = 0; i < 20000; ++i)
         add(byte(random), byte(random), byte(random), {});
     for (int i = 0; i < 60; ++i)
-        add(i % 3 == 0 ? 255 : 0, i % 3 == 1 ? 255 : 0, i % 3 == 2 ? 255 : 0, lamp);
+        add(i % 3 == 0 ? 255 : 0, i % 3 == 1 ? 255 : 0, i % 3 == 2 ? 255 : 0, emitter);
     set.surface = set.blocks[0].surface.size();
     EXPECT_EQ(VoxelPalette(set, false).error().radiances_off, 0u);
     for (int i = 0; i < 4000; ++i)
-        add(byte(random), byte(random), byte(random), lamp);
+        add(byte(random), byte(random), byte(random), emitter);
     set.surface = set.blocks[0].surface.size();
     EXPECT_GT(VoxelPalette(set, false).error().radiances_off, 1000u) << "what does not fit is counted";
 }

@@ -462,8 +462,8 @@ TEST(VoxelizeMesh, materials_become_looks) {
     EXPECT_EQ(look_with({.metallic = 0.0f, .transmission = 1.0f}).kind, LookKind::glass);
     MeshMaterial blend{.base_color = {1, 1, 1, 0.2f}, .alpha_mode = AlphaMode::blend, .metallic = 0.0f};
     EXPECT_EQ(look_with(blend), (Look{.kind = LookKind::glass, .rough = 7, .level = 12, .ior = 5}));
-    const MeshMaterial lamp{.base_color = {0.5f, 0.5f, 0.5f, 1}, .metallic = 0.0f, .emissive = {2, 2, 2}};
-    EXPECT_EQ(look_with(lamp), (Look{.kind = LookKind::emit, .level = 14}));
+    const MeshMaterial emitter{.base_color = {0.5f, 0.5f, 0.5f, 1}, .metallic = 0.0f, .emissive = {2, 2, 2}};
+    EXPECT_EQ(look_with(emitter), (Look{.kind = LookKind::emit, .level = 14}));
     EXPECT_EQ(surface_of(voxelize_mesh(mesh, request_at(4))).at({0, 0, 0}).r, 188);  // of the base colour
 }
 

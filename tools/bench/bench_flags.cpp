@@ -39,9 +39,9 @@ Builder parse_builder(const std::string& name) {
 }
 
 int checked_extent(int extent) {
-    if (extent >= kLeastExtent && extent <= kMostExtent && extent % 16 == 0) return extent;
+    if (extent >= kMinExtent && extent <= kMaxExtent && extent % 16 == 0) return extent;
     throw Error(ExitCode::usage, fmt::format("--extent: {} is not a multiple of 16 from {} to {}", extent,
-                                             kLeastExtent, kMostExtent));
+                                             kMinExtent, kMaxExtent));
 }
 
 void add_growth_flag(Flags& flags, std::vector<std::string>& growth) {

@@ -25,8 +25,8 @@ DeviceLimits limits_for(const std::string& selector) {
 
 std::string describe_first_frame(const PreparedScene& prepared, const Scene& scene) {
     Recording recording;
-    const Slice slice{.row_count = prepared.plan.slice_rows};
-    record_frame(prepared.plan, slice, frame_params(prepared.plan, scene, prepared.march_world), {},
+    const DispatchTile tile{.row_count = prepared.plan.tile_rows};
+    record_frame(prepared.plan, tile, frame_params(prepared.plan, scene, prepared.march_world), {},
                  recording);
     return describe(recording);
 }

@@ -40,14 +40,15 @@ RenderOptions render_options(const TradeoffCommand& command) {
 }
 
 void warn(const PriceList& list) {
-    for (const Knob& knob : list.design.knobs) {
-        for (const KnobSetting& setting : knob.settings) {
-            const MeasuredWay& way = list.ways[setting.way];
-            if (!way.refusal.empty())
-                fmt::print(stderr, "note: {} {} is left out: {}\n", knob.label, setting.name, way.refusal);
-            if (way.way.traversal && way.other_pixels.value_or(0) != 0)
+    for (const Parameter& parameter : list.design.parameters) {
+        for (const ParameterSetting& setting : parameter.settings) {
+            const MeasuredConfiguration& configuration = list.configurations[setting.configuration];
+            if (!configuration.refusal.empty())
+                fmt::print(stderr, "note: {} {} is left out: {}\n", parameter.label, setting.name,
+                           configuration.refusal);
+            if (configuration.configuration.traversal && configuration.other_pixels.value_or(0) != 0)
                 fmt::print(stderr, "warning: traversal {} changes {} pixels\n", setting.name,
-                           *way.other_pixels);
+                           *configuration.other_pixels);
         }
     }
 }
@@ -68,7 +69,7 @@ void add_tradeoff_flags(Flags& flags, TradeoffCommand& command) {
         "--repeats", "N",
         [&command](int repeats) {
             command.repeats =
-                static_cast<std::size_t>(checked_range("--repeats", repeats, kFewestTrials, kMaxRepeats));
+                static_cast<std::size_t>(checked_range("--repeats", repeats, kMinTrials, kMaxRepeats));
         },
         "pictures of each run, with random numbers of their own; at least 3 (default 3)");
     add_device_flags(flags, command.device, command.scene.request.memory_budget_bytes,

@@ -52,7 +52,7 @@ AoTake take_of(const AoVariant& variant, Motion motion, const AoBenchOptions& op
 
 void set_errors(AoRow& row, const AoTake& take, const AoFootage& footage, References& references) {
     for (const int frame : measured_frames(row.frames))
-        row.errors.push_back({frame, rmse_over(references.at(take, frame), footage.openness.at(frame))});
+        row.errors.push_back({frame, rmse_over(references.at(take, frame), footage.visibility.at(frame))});
     row.reference_noise = noise_bound(references.at(take, row.frames), references.rays());
 }
 
@@ -111,7 +111,7 @@ AoRow measure(const AoTake& take, AoStage& stage, References& references) {
     set_counts(row, footage);
     take_times(row, footage);
     if (flickers) {
-        row.flicker = mean_change(footage.openness.at(take.frames - 1), footage.openness.at(take.frames),
+        row.flicker = mean_change(footage.visibility.at(take.frames - 1), footage.visibility.at(take.frames),
                                   references.at(take, take.frames).pixels);
     }
     return row;

@@ -18,12 +18,12 @@ double as_double(std::uint64_t count) {
 
 }  // namespace
 
-double rmse_over(const AoReference& reference, std::span<const float> openness) {
-    VX_ASSERT_EQ(reference.pixels.size(), reference.openness.size());
+double rmse_over(const AoReference& reference, std::span<const float> visibility) {
+    VX_ASSERT_EQ(reference.pixels.size(), reference.visibility.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < reference.pixels.size(); ++i) {
-        const double difference =
-            static_cast<double>(openness[reference.pixels[i]]) - static_cast<double>(reference.openness[i]);
+        const double difference = static_cast<double>(visibility[reference.pixels[i]]) -
+                                  static_cast<double>(reference.visibility[i]);
         sum += difference * difference;
     }
     return std::sqrt(ratio(sum, as_double(reference.pixels.size())));
@@ -39,15 +39,15 @@ double mean_change(std::span<const float> before, std::span<const float> after,
 
 double noise_bound(const AoReference& reference, std::uint32_t rays) {
     double sum = 0.0;
-    for (const float openness : reference.openness)
-        sum += static_cast<double>(openness) * (1.0 - static_cast<double>(openness));
-    return std::sqrt(ratio(sum, as_double(reference.openness.size()) * rays));
+    for (const float visibility : reference.visibility)
+        sum += static_cast<double>(visibility) * (1.0 - static_cast<double>(visibility));
+    return std::sqrt(ratio(sum, as_double(reference.visibility.size()) * rays));
 }
 
-void AoWork::add(std::span<const gpu::uint, gpu::kTallyCount> tally) {
+void AoWork::add(std::span<const gpu::uint, gpu::kCounterCount> counters) {
     ++frames;
     for (std::size_t i = 0; i < counts.size(); ++i)
-        counts[i] += tally[i];
+        counts[i] += counters[i];
 }
 
 double AoWork::mean(std::size_t index) const {

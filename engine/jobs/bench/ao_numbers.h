@@ -8,19 +8,19 @@
 #include <span>
 #include <vector>
 
-#include "shared/tally.h"
+#include "shared/counters.h"
 
 namespace voxilux {
 
-// Openness in [0,1] of some pixels of a picture, from many rays.
+// Visibility in [0,1] of some pixels of a picture, from many rays.
 struct AoReference {
     std::vector<std::size_t> pixels;  // numbers in the picture, row by row
-    std::vector<float> openness;      // of those
+    std::vector<float> visibility;    // of those
 };
 
-// Root of the mean squared difference over the reference's pixels; 0 when it has none. `openness` is that of
-// the whole picture.
-[[nodiscard]] double rmse_over(const AoReference& reference, std::span<const float> openness);
+// Root of the mean squared difference over the reference's pixels; 0 when it has none. `visibility` is that
+// of the whole picture.
+[[nodiscard]] double rmse_over(const AoReference& reference, std::span<const float> visibility);
 
 // Mean absolute difference of two pictures over some pixels; 0 when there are none.
 [[nodiscard]] double mean_change(std::span<const float> before, std::span<const float> after,
@@ -30,12 +30,12 @@ struct AoReference {
 // follow a low-discrepancy sequence have less.
 [[nodiscard]] double noise_bound(const AoReference& reference, std::uint32_t rays);
 
-// Sums of a tally (shared/tally.h) over some frames.
+// Sums of a counters (shared/counters.h) over some frames.
 struct AoWork {
     std::uint64_t frames = 0;
-    std::array<std::uint64_t, gpu::kTallyCount> counts{};
+    std::array<std::uint64_t, gpu::kCounterCount> counts{};
 
-    void add(std::span<const gpu::uint, gpu::kTallyCount> tally);
+    void add(std::span<const gpu::uint, gpu::kCounterCount> counters);
     // Mean of a count over the frames; 0 without any.
     [[nodiscard]] double mean(std::size_t index) const;
 };

@@ -39,7 +39,7 @@ struct AoRow {
     double load = 0.0;              // cells over slots
     std::vector<AoError> errors;    // against the reference, over pixels that show voxels
     double reference_noise = 0.0;   // bound of the reference's own error
-    std::optional<double> flicker;  // mean change of openness from the last frame but one to the last
+    std::optional<double> flicker;  // mean change of visibility from the last frame but one to the last
 
     [[nodiscard]] double ao_ms() const;  // of all its passes
 };

@@ -33,14 +33,14 @@ PlanRequest occlusion_request(int frames) {
     return request;
 }
 
-// The last buffer that holds the openness of a frame.
-std::string openness_buffer(const RenderPlan& plan) {
-    return plan.ao.uses_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.open";
+// The last buffer that holds the visibility of a frame.
+std::string visibility_buffer(const RenderPlan& plan) {
+    return plan.ao.uses_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.visibility";
 }
 
-// Of the slice, not of the buffer: that has room for the largest slice.
-std::uint64_t pixels_of(const RenderPlan& plan, const Slice& slice) {
-    return std::uint64_t{slice.row_count} * static_cast<std::uint64_t>(plan.settings.size.x);
+// Of the tile, not of the buffer: that has room for the largest tile.
+std::uint64_t pixels_of(const RenderPlan& plan, const DispatchTile& tile) {
+    return std::uint64_t{tile.row_count} * static_cast<std::uint64_t>(plan.settings.size.x);
 }
 
 std::vector<AoPassTime> occlusion_times(const RunResult& result) {
@@ -51,31 +51,32 @@ std::vector<AoPassTime> occlusion_times(const RunResult& result) {
 }
 
 // The rows from `first` on that a reference traces at once.
-Slice strip_at(const RenderPlan& plan, std::uint32_t first) {
+DispatchTile strip_at(const RenderPlan& plan, std::uint32_t first) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
-    const std::uint32_t band = first / plan.band_rows;
-    const std::uint32_t band_first_row = band * plan.band_rows;
-    const std::uint32_t end = std::min({height, band_first_row + plan.band_rows, first + plan.slice_rows});
-    return {band, band_first_row, first, std::min(kStripRows, end - first)};
+    const std::uint32_t film_tile = first / plan.film_tile_rows;
+    const std::uint32_t film_tile_first_row = film_tile * plan.film_tile_rows;
+    const std::uint32_t end =
+        std::min({height, film_tile_first_row + plan.film_tile_rows, first + plan.tile_rows});
+    return {film_tile, film_tile_first_row, first, std::min(kStripRows, end - first)};
 }
 
 struct TracedStrip {
     std::string hits;
-    std::string openness;
+    std::string visibility;
 };
 
-// Hits where `params` look, and their openness by rays of the Sobol sequence.
-TracedStrip record_strip(const RenderPlan& plan, const Slice& slice, gpu::FrameParams params,
+// Hits where `params` look, and their visibility by rays of the Sobol sequence.
+TracedStrip record_strip(const RenderPlan& plan, const DispatchTile& tile, gpu::FrameParams params,
                          Recording& recording) {
-    params.first_row = slice.first_row;
-    params.row_count = slice.row_count;
-    params.band_first_row = slice.band_first_row;
+    params.first_row = tile.first_row;
+    params.row_count = tile.row_count;
+    params.film_tile_first_row = tile.film_tile_first_row;
     record_frame_upload(params, recording);
-    Plane hits = record_primary_march(plan, slice, record_primary_beam(plan, slice, recording), recording);
-    if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, slice, hits, recording);
+    Plane hits = record_primary_march(plan, tile, record_primary_beam(plan, tile, recording), recording);
+    if (plan.has(Effect::spheres)) hits = record_sphere_trace(plan, tile, hits, recording);
     RenderPlan traced = plan;
     traced.settings.sequence = Sequence::sobol;
-    return {hits.buffer, record_ao_trace(traced, slice, hits, recording).buffer};
+    return {hits.buffer, record_ao_trace(traced, tile, hits, recording).buffer};
 }
 
 }  // namespace
@@ -139,8 +140,8 @@ gpu::FrameParams AoStage::params_at(const RenderPlan& plan, Motion motion, int f
 
 AoFootage AoStage::play(const AoTake& take) {
     const RenderPlan plan = plan_of(take.variant, take.rays, take.frames);
-    const Slice whole{.row_count = static_cast<std::uint32_t>(plan.settings.size.y)};
-    const std::string openness = openness_buffer(plan);
+    const DispatchTile whole{.row_count = static_cast<std::uint32_t>(plan.settings.size.y)};
+    const std::string visibility = visibility_buffer(plan);
     AoFootage footage{.slots = plan.ao.slots};
     FilmSteps steps(plan, executor_, limits_.is_cpu);
     for (int frame = 1; frame <= take.frames; ++frame) {
@@ -148,12 +149,12 @@ AoFootage AoStage::play(const AoTake& take) {
         const bool is_kept = take.kept.contains(frame);
         const Stopwatch watch;
         StepResult done;
-        const RunResult result = steps.take(whole, done, std::span(&openness, is_kept ? 1 : 0));
+        const RunResult result = steps.take(whole, done, std::span(&visibility, is_kept ? 1 : 0));
         footage.seconds.push_back(watch.elapsed());
         footage.passes.push_back(occlusion_times(result));
-        const auto counted = values_of<gpu::uint>(result, "tally");
-        (frame == 1 ? footage.first : footage.rest).add(std::span(counted).first<gpu::kTallyCount>());
-        if (is_kept) footage.openness[frame] = values_of<float>(result, openness);
+        const auto counted = values_of<gpu::uint>(result, "counters");
+        (frame == 1 ? footage.first : footage.rest).add(std::span(counted).first<gpu::kCounterCount>());
+        if (is_kept) footage.visibility[frame] = values_of<float>(result, visibility);
     }
     return footage;
 }
@@ -164,18 +165,18 @@ AoReference AoStage::reference(Motion motion, int frame, Sequence sequence, std:
     const auto width = static_cast<std::size_t>(plan.settings.size.x);
     AoReference reference;
     for (std::uint32_t row = 0; row < params.height; row += kStripPeriod) {
-        const Slice slice = strip_at(plan, row);
+        const DispatchTile tile = strip_at(plan, row);
         Recording recording;
-        const TracedStrip strip = record_strip(plan, slice, params, recording);
-        recording.readback(strip.hits, 0, pixels_of(plan, slice) * sizeof(gpu::Hit));
-        recording.readback(strip.openness, 0, pixels_of(plan, slice) * sizeof(float));
+        const TracedStrip strip = record_strip(plan, tile, params, recording);
+        recording.readback(strip.hits, 0, pixels_of(plan, tile) * sizeof(gpu::Hit));
+        recording.readback(strip.visibility, 0, pixels_of(plan, tile) * sizeof(float));
         const RunResult result = executor_.run(recording);
         const auto seen = values_of<gpu::Hit>(result, strip.hits);
-        const auto openness = values_of<float>(result, strip.openness);
+        const auto visibility = values_of<float>(result, strip.visibility);
         for (std::size_t i = 0; i < seen.size(); ++i) {
             if (seen[i].face >= gpu::kFaceInside) continue;
             reference.pixels.push_back(row * width + i);
-            reference.openness.push_back(openness[i]);
+            reference.visibility.push_back(visibility[i]);
         }
     }
     return reference;

@@ -32,17 +32,17 @@ struct AoTake {
     Motion motion = Motion::still;
     int frames = 1;
     std::uint32_t rays = 1;  // per pixel and frame
-    std::set<int> kept;      // frames whose openness is wanted, from 1
+    std::set<int> kept;      // frames whose visibility is wanted, from 1
 };
 
 // What the frames of a take gave.
 struct AoFootage {
-    std::map<int, std::vector<float>> openness;   // [height][width] of the kept frames
-    AoWork first;                                 // of frame 1, which finds the table empty
-    AoWork rest;                                  // of all others
-    std::vector<std::vector<AoPassTime>> passes;  // of each frame, those of occlusion
-    std::vector<Seconds> seconds;                 // of each frame
-    std::uint32_t slots = 0;                      // of the table
+    std::map<int, std::vector<float>> visibility;  // [height][width] of the kept frames
+    AoWork first;                                  // of frame 1, which finds the table empty
+    AoWork rest;                                   // of all others
+    std::vector<std::vector<AoPassTime>> passes;   // of each frame, those of occlusion
+    std::vector<Seconds> seconds;                  // of each frame
+    std::uint32_t slots = 0;                       // of the table
 };
 
 class AoStage {
@@ -53,7 +53,7 @@ class AoStage {
     // Renders the frames of a take from an empty table on, each with the same points of the pixels.
     [[nodiscard]] AoFootage play(const AoTake& take);
 
-    // Openness by `rays` rays per pixel of the Sobol sequence, at a frame of a motion, for the pixels of
+    // Visibility by `rays` rays per pixel of the Sobol sequence, at a frame of a motion, for the pixels of
     // every fourth strip of rows that show voxels. `sequence` is that of the variants it is for: it decides
     // where in a pixel they look.
     [[nodiscard]] AoReference reference(Motion motion, int frame, Sequence sequence, std::uint32_t rays);

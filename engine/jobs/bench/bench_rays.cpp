@@ -81,9 +81,9 @@ std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guid
         if (hit.face >= gpu::kFaceCount) return;
         const glm::vec2 u =
             gpu::sample_2d(gpu::kSequenceSobol, {y * params.width + x, 0, seed}, gpu::kPairOcclusion);
-        rays.push_back(gpu::leave_surface(hit.cell, hit.face, gpu::hit_fraction(entry.ray, hit),
-                                          gpu::cosine_on_face(hit.face, u),
-                                          kind == RayKind::ao ? kOcclusionReach : gpu::kUnbounded));
+        rays.push_back(gpu::spawn_ray(hit.cell, hit.face, gpu::hit_fraction(entry.ray, hit),
+                                      gpu::cosine_on_face(hit.face, u),
+                                      kind == RayKind::ao ? kOcclusionReach : gpu::kUnbounded));
     });
     return rays;
 }

@@ -76,14 +76,14 @@ class ProceduralWorld {
 
     // A column reaches down to the lowest of its neighbours, so that steep ground has no holes.
     void draw_ground() {
-        const int band = std::max(1, extent_ / 4 / kMaterialsEach);
+        const int film_tile = std::max(1, extent_ / 4 / kMaterialsEach);
         for (int y = 0; y < extent_; ++y) {
             for (int x = 0; x < extent_; ++x) {
                 const int top = height(x, y);
                 const int lowest =
                     std::min({height(x - 1, y), height(x + 1, y), height(x, y - 1), height(x, y + 1), top});
                 for (int z = std::min(lowest, top - kGroundSkin + 1); z <= top; ++z)
-                    put({x, y, z}, std::clamp(z / band, 0, kMaterialsEach - 1));
+                    put({x, y, z}, std::clamp(z / film_tile, 0, kMaterialsEach - 1));
             }
         }
     }
@@ -151,7 +151,7 @@ class ProceduralWorld {
 }  // namespace
 
 BenchScene procedural_scene(int extent, std::uint32_t seed) {
-    VX_ASSERT(extent >= kLeastExtent && extent <= kMostExtent && extent % 16 == 0);
+    VX_ASSERT(extent >= kMinExtent && extent <= kMaxExtent && extent % 16 == 0);
     ProceduralWorld procedural(extent, seed);
     procedural.draw();
     const Camera camera{.position = glm::dvec3(0.04, 0.06, 0.68) * static_cast<double>(extent),

@@ -19,8 +19,8 @@ struct BenchScene {
     Camera camera;  // in scene space
 };
 
-inline constexpr int kLeastExtent = 32;
-inline constexpr int kMostExtent = 4096;
+inline constexpr int kMinExtent = 32;
+inline constexpr int kMaxExtent = 4096;
 
 // Hills, 24 hollow boxes with windows that stand on them and 30 hollow spheres above, all in proportion to
 // `extent` (whole chunks of 16), skins of a few voxels, seen from above with sky in the picture. Only the

@@ -50,7 +50,7 @@ MarchBench::RayList MarchBench::place_rays(RayKind kind, const std::vector<gpu::
     recording.declare(buffer);
     if (count > 0) recording.upload(buffer.name, std::as_bytes(std::span(rays)));
     executor_.run(recording);
-    return {.kind = kind, .count = count, .verdicts = judge_rays(scene_.world, rays, kJudgedCells)};
+    return {.kind = kind, .count = count, .verdicts = check_rays(scene_.world, rays, kJudgedCells)};
 }
 
 std::vector<MarchContestant> MarchBench::contestants() {

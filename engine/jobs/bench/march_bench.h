@@ -7,7 +7,7 @@
 #include "jobs/bench/bench_scene.h"
 #include "jobs/bench/contest.h"
 #include "jobs/bench/placed_structure.h"
-#include "jobs/bench/ray_judge.h"
+#include "jobs/bench/ray_checker.h"
 
 namespace voxilux {
 

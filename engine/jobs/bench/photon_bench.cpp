@@ -12,8 +12,8 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kFewestPhotons = 1u << 12;
-constexpr std::uint32_t kMostPhotons = 1u << 18;
+constexpr std::uint32_t kMinPhotons = 1u << 12;
+constexpr std::uint32_t kMaxPhotons = 1u << 18;
 constexpr int kSmallestEdge = 64;
 constexpr int kLargestEdge = 512;
 // Iterations of the rows where photons or pixels grow: enough for a mean, few enough for the largest of them.
@@ -107,7 +107,7 @@ std::vector<Scene> grow(const Scene& base, const std::string& series) {
     }
     job.settings.spp = std::min(base.settings.spp, kGrowthIterations);
     if (series == "photons") {
-        for (std::uint32_t count = kFewestPhotons; count <= kMostPhotons; count *= 2) {
+        for (std::uint32_t count = kMinPhotons; count <= kMaxPhotons; count *= 2) {
             job.settings.photons.count = count;
             jobs.push_back(job);
         }

@@ -57,16 +57,16 @@ std::vector<double> blurred(const Image& image, const std::vector<double>& value
 
 }  // namespace
 
-Image lamp_mask(const Image& reference) {
+Image emitter_mask(const Image& reference) {
     const auto planes = colour_planes(reference).value();
     Image mask{.width = reference.width, .height = reference.height};
     std::vector<float>& white = mask.channels["Y"].pixels;
     white.assign(pixel_count(reference), 1.0f);
     for (int y = 0; y < reference.height; ++y) {
         for (int x = 0; x < reference.width; ++x) {
-            if (!(luminance_at(planes, index_of(reference, x, y)) > kLampLuminance)) continue;
-            for (int j = -kLampMargin; j <= kLampMargin; ++j) {
-                const int reach = kLampMargin - std::abs(j);
+            if (!(luminance_at(planes, index_of(reference, x, y)) > kEmitterLuminance)) continue;
+            for (int j = -kEmitterMargin; j <= kEmitterMargin; ++j) {
+                const int reach = kEmitterMargin - std::abs(j);
                 for (int i = -reach; i <= reach; ++i) {
                     const bool inside =
                         x + i >= 0 && y + j >= 0 && x + i < reference.width && y + j < reference.height;
@@ -93,7 +93,7 @@ double blurred_rmse(const Image& reference, const Image& test, const PixelBox& b
 }
 
 PhotonErrors photon_errors(const Image& reference, const Image& test, const std::optional<PixelBox>& box) {
-    const Image mask = lamp_mask(reference);
+    const Image mask = emitter_mask(reference);
     const auto pixels = selected_pixels(reference.width, reference.height, {.mask = &mask});
     const Metrics metrics = measure_difference(reference, test, pixels);
     PhotonErrors errors{.relmse = metrics.relmse};

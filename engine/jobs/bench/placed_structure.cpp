@@ -30,13 +30,13 @@ WorldBuffers declare_structure(Traversal traversal, const StructureBytes& bytes,
             .leaves = declare(buffer_of(traversal, "leaves"), bytes.leaves, true, recording)};
 }
 
-void build_on_device(const MarchWorld& skeleton, Executor& executor) {
+void build_on_device(const MarchWorld& unexpanded, Executor& executor) {
     Recording recording;
-    const GrowthNeeds needs = growth_needs(skeleton);
-    WorldBuffers buffers = declare_structure(skeleton.traversal, bytes_of(skeleton), recording);
+    const GrowthNeeds needs = growth_needs(unexpanded);
+    WorldBuffers buffers = declare_structure(unexpanded.traversal, bytes_of(unexpanded), recording);
     buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
     buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
-    record_world_build(skeleton, needs, buffers, recording);
+    record_world_build(unexpanded, needs, buffers, recording);
     executor.run(recording);
 }
 
@@ -44,11 +44,11 @@ void build_on_device(const MarchWorld& skeleton, Executor& executor) {
 void warm_up(Traversal traversal, Executor& executor) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set(glm::ivec3(8), 0);
-    build_on_device(build_march_skeleton(world, traversal), executor);
+    build_on_device(build_unexpanded_world(world, traversal), executor);
 }
 
 // Bytes that the structure takes even if all its bricks are equal: the paper's form stores those once.
-StructureBytes least_bytes(const VoxelWorld& world, Traversal traversal) {
+StructureBytes min_bytes(const VoxelWorld& world, Traversal traversal) {
     StructureBytes least = predict_bytes(take_census(world), traversal);
     if (traversal == Traversal::naadf) least.leaves = 0;
     return least;
@@ -108,9 +108,9 @@ void place_from_device(PlacedStructure& placed, const VoxelWorld& world, const D
                        Executor& executor) {
     warm_up(placed.traversal, executor);
     const Stopwatch watch;
-    const MarchWorld skeleton = build_march_skeleton(world, placed.traversal);
-    if (!is_fit(placed, skeleton, limits)) return;
-    build_on_device(skeleton, executor);
+    const MarchWorld unexpanded = build_unexpanded_world(world, placed.traversal);
+    if (!is_fit(placed, unexpanded, limits)) return;
+    build_on_device(unexpanded, executor);
     placed.device_build = watch.elapsed();
 }
 
@@ -132,7 +132,7 @@ PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Bu
                                 const DeviceLimits& limits, Executor& executor) {
     PlacedStructure placed{.traversal = traversal,
                            .chunks = world.chunks(),
-                           .reason = misfit(least_bytes(world, traversal), limits)};
+                           .reason = misfit(min_bytes(world, traversal), limits)};
     if (!placed.reason.empty()) return placed;
     try {
         if (builder != Builder::cpu) place_from_device(placed, world, limits, executor);

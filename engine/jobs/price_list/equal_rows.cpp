@@ -15,36 +15,39 @@ constexpr double kFlattest = -0.15;
 constexpr double kSteepest = -1.0;
 
 struct Choice {
-    std::size_t knob = 0;
+    std::size_t parameter = 0;
     std::size_t setting = 0;
 };
 
-// Each way once.
-std::vector<Choice> chosen(const KnobDesign& design, const std::vector<MeasuredWay>& ways) {
+// Each configuration once.
+std::vector<Choice> chosen(const ParameterDesign& design,
+                           const std::vector<MeasuredConfiguration>& configurations) {
     std::vector<Choice> choices;
     std::vector<std::size_t> taken;
-    const auto take = [&](std::size_t knob, std::size_t setting) {
-        const std::size_t way = design.knobs[knob].settings[setting].way;
-        if (way == 0 || ways[way].levels.empty() || std::ranges::find(taken, way) != taken.end()) return;
-        taken.push_back(way);
-        choices.push_back({knob, setting});
+    const auto take = [&](std::size_t parameter, std::size_t setting) {
+        const std::size_t configuration = design.parameters[parameter].settings[setting].configuration;
+        if (configuration == 0 || configurations[configuration].levels.empty() ||
+            std::ranges::find(taken, configuration) != taken.end())
+            return;
+        taken.push_back(configuration);
+        choices.push_back({parameter, setting});
     };
-    for (std::size_t knob = 0; knob < design.knobs.size(); ++knob) {
-        const std::size_t count = design.knobs[knob].settings.size();
-        if (count == 0 || design.knobs[knob].name == "estimate") continue;
-        take(knob, 0);
-        take(knob, count - 1);
+    for (std::size_t parameter = 0; parameter < design.parameters.size(); ++parameter) {
+        const std::size_t count = design.parameters[parameter].settings.size();
+        if (count == 0 || design.parameters[parameter].name == "estimate") continue;
+        take(parameter, 0);
+        take(parameter, count - 1);
     }
     return choices;
 }
 
-const Level& level_of(const MeasuredWay& way, std::uint32_t samples) {
-    const auto found = std::ranges::find(way.levels, samples, &Level::samples);
-    return found == way.levels.end() ? way.levels.back() : *found;
+const Level& level_of(const MeasuredConfiguration& configuration, std::uint32_t samples) {
+    const auto found = std::ranges::find(configuration.levels, samples, &Level::samples);
+    return found == configuration.levels.end() ? configuration.levels.back() : *found;
 }
 
-double seconds_per_sample(const MeasuredWay& way) {
-    return median(way.levels.back().times_s) / way.levels.back().samples;
+double seconds_per_sample(const MeasuredConfiguration& configuration) {
+    return median(configuration.levels.back().times_s) / configuration.levels.back().samples;
 }
 
 EqualPicture of_level(const Level& level) {
@@ -54,11 +57,13 @@ EqualPicture of_level(const Level& level) {
             .picture = level.picture};
 }
 
-EqualPicture render(const Workshop& workshop, const MeasuredWay& way, double samples) {
+EqualPicture render(const Workshop& workshop, const MeasuredConfiguration& configuration, double samples) {
     const double most = 1u << 20;
     const auto whole = static_cast<std::uint32_t>(std::lround(std::clamp(samples, 1.0, most)));
-    Measured measured = measure_once(
-        *way.session, {.way = way.way, .frame = workshop.frame, .seed = workshop.seed + 1, .samples = whole});
+    Measured measured = measure_once(*configuration.session, {.configuration = configuration.configuration,
+                                                              .frame = workshop.frame,
+                                                              .seed = workshop.seed + 1,
+                                                              .samples = whole});
     EqualPicture result{.samples = whole, .time_s = measured.time_s};
     result.picture = colours_of(std::move(measured.outcome.image));
     const double square = relative_square(result.picture, *workshop.reference) - workshop.noise.square;
@@ -66,19 +71,20 @@ EqualPicture render(const Workshop& workshop, const MeasuredWay& way, double sam
     return result;
 }
 
-// The level `base` of way 0, and a picture of every chosen way with so many samples as `samples_of` says. One
-// is reached when its `member` is near the target or below.
+// The level `base` of configuration 0, and a picture of every chosen configuration with so many samples as
+// `samples_of` says. One is reached when its `member` is near the target or below.
 template <class SamplesOf>
-EqualRow make_row(const Workshop& workshop, const KnobDesign& design, const std::vector<MeasuredWay>& ways,
-                  const Level& base, double target, const SamplesOf& samples_of,
-                  double EqualPicture::*member) {
+EqualRow make_row(const Workshop& workshop, const ParameterDesign& design,
+                  const std::vector<MeasuredConfiguration>& configurations, const Level& base, double target,
+                  const SamplesOf& samples_of, double EqualPicture::*member) {
     EqualRow row{.target = target};
     row.pictures.push_back(of_level(base));
-    for (const auto& [knob, setting] : chosen(design, ways)) {
+    for (const auto& [parameter, setting] : chosen(design, configurations)) {
         if (workshop.left_s() <= 0.0) break;
-        const MeasuredWay& way = ways[design.knobs[knob].settings[setting].way];
-        EqualPicture picture = render(workshop, way, samples_of(way));
-        picture.knob = knob;
+        const MeasuredConfiguration& configuration =
+            configurations[design.parameters[parameter].settings[setting].configuration];
+        EqualPicture picture = render(workshop, configuration, samples_of(configuration));
+        picture.parameter = parameter;
         picture.setting = setting;
         picture.is_reached = picture.*member <= kNear * target;
         row.pictures.push_back(std::move(picture));
@@ -102,23 +108,28 @@ double samples_for_error(const std::vector<Level>& levels, double error) {
     return last.samples * std::pow(error / last.error.total, 1.0 / exponent);
 }
 
-EqualRow equal_time_row(const Workshop& workshop, const KnobDesign& design,
-                        const std::vector<MeasuredWay>& ways, std::uint32_t samples) {
-    const Level& base = level_of(ways.front(), samples);
+EqualRow equal_time_row(const Workshop& workshop, const ParameterDesign& design,
+                        const std::vector<MeasuredConfiguration>& configurations, std::uint32_t samples) {
+    const Level& base = level_of(configurations.front(), samples);
     const double target = median(base.times_s);
     return make_row(
-        workshop, design, ways, base, target,
-        [&](const MeasuredWay& way) { return target / seconds_per_sample(way); }, &EqualPicture::time_s);
+        workshop, design, configurations, base, target,
+        [&](const MeasuredConfiguration& configuration) {
+            return target / seconds_per_sample(configuration);
+        },
+        &EqualPicture::time_s);
 }
 
-EqualRow equal_error_row(const Workshop& workshop, const KnobDesign& design,
-                         const std::vector<MeasuredWay>& ways, std::uint32_t samples, double most_s) {
-    const Level& base = level_of(ways.front(), samples);
+EqualRow equal_error_row(const Workshop& workshop, const ParameterDesign& design,
+                         const std::vector<MeasuredConfiguration>& configurations, std::uint32_t samples,
+                         double max_s) {
+    const Level& base = level_of(configurations.front(), samples);
     const double target = base.error.total;
     return make_row(
-        workshop, design, ways, base, target,
-        [&](const MeasuredWay& way) {
-            return std::min(samples_for_error(way.levels, target), most_s / seconds_per_sample(way));
+        workshop, design, configurations, base, target,
+        [&](const MeasuredConfiguration& configuration) {
+            return std::min(samples_for_error(configuration.levels, target),
+                            max_s / seconds_per_sample(configuration));
         },
         &EqualPicture::error);
 }

@@ -11,7 +11,7 @@ namespace voxilux {
 
 // One picture of a row.
 struct EqualPicture {
-    std::size_t knob = 0;  // in KnobDesign::knobs
+    std::size_t parameter = 0;  // in ParameterDesign::parameters
     std::size_t setting = 0;
     std::uint32_t samples = 0;
     double time_s = 0.0;
@@ -25,19 +25,20 @@ struct EqualRow {
     std::vector<EqualPicture> pictures;
 };
 
-// The time of way 0 at `samples` samples, and a picture of every chosen way with so many samples as take that
-// time. Of each knob the first and the last setting are chosen, beside way 0 itself, as far as
-// Workshop::left_s allows.
-[[nodiscard]] EqualRow equal_time_row(const Workshop& workshop, const KnobDesign& design,
-                                      const std::vector<MeasuredWay>& ways, std::uint32_t samples);
+// The time of configuration 0 at `samples` samples, and a picture of every chosen configuration with so many
+// samples as take that time. Of each parameter the first and the last setting are chosen, beside
+// configuration 0 itself, as far as Workshop::left_s allows.
+[[nodiscard]] EqualRow equal_time_row(const Workshop& workshop, const ParameterDesign& design,
+                                      const std::vector<MeasuredConfiguration>& configurations,
+                                      std::uint32_t samples);
 
-// The same for the error of way 0. How many samples a way needs follows from its levels; none takes more than
-// `most_s`.
-[[nodiscard]] EqualRow equal_error_row(const Workshop& workshop, const KnobDesign& design,
-                                       const std::vector<MeasuredWay>& ways, std::uint32_t samples,
-                                       double most_s);
+// The same for the error of configuration 0. How many samples a configuration needs follows from its levels;
+// none takes more than `max_s`.
+[[nodiscard]] EqualRow equal_error_row(const Workshop& workshop, const ParameterDesign& design,
+                                       const std::vector<MeasuredConfiguration>& configurations,
+                                       std::uint32_t samples, double max_s);
 
-// Samples that a way is likely to need for an error, from its two last levels.
+// Samples that a configuration is likely to need for an error, from its two last levels.
 [[nodiscard]] double samples_for_error(const std::vector<Level>& levels, double error);
 
 }  // namespace voxilux

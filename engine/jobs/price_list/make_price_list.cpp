@@ -15,11 +15,11 @@ constexpr double kEffectShare = 0.10;
 constexpr double kRunShare = 0.30;  // of the runs that are planned; more are made until kRunsEnd
 constexpr double kRunsEnd = 0.80;   // since the start
 constexpr double kRowsEnd = 0.95;
-constexpr double kMostRowShare = 0.02;  // of one picture of equal error
-constexpr double kLoadShare = 0.04;     // most that a world of its own may take
+constexpr double kMaxRowShare = 0.02;  // of one picture of equal error
+constexpr double kLoadShare = 0.04;    // most that a world of its own may take
 // A reference is of use up to so many times the samples of the longest run: its noise is then an eighth.
 constexpr double kReferenceSamples = 64.0;
-constexpr double kMostEffectSamples = 64.0;
+constexpr double kMaxEffectSamples = 64.0;
 constexpr double kEffectTrials = 5.0;  // times of short pictures scatter
 
 // Time since the start of the job, and what of it is left.
@@ -54,12 +54,12 @@ class Stages {
     double to_ = 0.0;
 };
 
-std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& workshop, const Way& base,
-                                   double per_sample_s, double budget_s) {
+std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& workshop,
+                                   const Configuration& base, double per_sample_s, double budget_s) {
     const double rounds =
         budget_s / (static_cast<double>(kEffectCount) * per_sample_s);  // of one sample each
-    const double trials = std::clamp(rounds, double{kFewestTrials}, kEffectTrials);
-    const double samples = std::clamp(rounds / trials, 1.0, kMostEffectSamples);
+    const double trials = std::clamp(rounds, double{kMinTrials}, kEffectTrials);
+    const double samples = std::clamp(rounds / trials, 1.0, kMaxEffectSamples);
     return price_effects(session, {.frame = workshop.frame,
                                    .settings = base.settings,
                                    .request = base.request,
@@ -69,37 +69,39 @@ std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& works
 
 // One sample, which finds the radius of photons.
 Measured first_picture(RenderSession& session, const Scene& scene, const Workshop& workshop) {
-    const Way way{.settings = scene.settings, .request = workshop.options.plan};
-    return measure_once(session, {.way = way, .frame = workshop.frame, .seed = workshop.seed});
+    const Configuration configuration{.settings = scene.settings, .request = workshop.options.plan};
+    return measure_once(session,
+                        {.configuration = configuration, .frame = workshop.frame, .seed = workshop.seed});
 }
 
-// All ways have the radius of photons that the first picture found, so that they differ in one thing.
-Way base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& plan) {
-    Way base{.settings = scene.settings, .request = workshop.options.plan};
+// All configurations have the radius of photons that the first picture found, so that they differ in one
+// thing.
+Configuration base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& plan) {
+    Configuration base{.settings = scene.settings, .request = workshop.options.plan};
     if (plan.photons.runs()) base.settings.photons.radius = plan.photons.radius;
     return base;
 }
 
-ReferenceJob reference_job(const PriceListJob& job, const Way& base) {
+ReferenceJob reference_job(const PriceListJob& job, const Configuration& base) {
     const double most = kReferenceSamples * 2.0 * base.settings.spp;
     return {.frame = job.frame,
             .base = base,
             .cache = job.references,
-            .most_samples = static_cast<std::uint32_t>(std::min(most, 1e9)),
+            .max_samples = static_cast<std::uint32_t>(std::min(most, 1e9)),
             .budget_s = kReferenceShare * job.time_limit_s};
 }
 
-// Ways, reference and effects are there: the runs and the rows of pictures.
+// Configurations, reference and effects are there: the runs and the rows of pictures.
 void measure_runs(Workshop& workshop, const SamplePlan& samples, const PriceListJob& job, Stages& stages,
                   PriceList& list) {
     stages.begin(0.5, 0.85);
     workshop.left_s = [&] { return left_s(job, kRunsEnd); };
-    list.top = measure_levels(workshop, samples, list.asked, list.ways);
+    list.top = measure_levels(workshop, samples, list.asked, list.configurations);
     stages.begin(0.85, 0.99);
     workshop.left_s = [&] { return left_s(job, kRowsEnd); };
-    list.equal_time = equal_time_row(workshop, list.design, list.ways, list.top);
-    list.equal_error =
-        equal_error_row(workshop, list.design, list.ways, list.top, kMostRowShare * job.time_limit_s);
+    list.equal_time = equal_time_row(workshop, list.design, list.configurations, list.top);
+    list.equal_error = equal_error_row(workshop, list.design, list.configurations, list.top,
+                                       kMaxRowShare * job.time_limit_s);
 }
 
 }  // namespace
@@ -116,25 +118,27 @@ PriceList make_price_list(const PriceListJob& job) {
     workshop.on_progress = [&](double share, std::uint32_t samples) { stages.show(share, samples); };
     RenderSession session(scene, workshop.options);
     const Measured first = first_picture(session, scene, workshop);
-    const Way base = base_way(scene, workshop, first.outcome.plan);
+    const Configuration base = base_way(scene, workshop, first.outcome.plan);
     PriceList list{.scene = job.name,
                    .scene_hash = scene_hash(scene),
                    .seed = scene.settings.seed,
                    .device = first.outcome.statistics.device,
                    .repeats = workshop.repeats,
-                   .design = design_knobs(first.outcome.plan, base),
+                   .design = design_parameters(first.outcome.plan, base),
                    .asked = scene.settings.spp};
     const double limit_s = job.time_limit_s;
     stages.begin(0.0, 0.1);
-    list.ways = open_ways(workshop, list.design, session,
-                          [&](double load_s) { return load_s < kLoadShare * limit_s; });
-    const SamplePlan samples = plan_samples(list.ways, list.asked, workshop.repeats, kRunShare * limit_s);
+    list.configurations = prepare_configurations(
+        workshop, list.design, session, [&](double load_s) { return load_s < kLoadShare * limit_s; });
+    const SamplePlan samples =
+        plan_samples(list.configurations, list.asked, workshop.repeats, kRunShare * limit_s);
     stages.begin(0.1, 0.4);
     list.reference = make_reference(session, reference_job(job, base));
     workshop.reference = &list.reference.image;
     workshop.noise = list.reference.noise();
     stages.begin(0.4, 0.5);
-    list.effects = price_all(session, workshop, base, list.ways.front().per_sample_s, kEffectShare * limit_s);
+    list.effects =
+        price_all(session, workshop, base, list.configurations.front().per_sample_s, kEffectShare * limit_s);
     measure_runs(workshop, samples, job, stages, list);
     list.wall_s = seconds_since(job.options.started);
     return list;

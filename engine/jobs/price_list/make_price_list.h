@@ -21,7 +21,7 @@ struct PriceListJob {
     std::function<void(const Progress&)> on_progress;
 };
 
-// Renders the ways of the scene's plan, a reference, its effects and the rows of pictures.
+// Renders the configurations of the scene's plan, a reference, its effects and the rows of pictures.
 [[nodiscard]] PriceList make_price_list(const PriceListJob& job);
 
 }  // namespace voxilux

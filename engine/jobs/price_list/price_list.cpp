@@ -10,21 +10,21 @@
 namespace voxilux {
 namespace {
 
-std::string id_of(const std::string& knob, std::string setting) {
+std::string id_of(const std::string& parameter, std::string setting) {
     std::ranges::replace_if(
         setting, [](char c) { return c == ' ' || c == '/'; }, '_');
-    return knob + "-" + setting;
+    return parameter + "-" + setting;
 }
 
-std::size_t level_at(const MeasuredWay& way, std::uint32_t samples) {
-    const auto found = std::ranges::find(way.levels, samples, &Level::samples);
-    const auto end = found == way.levels.end() ? found - 1 : found;
-    return static_cast<std::size_t>(end - way.levels.begin());
+std::size_t level_at(const MeasuredConfiguration& configuration, std::uint32_t samples) {
+    const auto found = std::ranges::find(configuration.levels, samples, &Level::samples);
+    const auto end = found == configuration.levels.end() ? found - 1 : found;
+    return static_cast<std::size_t>(end - configuration.levels.begin());
 }
 
-std::vector<PricePoint> points_of(const MeasuredWay& way, bool by_samples) {
+std::vector<PricePoint> points_of(const MeasuredConfiguration& configuration, bool by_samples) {
     std::vector<PricePoint> points;
-    for (const Level& level : way.levels) {
+    for (const Level& level : configuration.levels) {
         if (level.error.is_limited) continue;
         const double x = by_samples ? level.samples : median(level.times_s);
         for (const double square : level.error.squares)
@@ -33,14 +33,14 @@ std::vector<PricePoint> points_of(const MeasuredWay& way, bool by_samples) {
     return points;
 }
 
-// The first run of each picture: other knobs' default settings are way 0 once more.
+// The first run of each picture: other parameters' default settings are configuration 0 once more.
 std::vector<PricedRun> distinct(const PriceList& list, const std::vector<PricedRun>& runs) {
     std::vector<PricedRun> result;
     for (const PricedRun& run : runs) {
         const auto is_same = [&](const PricedRun& other) {
-            return other.way == run.way && other.level == run.level;
+            return other.configuration == run.configuration && other.level == run.level;
         };
-        if (run.way == 0 && list.design.knobs[run.knob].name != "samples") continue;
+        if (run.configuration == 0 && list.design.parameters[run.parameter].name != "samples") continue;
         if (std::ranges::find_if(result, is_same) == result.end()) result.push_back(run);
     }
     return result;
@@ -49,7 +49,7 @@ std::vector<PricedRun> distinct(const PriceList& list, const std::vector<PricedR
 }  // namespace
 
 const Level& level_of(const PriceList& list, const PricedRun& run) {
-    return list.ways[run.way].levels[run.level];
+    return list.configurations[run.configuration].levels[run.level];
 }
 
 std::vector<PricedRun> front_of(const PriceList& list, const std::vector<PricedRun>& runs) {
@@ -79,34 +79,36 @@ std::string file_of_row(const char* row, const std::string& id) {
 const PricedRun& run_of(const PriceList& list, const std::vector<PricedRun>& runs,
                         const EqualPicture& picture, bool is_first) {
     if (is_first) return *std::ranges::find_if(runs, [](const PricedRun& run) { return run.is_default; });
-    const std::size_t way = list.design.knobs[picture.knob].settings[picture.setting].way;
-    return *std::ranges::find_if(
-        runs, [&](const PricedRun& run) { return run.knob == picture.knob && run.way == way; });
+    const std::size_t configuration =
+        list.design.parameters[picture.parameter].settings[picture.setting].configuration;
+    return *std::ranges::find_if(runs, [&](const PricedRun& run) {
+        return run.parameter == picture.parameter && run.configuration == configuration;
+    });
 }
 
 std::vector<PricedRun> list_runs(const PriceList& list) {
     std::vector<PricedRun> runs;
-    for (std::size_t knob = 0; knob < list.design.knobs.size(); ++knob) {
-        const std::string& name = list.design.knobs[knob].name;
+    for (std::size_t parameter = 0; parameter < list.design.parameters.size(); ++parameter) {
+        const std::string& name = list.design.parameters[parameter].name;
         const auto first = static_cast<std::ptrdiff_t>(runs.size());
-        const std::vector<Level>& levels = list.ways.front().levels;
+        const std::vector<Level>& levels = list.configurations.front().levels;
         for (std::size_t level = 0; name == "samples" && level < levels.size(); ++level) {
             const std::string setting = fmt::format("{}", levels[level].samples);
             runs.push_back({.id = id_of(name, setting),
-                            .knob = knob,
+                            .parameter = parameter,
                             .setting = setting,
                             .level = level,
                             .is_default = levels[level].samples == list.top});
         }
-        for (const KnobSetting& setting : list.design.knobs[knob].settings) {
-            const MeasuredWay& way = list.ways[setting.way];
-            if (way.levels.empty()) continue;
+        for (const ParameterSetting& setting : list.design.parameters[parameter].settings) {
+            const MeasuredConfiguration& configuration = list.configurations[setting.configuration];
+            if (configuration.levels.empty()) continue;
             runs.push_back({.id = id_of(name, setting.name),
-                            .knob = knob,
+                            .parameter = parameter,
                             .setting = setting.name,
-                            .way = setting.way,
-                            .level = level_at(way, list.top),
-                            .is_default = setting.way == 0});
+                            .configuration = setting.configuration,
+                            .level = level_at(configuration, list.top),
+                            .is_default = setting.configuration == 0});
         }
         std::stable_sort(runs.begin() + first, runs.end(), [&](const PricedRun& a, const PricedRun& b) {
             return median(level_of(list, a).times_s) < median(level_of(list, b).times_s);
@@ -115,33 +117,34 @@ std::vector<PricedRun> list_runs(const PriceList& list) {
     return runs;
 }
 
-std::optional<Slope> slope_of(const MeasuredWay& way) {
-    return fit_slope(points_of(way, false));
+std::optional<Slope> slope_of(const MeasuredConfiguration& configuration) {
+    return fit_slope(points_of(configuration, false));
 }
 
-std::optional<Slope> slope_of_samples(const MeasuredWay& way) {
-    return fit_slope(points_of(way, true));
+std::optional<Slope> slope_of_samples(const MeasuredConfiguration& configuration) {
+    return fit_slope(points_of(configuration, true));
 }
 
 std::string to_csv(const PriceList& list) {
     std::string text =
         "knob,setting,is_default,samples,time_s,time_low_s,time_high_s,error,noise,bias,bias_low,bias_high,"
         "is_limited,memory_bytes,load_s\n";
-    const auto add = [&](const std::string& knob, const std::string& setting, const MeasuredWay& way) {
-        for (const Level& level : way.levels) {
+    const auto add = [&](const std::string& parameter, const std::string& setting,
+                         const MeasuredConfiguration& configuration) {
+        for (const Level& level : configuration.levels) {
             const SplitError& error = level.error;
             text += fmt::format(
-                "{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.4g}\n", knob,
-                setting, &way == &list.ways.front() ? 1 : 0, level.samples, median(level.times_s),
-                std::ranges::min(level.times_s), std::ranges::max(level.times_s), error.total, error.noise,
-                error.bias, error.bias_low, error.bias_high, error.is_limited ? 1 : 0,
-                footprint(way.plan).total_bytes(), way.load_s);
+                "{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{:.4g}\n",
+                parameter, setting, &configuration == &list.configurations.front() ? 1 : 0, level.samples,
+                median(level.times_s), std::ranges::min(level.times_s), std::ranges::max(level.times_s),
+                error.total, error.noise, error.bias, error.bias_low, error.bias_high,
+                error.is_limited ? 1 : 0, footprint(configuration.plan).total_bytes(), configuration.load_s);
         }
     };
-    for (const Knob& knob : list.design.knobs) {
-        if (knob.name == "samples") add(knob.name, "default", list.ways.front());
-        for (const KnobSetting& setting : knob.settings)
-            add(knob.name, setting.name, list.ways[setting.way]);
+    for (const Parameter& parameter : list.design.parameters) {
+        if (parameter.name == "samples") add(parameter.name, "default", list.configurations.front());
+        for (const ParameterSetting& setting : parameter.settings)
+            add(parameter.name, setting.name, list.configurations[setting.configuration]);
     }
     return text;
 }
@@ -163,7 +166,7 @@ std::string describe(const PriceList& list) {
                             run.id, median(level.times_s), 100.0 * level.error.total,
                             100.0 * level.error.noise, bias, run.is_default ? "  (default)" : "");
     }
-    if (const std::optional<Slope> slope = slope_of(list.ways.front()))
+    if (const std::optional<Slope> slope = slope_of(list.configurations.front()))
         text += fmt::format("slope     {:.3f} ({:.3f} to {:.3f}) of error against time, by samples\n",
                             slope->value, slope->low, slope->high);
     for (const EffectPrice& price : list.effects)

@@ -24,36 +24,36 @@ struct PriceList {
     std::size_t repeats = 0;
     double wall_s = 0.0;
     Reference reference;
-    KnobDesign design;
-    std::vector<MeasuredWay> ways;
+    ParameterDesign design;
+    std::vector<MeasuredConfiguration> configurations;
     std::uint32_t asked = 0;  // samples per pixel
-    std::uint32_t top = 0;    // at which most ways are compared; below `asked` where time was short
+    std::uint32_t top = 0;    // at which most configurations are compared; below `asked` where time was short
     std::vector<EffectPrice> effects;
     EqualRow equal_time;
     EqualRow equal_error;
 };
 
-// One mark of the price list: a setting of a knob at a number of samples.
+// One mark of the price list: a setting of a parameter at a number of samples.
 struct PricedRun {
     std::string id;
-    std::size_t knob = 0;  // in the design
+    std::size_t parameter = 0;  // in the design
     std::string setting;
-    std::size_t way = 0;
-    std::size_t level = 0;  // of the way
+    std::size_t configuration = 0;
+    std::size_t level = 0;  // of the configuration
     bool is_default = false;
 };
 
-// The runs in the order of the knobs, each knob's cheapest first: of the knob `samples` every level of way 0,
-// of other settings the level with `top` samples or the last.
+// The runs in the order of the parameters, each parameter's cheapest first: of the parameter `samples` every
+// level of configuration 0, of other settings the level with `top` samples or the last.
 [[nodiscard]] std::vector<PricedRun> list_runs(const PriceList& list);
 
-// The exponent of error against time of all pictures of a way that the reference can judge.
-[[nodiscard]] std::optional<Slope> slope_of(const MeasuredWay& way);
+// The exponent of error against time of all pictures of a configuration that the reference can judge.
+[[nodiscard]] std::optional<Slope> slope_of(const MeasuredConfiguration& configuration);
 
 // The exponent of error against samples, which does not depend on the machine.
-[[nodiscard]] std::optional<Slope> slope_of_samples(const MeasuredWay& way);
+[[nodiscard]] std::optional<Slope> slope_of_samples(const MeasuredConfiguration& configuration);
 
-// A line for each way and number of samples, under a line of names.
+// A line for each configuration and number of samples, under a line of names.
 [[nodiscard]] std::string to_csv(const PriceList& list);
 
 // All of it as JSON, with the pictures as write_price_list names them.
@@ -63,7 +63,7 @@ struct PricedRun {
 // in it; each file appears whole or not at all. Throws Error(cannot_write).
 void write_price_list(const PriceList& list, const std::filesystem::path& folder);
 
-// A summary for people: knobs with slopes, and the front.
+// A summary for people: parameters with slopes, and the front.
 [[nodiscard]] std::string describe(const PriceList& list);
 
 // The runs that none beats in both time and error, fastest first.
@@ -71,7 +71,7 @@ void write_price_list(const PriceList& list, const std::filesystem::path& folder
 
 [[nodiscard]] const Level& level_of(const PriceList& list, const PricedRun& run);
 
-// The run that a picture of a row is a variant of; the first picture of a row is that of way 0.
+// The run that a picture of a row is a variant of; the first picture of a row is that of configuration 0.
 [[nodiscard]] const PricedRun& run_of(const PriceList& list, const std::vector<PricedRun>& runs,
                                       const EqualPicture& picture, bool is_first);
 

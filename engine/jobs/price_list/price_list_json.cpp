@@ -40,9 +40,9 @@ Json claimed_json(const ErrorEstimate& claimed) {
     return {{"estimate", claimed.estimate}, {"low", claimed.low}, {"high", finite_or_null(claimed.high)}};
 }
 
-Json curve_json(const MeasuredWay& way) {
+Json curve_json(const MeasuredConfiguration& configuration) {
     Json curve = Json::array();
-    for (const Level& level : way.levels)
+    for (const Level& level : configuration.levels)
         curve.push_back({{"samples", level.samples},
                          {"time_s", times_json(level.times_s)},
                          {"error", to_json(level.error)},
@@ -51,43 +51,48 @@ Json curve_json(const MeasuredWay& way) {
 }
 
 Json run_json(const PriceList& list, const PricedRun& run) {
-    const MeasuredWay& way = list.ways[run.way];
+    const MeasuredConfiguration& configuration = list.configurations[run.configuration];
     const Level& level = level_of(list, run);
     const bool has_picture = !level.picture.channels.empty();
     const std::string picture = picture_of_run(run);
     Json json = {{"id", run.id},
-                 {"knob", list.design.knobs[run.knob].name},
+                 {"knob", list.design.parameters[run.parameter].name},
                  {"setting", run.setting},
                  {"is_default", run.is_default},
-                 {"settings", settings_json(way.way, way.plan, level.samples)},
+                 {"settings", settings_json(configuration.configuration, configuration.plan, level.samples)},
                  {"time_s", times_json(level.times_s)},
-                 {"load_s", way.load_s},
-                 {"memory_bytes", footprint(way.plan).total_bytes()},
+                 {"load_s", configuration.load_s},
+                 {"memory_bytes", footprint(configuration.plan).total_bytes()},
                  {"error", to_json(level.error)},
                  {"claimed", claimed_json(level.claimed)},
                  {"picture", has_picture ? Json(picture) : Json(nullptr)},
                  {"difference", has_picture ? Json(difference_of(picture)) : Json(nullptr)}};
-    json["differing_pixels"] = or_null(way.other_pixels);
-    if (list.design.knobs[run.knob].name == "samples") return json;
-    json["slope"] = to_json(slope_of(way), "error against time");
-    json["slope_of_samples"] = to_json(slope_of_samples(way), "error against samples");
-    json["curve"] = curve_json(way);
+    json["differing_pixels"] = or_null(configuration.other_pixels);
+    if (list.design.parameters[run.parameter].name == "samples") return json;
+    json["slope"] = to_json(slope_of(configuration), "error against time");
+    json["slope_of_samples"] = to_json(slope_of_samples(configuration), "error against samples");
+    json["curve"] = curve_json(configuration);
     return json;
 }
 
-Json knob_json(const PriceList& list, const std::vector<PricedRun>& runs, std::size_t index) {
-    const Knob& knob = list.design.knobs[index];
-    Json json = {{"name", knob.name}, {"label", knob.label}, {"axis", knob.axis}, {"why", knob.why}};
+Json parameter_json(const PriceList& list, const std::vector<PricedRun>& runs, std::size_t index) {
+    const Parameter& parameter = list.design.parameters[index];
+    Json json = {{"name", parameter.name},
+                 {"label", parameter.label},
+                 {"axis", parameter.axis},
+                 {"why", parameter.why}};
     json["runs"] = Json::array();
     for (const PricedRun& run : runs)
-        if (run.knob == index) json["runs"].push_back(run.id);
-    const bool is_samples = knob.name == "samples";
-    json["slope"] = is_samples ? to_json(slope_of(list.ways.front()), "error against time") : Json(nullptr);
+        if (run.parameter == index) json["runs"].push_back(run.id);
+    const bool is_samples = parameter.name == "samples";
+    json["slope"] =
+        is_samples ? to_json(slope_of(list.configurations.front()), "error against time") : Json(nullptr);
     if (is_samples)
-        json["slope_of_samples"] = to_json(slope_of_samples(list.ways.front()), "error against samples");
+        json["slope_of_samples"] =
+            to_json(slope_of_samples(list.configurations.front()), "error against samples");
     json["left_out"] = Json::array();
-    for (const KnobSetting& setting : knob.settings) {
-        const std::string& refusal = list.ways[setting.way].refusal;
+    for (const ParameterSetting& setting : parameter.settings) {
+        const std::string& refusal = list.configurations[setting.configuration].refusal;
         if (!refusal.empty()) json["left_out"].push_back({{"setting", setting.name}, {"why", refusal}});
     }
     return json;
@@ -95,7 +100,7 @@ Json knob_json(const PriceList& list, const std::vector<PricedRun>& runs, std::s
 
 Json effects_json(const PriceList& list) {
     Json rows = Json::array();
-    for (const EffectState& state : list.ways.front().plan.effects) {
+    for (const EffectState& state : list.configurations.front().plan.effects) {
         const auto priced = std::ranges::find(list.effects, state.effect, &EffectPrice::effect);
         Json row = {{"name", name_of(state.effect)}, {"on", state.on}, {"reason", state.reason}};
         row["forced"] = !state.on && priced != list.effects.end();
@@ -126,7 +131,7 @@ Json row_json(const PriceList& list, const std::vector<PricedRun>& runs, const E
         const PricedRun& run = run_of(list, runs, picture, is_first);
         const std::string file = file_of_row(name, run.id);
         const std::string label =
-            is_first ? "default" : list.design.knobs[run.knob].label + " " + run.setting;
+            is_first ? "default" : list.design.parameters[run.parameter].label + " " + run.setting;
         rows.push_back({{"id", run.id},
                         {"label", fmt::format("{}, {} samples", label, picture.samples)},
                         {"samples", picture.samples},
@@ -180,7 +185,7 @@ Json difference_colours_json() {
 
 Json to_json(const PriceList& list) {
     const std::vector<PricedRun> runs = list_runs(list);
-    const glm::ivec2 size = list.ways.front().plan.settings.size;
+    const glm::ivec2 size = list.configurations.front().plan.settings.size;
     Json json = {
         {"version", VX_VERSION},
         {"command", "tradeoff"},
@@ -199,8 +204,8 @@ Json to_json(const PriceList& list) {
         json[key] = Json::array();
     for (const PricedRun& run : runs)
         json["runs"].push_back(run_json(list, run));
-    for (std::size_t knob = 0; knob < list.design.knobs.size(); ++knob)
-        json["knobs"].push_back(knob_json(list, runs, knob));
+    for (std::size_t parameter = 0; parameter < list.design.parameters.size(); ++parameter)
+        json["knobs"].push_back(parameter_json(list, runs, parameter));
     for (const PricedRun& run : front_of(list, runs))
         json["front"].push_back(run.id);
     json["effects"] = effects_json(list);

@@ -89,13 +89,15 @@ std::string key_of(const RenderSession& session, const RenderPlan& plan) {
 }
 
 // kPhotonFactor times the photons of the scene, or as many as fit the device.
-std::uint32_t most_photons(RenderSession& session, const ReferenceJob& job, Way way, std::uint32_t planned) {
+std::uint32_t max_photons(RenderSession& session, const ReferenceJob& job, Configuration configuration,
+                          std::uint32_t planned) {
     for (std::uint32_t factor = kPhotonFactor; factor > 1; factor /= 2) {
-        if (planned > PhotonSettings::kMostCount / factor) continue;
-        way.settings.photons.count = factor * planned;
+        if (planned > PhotonSettings::kMaxCount / factor) continue;
+        configuration.settings.photons.count = factor * planned;
         try {
-            (void)measure_once(session, {.way = way, .frame = job.frame, .seed = kSeeds[0]});
-            return way.settings.photons.count;
+            (void)measure_once(session,
+                               {.configuration = configuration, .frame = job.frame, .seed = kSeeds[0]});
+            return configuration.settings.photons.count;
         } catch (const Error& error) {
             if (error.code() != ExitCode::input_refused && error.code() != ExitCode::out_of_memory) throw;
         }
@@ -113,7 +115,7 @@ ReferenceNoise Reference::noise() const {
     return {.square = square, .low = square * spread * spread, .high = square / (spread * spread)};
 }
 
-RenderSettings reference_settings(const Way& base, bool has_photons) {
+RenderSettings reference_settings(const Configuration& base, bool has_photons) {
     RenderSettings settings = base.settings;
     settings.ao.method = AoMethod::brute;
     if (!has_photons) return settings;
@@ -128,14 +130,15 @@ RenderSettings reference_settings(const Way& base, bool has_photons) {
 Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     PlanRequest request = job.base.request;
     request.wants_error = true;
-    Measured first =
-        measure_once(session, {.way = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
+    Measured first = measure_once(
+        session, {.configuration = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
     const bool has_photons = first.outcome.plan.photons.runs();
-    Way way{.settings = reference_settings(job.base, has_photons), .request = request};
+    Configuration configuration{.settings = reference_settings(job.base, has_photons), .request = request};
     if (has_photons)
-        way.settings.photons.count = most_photons(session, job, way, first.outcome.plan.photons.count());
+        configuration.settings.photons.count =
+            max_photons(session, job, configuration, first.outcome.plan.photons.count());
     const auto half = [&](std::size_t which, std::uint32_t samples) {
-        return measure_once(session, {.way = way,
+        return measure_once(session, {.configuration = configuration,
                                       .frame = job.frame,
                                       .seed = kSeeds[which],
                                       .samples = samples,
@@ -143,12 +146,12 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     };
     first = half(0, 1);
     const double per_sample_s = std::max(half(0, kTimedSamples).time_s / kTimedSamples, 1e-9);
-    const double wanted = std::min<double>(job.most_samples, job.budget_s / per_sample_s);
+    const double wanted = std::min<double>(job.max_samples, job.budget_s / per_sample_s);
     const auto samples = static_cast<std::uint32_t>(std::max(wanted / 2.0, 1.0));
     const std::string key = key_of(session, first.outcome.plan);
     std::optional<Reference> cached = from_cache(job, key, first.outcome.plan.settings.size);
     if (cached && cached->samples >= samples) {
-        cached->settings = settings_json(way, first.outcome.plan, cached->samples);
+        cached->settings = settings_json(configuration, first.outcome.plan, cached->samples);
         return std::move(*cached);
     }
     Measured a = half(0, samples), b = half(1, samples);
@@ -159,7 +162,7 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
                         .samples = taken,
                         .time_s = a.time_s + b.time_s,
                         .error = error_of(film),
-                        .settings = settings_json(way, plan, taken)};
+                        .settings = settings_json(configuration, plan, taken)};
     (void)store_cached(job.cache, key, {reference.image, facts_of(reference)});
     return reference;
 }

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "jobs/price_list/error_split.h"
-#include "jobs/price_list/knobs.h"
+#include "jobs/price_list/parameters.h"
 #include "jobs/render_session.h"
 
 namespace voxilux {
@@ -25,10 +25,10 @@ struct Reference {
 
 struct ReferenceJob {
     std::int64_t frame = 0;
-    Way base;
-    std::filesystem::path cache;     // folder; empty: none
-    std::uint32_t most_samples = 0;  // that are of use
-    double budget_s = 0.0;           // of device time
+    Configuration base;
+    std::filesystem::path cache;    // folder; empty: none
+    std::uint32_t max_samples = 0;  // that are of use
+    double budget_s = 0.0;          // of device time
 };
 
 // A picture by the settings with the least bias (brute-force occlusion, narrow discs of photons) and random
@@ -37,6 +37,6 @@ struct ReferenceJob {
 [[nodiscard]] Reference make_reference(RenderSession& session, const ReferenceJob& job);
 
 // The settings of a reference of a scene that is rendered as `base` says.
-[[nodiscard]] RenderSettings reference_settings(const Way& base, bool has_photons);
+[[nodiscard]] RenderSettings reference_settings(const Configuration& base, bool has_photons);
 
 }  // namespace voxilux

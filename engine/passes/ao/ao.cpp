@@ -30,7 +30,7 @@ std::string touched_buffer(const RenderPlan& plan, Recording& recording) {
 // The list of hits that reprojection misses, after its length.
 std::string missed_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<std::byte>(recording, "ao.missed",
-                              sizeof(gpu::AoMissed) + plan.slice_pixels() * sizeof(gpu::uint));
+                              sizeof(gpu::AoMissed) + plan.tile_pixels() * sizeof(gpu::uint));
 }
 
 // The slots of the pixels of this sample, and of the one before where it is reprojected: they take turns.
@@ -53,7 +53,7 @@ SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Reco
 std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, const std::string& slots,
                                     Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
-            {"Tally", tally_buffer(recording)},
+            {"Counters", tally_buffer(recording)},
             {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
             {"Keys", table_array(plan, "ao.keys", recording)},
             {"Samples", table_array(plan, "ao.samples", recording)},
@@ -75,30 +75,30 @@ void record_ao_age(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "ao.age",
                         .shader = "ao_age",
                         .extent = {plan.ao.slots, 1, 1},
-                        .bindings = {{"Tally", tally_buffer(recording)},
+                        .bindings = {{"Counters", tally_buffer(recording)},
                                      {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
                                      {"Keys", table_array(plan, "ao.keys", recording)},
                                      {"Samples", table_array(plan, "ao.samples", recording)},
-                                     {"Opens", table_array(plan, "ao.opens", recording)},
+                                     {"Opens", table_array(plan, "ao.unoccluded", recording)},
                                      {"Touched", touched_buffer(plan, recording)}}});
 }
 
-void record_ao_lookup(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
-                      Recording& recording) {
+void record_ao_lookup(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                      const SlotPlanes& planes, Recording& recording) {
     recording.dispatch({.label = "ao.lookup",
                         .shader = "ao_lookup",
-                        .extent = pixel_extent(plan, slice),
+                        .extent = pixel_extent(plan, tile),
                         .bindings = table_bindings(plan, hits, planes.now, recording),
                         .constants = rest_constants(plan)});
 }
 
-void record_ao_reproject(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+void record_ao_reproject(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                          const SlotPlanes& planes, Recording& recording) {
     const std::string missed = missed_buffer(plan, recording);
     recording.upload(missed, to_bytes(gpu::AoMissed{.groups_y = 1, .groups_z = 1}));
     Dispatch dispatch{.label = "ao.reproject",
                       .shader = "ao_reproject",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = table_bindings(plan, hits, planes.now, recording),
                       .constants = rest_constants(plan)};
     dispatch.bindings.insert(dispatch.bindings.end(), {{"LastSlots", planes.last}, {"Missed", missed}});
@@ -117,29 +117,29 @@ void record_ao_search(const RenderPlan& plan, const Plane& hits, const SlotPlane
 }
 
 // Finds the slot of each hit, unless the pass that traces does it itself.
-void record_slots(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
-                  Recording& recording) {
+void record_slots(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                  const SlotPlanes& planes, Recording& recording) {
     if (plan.ao.merged) return;
-    if (!plan.ao.reprojects) return record_ao_lookup(plan, slice, hits, planes, recording);
-    record_ao_reproject(plan, slice, hits, planes, recording);
+    if (!plan.ao.reprojects) return record_ao_lookup(plan, tile, hits, planes, recording);
+    record_ao_reproject(plan, tile, hits, planes, recording);
     record_ao_search(plan, hits, planes, recording);
 }
 
-void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& hits, const SlotPlanes& planes,
-                      Recording& recording) {
+void record_ao_sample(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                      const SlotPlanes& planes, Recording& recording) {
     const bool merged = plan.ao.merged;
     // Who has looked the slots up reads them; the merged pass writes them itself.
     const std::string unused = placeholder_buffer(recording);
     Dispatch dispatch{.label = "ao.sample",
                       .shader = "ao_sample",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = table_bindings(plan, hits, merged ? planes.now : unused, recording),
                       .constants = surface_constants(plan)};
     dispatch.bindings.insert(dispatch.bindings.end(),
                              {{"LastSlots", planes.last},
                               {"Spheres", spheres_buffer(plan, recording)},
                               {"SphereTable", sphere_table_buffer(plan, recording)},
-                              {"Opens", table_array(plan, "ao.opens", recording)},
+                              {"Opens", table_array(plan, "ao.unoccluded", recording)},
                               {"Located", merged ? unused : planes.now},
                               {"Own", declare_plane<float>(plan, "ao.own", recording)}});
     dispatch.constants.insert(dispatch.constants.end(), {{"reprojects", flag(plan.ao.reprojects)},
@@ -150,62 +150,63 @@ void record_ao_sample(const RenderPlan& plan, const Slice& slice, const Plane& h
     recording.dispatch(std::move(dispatch));
 }
 
-// Openness and, for the filter, its variance.
+// Visibility and, for the filter, its variance.
 struct Resolved {
-    std::string openness;
+    std::string visibility;
     std::string variance;
 };
 
-Resolved record_ao_resolve(const RenderPlan& plan, const Slice& slice, const SlotPlanes& planes,
+Resolved record_ao_resolve(const RenderPlan& plan, const DispatchTile& tile, const SlotPlanes& planes,
                            Recording& recording) {
     const bool filters = plan.settings.ao.filter > 0;
     Resolved resolved{
-        declare_plane<float>(plan, "ao.open", recording),
+        declare_plane<float>(plan, "ao.visibility", recording),
         filters ? declare_plane<float>(plan, "ao.variance", recording) : placeholder_buffer(recording)};
     recording.dispatch({.label = "ao.resolve",
                         .shader = "ao_resolve",
-                        .extent = pixel_extent(plan, slice),
+                        .extent = pixel_extent(plan, tile),
                         .bindings = {{"Frame", frame_buffer(recording)},
                                      {"Slots", planes.now},
                                      {"Samples", table_array(plan, "ao.samples", recording)},
-                                     {"Opens", table_array(plan, "ao.opens", recording)},
+                                     {"Opens", table_array(plan, "ao.unoccluded", recording)},
                                      {"Own", declare_plane<float>(plan, "ao.own", recording)},
-                                     {"Ao", resolved.openness},
+                                     {"Ao", resolved.visibility},
                                      {"Variance", resolved.variance}},
                         .constants = {{"wants_variance", flag(filters)}, rays_constant(plan)}});
     return resolved;
 }
 
-Plane record_ao_filter(const RenderPlan& plan, const Slice& slice, const Plane& hits, Resolved resolved,
+Plane record_ao_filter(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, Resolved resolved,
                        Recording& recording) {
     Resolved filtered{declare_plane<float>(plan, "ao.filtered", recording),
                       declare_plane<float>(plan, "ao.filtered_variance", recording)};
     for (std::uint32_t i = 0; i < plan.settings.ao.filter; ++i) {
         recording.dispatch({.label = "ao.filter",
                             .shader = "ao_filter",
-                            .extent = pixel_extent(plan, slice),
+                            .extent = pixel_extent(plan, tile),
                             .bindings = {{"Frame", frame_buffer(recording)},
                                          {"Hits", hits.buffer},
-                                         {"Ao", resolved.openness},
+                                         {"Ao", resolved.visibility},
                                          {"Variance", resolved.variance},
-                                         {"FilteredAo", filtered.openness},
+                                         {"FilteredAo", filtered.visibility},
                                          {"FilteredVariance", filtered.variance}},
                             .push = to_bytes(gpu::AoFilterPush{1 << i})});
         std::swap(resolved, filtered);
     }
-    return {resolved.openness};
+    return {resolved.visibility};
 }
 
 void empty_table(const RenderPlan& plan, Recording& recording) {
-    for (const char* array : {"ao.keys", "ao.samples", "ao.opens"})
+    for (const char* array : {"ao.keys", "ao.samples", "ao.unoccluded"})
         recording.clear(table_array(plan, array, recording));
 }
 
 }  // namespace
 
-Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
-    return record_surface_pass(plan, slice, {"ao.trace", "ao_trace", "Ao", "ao.open", {rays_constant(plan)}},
-                               hits, recording);
+Plane record_ao_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                      Recording& recording) {
+    return record_surface_pass(
+        plan, tile, {"ao.trace", "ao_trace", "Ao", "ao.visibility", {rays_constant(plan)}}, hits, recording);
 }
 
 std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells) {
@@ -219,24 +220,24 @@ bool is_sweep_frame(const RenderPlan& plan, std::uint64_t frame, std::uint64_t l
     return is_full || (frame % kSweepFrames == 0 && live_cells > plan.ao.slots / 8);
 }
 
-Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,
+Plane record_ao_cells(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const AoStep& step,
                       Recording& recording) {
-    VX_ASSERT_EQ(slice.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
+    VX_ASSERT_EQ(tile.row_count, static_cast<std::uint32_t>(plan.settings.size.y));
     recording.upload(declare<gpu::AoParams>(recording, "ao.frame", 1), to_bytes(step.params));
     if (step.params.has_last == 0) empty_table(plan, recording);
     if (step.sweeps) record_ao_age(plan, recording);
     const SlotPlanes planes = slot_planes(plan, step.params, recording);
-    record_slots(plan, slice, hits, planes, recording);
-    record_ao_sample(plan, slice, hits, planes, recording);
-    const Resolved resolved = record_ao_resolve(plan, slice, planes, recording);
-    if (plan.settings.ao.filter == 0) return {resolved.openness};
-    return record_ao_filter(plan, slice, hits, resolved, recording);
+    record_slots(plan, tile, hits, planes, recording);
+    record_ao_sample(plan, tile, hits, planes, recording);
+    const Resolved resolved = record_ao_resolve(plan, tile, planes, recording);
+    if (plan.settings.ao.filter == 0) return {resolved.visibility};
+    return record_ao_filter(plan, tile, hits, resolved, recording);
 }
 
-Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits, const AoStep& step,
+Plane record_ao(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const AoStep& step,
                 Recording& recording) {
-    if (plan.ao.uses_cells()) return record_ao_cells(plan, slice, hits, step, recording);
-    return record_ao_trace(plan, slice, hits, recording);
+    if (plan.ao.uses_cells()) return record_ao_cells(plan, tile, hits, step, recording);
+    return record_ao_trace(plan, tile, hits, recording);
 }
 
 }  // namespace voxilux

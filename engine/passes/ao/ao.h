@@ -7,9 +7,9 @@
 
 namespace voxilux {
 
-// Openness of each hit: the share of cosine-weighted rays that meet nothing within the radius, by brute
+// Visibility of each hit: the share of cosine-weighted rays that meet nothing within the radius, by brute
 // force.
-[[nodiscard]] Plane record_ao_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+[[nodiscard]] Plane record_ao_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                     Recording& recording);
 
 // One sample of the cells.
@@ -18,13 +18,13 @@ struct AoStep {
     bool sweeps = false;  // cells that nobody has seen for long are given up first
 };
 
-// The same, shared in the cells of a hash. The slice is the whole picture. Where no sample came before
+// The same, shared in the cells of a hash. The tile is the whole picture. Where no sample came before
 // (`params.has_last` is 0) the table is emptied first.
-[[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+[[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                     const AoStep& step, Recording& recording);
 
-// The openness by the technique of the plan; `step` is of cells alone.
-[[nodiscard]] Plane record_ao(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+// The visibility by the technique of the plan; `step` is of cells alone.
+[[nodiscard]] Plane record_ao(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                               const AoStep& step, Recording& recording);
 
 // How long cells stay unseen, frames, when so many are in the table: kCellMaxAge while they take up to a

@@ -16,9 +16,9 @@ DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts&
     recording.declare({.name = display.buffer,
                        .size_bytes = std::uint64_t{height} * row_values * sizeof(float),
                        .persistent = true});
-    for (std::uint32_t band = 0; band < plan.band_count; ++band) {
-        const std::uint32_t first_row = band * plan.band_rows;
-        const std::uint32_t rows = std::min(plan.band_rows, height - first_row);
+    for (std::uint32_t film_tile = 0; film_tile < plan.film_tile_count; ++film_tile) {
+        const std::uint32_t first_row = film_tile * plan.film_tile_rows;
+        const std::uint32_t rows = std::min(plan.film_tile_rows, height - first_row);
         const gpu::DisplayResolvePush push{.count = row_values * rows,
                                            .row_values = row_values,
                                            .first_row = first_row,
@@ -29,8 +29,8 @@ DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts&
             {.label = "display.resolve",
              .shader = "display_resolve",
              .extent = {push.count, 1, 1},
-             .bindings = {{"SumsA", film_plane<std::int64_t>(plan, {"beauty_a", 3}, band, recording)},
-                          {"SumsB", film_plane<std::int64_t>(plan, {"beauty_b", 3}, band, recording)},
+             .bindings = {{"SumsA", film_plane<std::int64_t>(plan, {"beauty_a", 3}, film_tile, recording)},
+                          {"SumsB", film_plane<std::int64_t>(plan, {"beauty_b", 3}, film_tile, recording)},
                           {"Display", display.buffer}},
              .push = to_bytes(push)});
     }

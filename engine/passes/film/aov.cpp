@@ -4,13 +4,13 @@
 
 namespace voxilux {
 
-SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+SurfacePlanes record_aov_surface(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                  Recording& recording) {
     const SurfacePlanes planes{{declare_plane<gpu::vec3>(plan, "aov.albedo", recording)},
                                {declare_plane<gpu::vec3>(plan, "aov.normal", recording)}};
     Dispatch dispatch{.label = "aov.surface",
                       .shader = "aov_surface",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = {{"Frame", frame_buffer(recording)},
                                    {"Hits", hits.buffer},
                                    {"Materials", materials_buffer(plan, recording)},
@@ -23,16 +23,16 @@ SurfacePlanes record_aov_surface(const RenderPlan& plan, const Slice& slice, con
     return planes;
 }
 
-void record_aov_position(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+void record_aov_position(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                          Recording& recording) {
     recording.dispatch(
         {.label = "aov.position",
          .shader = "aov_position",
-         .extent = pixel_extent(plan, slice),
+         .extent = pixel_extent(plan, tile),
          .bindings = {{"Frame", frame_buffer(recording)},
                       {"Hits", hits.buffer},
-                      {"Position", film_plane<float>(plan, {"position", 3}, slice.band, recording)},
-                      {"Depth", film_plane<float>(plan, {"depth", 1}, slice.band, recording)}},
+                      {"Position", film_plane<float>(plan, {"position", 3}, tile.film_tile, recording)},
+                      {"Depth", film_plane<float>(plan, {"depth", 1}, tile.film_tile, recording)}},
          .constants = {{"hits_stride", hits.stride}}});
 }
 

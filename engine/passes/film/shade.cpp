@@ -2,14 +2,14 @@
 
 namespace voxilux {
 
-Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice, const ShadeInputs& inputs,
+Plane record_shade_resolve(const RenderPlan& plan, const DispatchTile& tile, const ShadeInputs& inputs,
                            Recording& recording) {
     const Plane color{declare_plane<gpu::vec3>(plan, "shade.color", recording)};
     recording.dispatch({.label = "shade.resolve",
                         .shader = "shade_resolve",
-                        .extent = pixel_extent(plan, slice),
+                        .extent = pixel_extent(plan, tile),
                         .bindings = {{"Frame", frame_buffer(recording)},
-                                     {"Tally", tally_buffer(recording)},
+                                     {"Counters", tally_buffer(recording)},
                                      {"Hits", inputs.hits.buffer},
                                      {"Materials", materials_buffer(plan, recording)},
                                      {"Ao", inputs.ao.buffer},

@@ -9,13 +9,13 @@ struct ShadeInputs {
     Plane hits;
     Plane ao;
     Plane sun;
-    Plane direct;   // irradiance / pi, of lamps
+    Plane direct;   // irradiance / pi, of emitters
     Plane photons;  // irradiance, of photons
     Plane weights;  // of what is seen in mirrors and through glass
 };
 
 // Linear RGB radiance of each camera ray.
-[[nodiscard]] Plane record_shade_resolve(const RenderPlan& plan, const Slice& slice,
+[[nodiscard]] Plane record_shade_resolve(const RenderPlan& plan, const DispatchTile& tile,
                                          const ShadeInputs& inputs, Recording& recording);
 
 }  // namespace voxilux

@@ -4,12 +4,12 @@
 
 namespace voxilux {
 
-Plane record_direct_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+Plane record_direct_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                           Recording& recording) {
     const Plane direct{declare_plane<gpu::vec3>(plan, "direct.light", recording)};
     Dispatch dispatch{.label = "direct.trace",
                       .shader = "direct_trace",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
     dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", lights_buffer(plan, recording)},

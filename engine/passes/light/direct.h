@@ -4,8 +4,8 @@
 
 namespace voxilux {
 
-// Light that each hit receives straight from lamps, irradiance / pi.
-[[nodiscard]] Plane record_direct_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+// Light that each hit receives straight from emitters, irradiance / pi.
+[[nodiscard]] Plane record_direct_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                         Recording& recording);
 
 }  // namespace voxilux

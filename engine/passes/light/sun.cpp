@@ -2,8 +2,9 @@
 
 namespace voxilux {
 
-Plane record_sun_trace(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
-    return record_surface_pass(plan, slice, {"sun.trace", "sun_trace", "Sun", "sun.lit"}, hits, recording);
+Plane record_sun_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                       Recording& recording) {
+    return record_surface_pass(plan, tile, {"sun.trace", "sun_trace", "Sun", "sun.lit"}, hits, recording);
 }
 
 }  // namespace voxilux

@@ -61,12 +61,12 @@ void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& d
 }
 
 // Sorts the visible points into buckets.
-void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
+void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
                    const Plane& hits, Recording& recording) {
     const std::string ranks = declare_plane<gpu::uint>(plan, "photon.ranks", recording);
     Dispatch point{.label = "photon.point",
                    .shader = "photon_point",
-                   .extent = pixel_extent(plan, slice),
+                   .extent = pixel_extent(plan, tile),
                    .bindings = point_bindings(hits, recording)};
     point.bindings.insert(point.bindings.end(),
                           {{"BucketCounts", photon_counts_buffer(plan, recording)}, {"PointRanks", ranks}});
@@ -74,7 +74,7 @@ void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, cons
     record_photon_scan(plan, params, recording);
     Dispatch place{.label = "photon.place",
                    .shader = "photon_place",
-                   .extent = pixel_extent(plan, slice),
+                   .extent = pixel_extent(plan, tile),
                    .bindings = point_bindings(hits, recording)};
     place.bindings.insert(
         place.bindings.end(),
@@ -84,23 +84,23 @@ void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, cons
     recording.dispatch(std::move(place));
 }
 
-// Invocations of a pass over the pixels of a slice in tiles of 8x8.
-Extent tile_extent(const RenderPlan& plan, const Slice& slice) {
+// Invocations of a pass over the pixels of a tile in tiles of 8x8.
+Extent tile_extent(const RenderPlan& plan, const DispatchTile& tile) {
     const auto columns = static_cast<std::uint32_t>(plan.settings.size.x);
-    return {(columns + 7) / 8 * ((slice.row_count + 7) / 8) * 64, 1, 1};
+    return {(columns + 7) / 8 * ((tile.row_count + 7) / 8) * 64, 1, 1};
 }
 
 }  // namespace
 
 gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     VX_ASSERT(std::has_single_bit(setup.buckets));
-    const double radius = std::max(setup.radius, static_cast<double>(gpu::kLeastPhotonRadius));
+    const double radius = std::max(setup.radius, static_cast<double>(gpu::kMinPhotonRadius));
     gpu::PhotonParams params{};
     params.radius = static_cast<float>(radius);
     params.narrow_radius = static_cast<float>(radius / std::numbers::sqrt2);
     params.grid = gpu::photon_grid(params.radius, static_cast<float>(setup.extent), setup.buckets);
     for (int c = 0; c < 3; ++c) {
-        const double most = setup.most_power[c];
+        const double most = setup.max_power[c];
         const double scale = gpu::kPhotonQuanta / most;
         // Light whose quanta a float cannot count is none.
         params.power_scale[c] = scale < kLargestFloat ? static_cast<float>(scale) : 0.0f;
@@ -118,12 +118,13 @@ void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params
     recording.clear(photon_counts_buffer(plan, recording));
 }
 
-void record_photon_mark(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording) {
+void record_photon_mark(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                        Recording& recording) {
     const std::string wanted = photon_wanted_buffer(plan, recording);
     recording.clear(wanted);
     Dispatch dispatch{.label = "photon.mark",
                       .shader = "photon_mark",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = point_bindings(hits, recording)};
     dispatch.bindings.push_back({"WantedCells", wanted});
     recording.dispatch(std::move(dispatch));
@@ -142,16 +143,16 @@ void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params,
                                 head);
 }
 
-PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                   PhotonRadii radii, Recording& recording) {
     const bool own = radii == PhotonRadii::own;
     const PhotonPlanes planes = photon_planes(plan, recording);
     Dispatch dispatch{.label = "photon.gather",
                       .shader = "photon_gather",
-                      .extent = tile_extent(plan, slice),
+                      .extent = tile_extent(plan, tile),
                       .bindings = point_bindings(hits, recording)};
     dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Tally", tally_buffer(recording)},
+                             {{"Counters", tally_buffer(recording)},
                               {"BucketStarts", photon_starts_buffer(plan, recording)},
                               {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
     dispatch.bindings.push_back(
@@ -165,17 +166,17 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, co
     return planes;
 }
 
-PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params, const Slice& slice,
-                                 const Plane& hits, Recording& recording) {
-    record_points(plan, params, slice, hits, recording);
-    const std::string totals = declare<std::uint64_t>(recording, "photon.totals", 6 * plan.slice_pixels());
+PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
+                                 const DispatchTile& tile, const Plane& hits, Recording& recording) {
+    record_points(plan, params, tile, hits, recording);
+    const std::string totals = declare<std::uint64_t>(recording, "photon.totals", 6 * plan.tile_pixels());
     const std::string head = photon_head_buffer(recording);
     recording.clear(totals);
     recording.dispatch_indirect(
         {.label = "photon.splat",
          .shader = "photon_splat",
          .bindings = {{"PhotonFrame", photon_frame_buffer(recording)},
-                      {"Tally", tally_buffer(recording)},
+                      {"Counters", tally_buffer(recording)},
                       {"PhotonHeads", head},
                       {"StoredPhotons", photon_store_buffer(plan, recording)},
                       {"BucketStarts", photon_starts_buffer(plan, recording)},
@@ -185,7 +186,7 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
     const PhotonPlanes planes = photon_planes(plan, recording);
     Dispatch resolve{.label = "photon.resolve",
                      .shader = "photon_resolve",
-                     .extent = pixel_extent(plan, slice),
+                     .extent = pixel_extent(plan, tile),
                      .bindings = point_bindings(hits, recording)};
     resolve.bindings.push_back({"PhotonTotals", totals});
     let_resolve(plan, planes, resolve, recording);
@@ -193,13 +194,13 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
     return planes;
 }
 
-Plane record_photon_bias(const RenderPlan& plan, const Slice& slice, const SpecularPlanes& seen,
+Plane record_photon_bias(const RenderPlan& plan, const DispatchTile& tile, const SpecularPlanes& seen,
                          const PhotonPlanes& photons, Recording& recording) {
     const Plane bias{declare_plane<gpu::vec3>(plan, "photon.bias", recording)};
     recording.dispatch(
         {.label = "photon.bias",
          .shader = "photon_bias",
-         .extent = pixel_extent(plan, slice),
+         .extent = pixel_extent(plan, tile),
          .bindings = {{"Frame", frame_buffer(recording)},
                       {"Materials", materials_buffer(plan, recording)},
                       {"Hits", seen.hits.buffer},

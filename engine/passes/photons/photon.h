@@ -12,14 +12,14 @@ namespace voxilux {
 struct PhotonSetup {
     double radius = 0.0;         // of the gather, voxels
     double extent = 0.0;         // coordinates of photons, local to the world, are at most this in magnitude
-    glm::dvec3 most_power{0.0};  // that a photon carries, watts
+    glm::dvec3 max_power{0.0};   // that a photon carries, watts
     std::uint32_t buckets = 0;   // a power of two
     std::uint32_t capacity = 0;  // photons that fit in the store
     std::uint32_t iteration = 1;
     double alpha = 2.0 / 3.0;  // of pixels with radii of their own
 };
 
-// The parameters of an iteration. The radius is not below kLeastPhotonRadius, and the narrow one is 1/sqrt(2)
+// The parameters of an iteration. The radius is not below kMinPhotonRadius, and the narrow one is 1/sqrt(2)
 // of it. A channel without power gets none.
 [[nodiscard]] gpu::PhotonParams photon_params(const PhotonSetup& setup);
 
@@ -28,7 +28,8 @@ void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params
 
 // Finds where photons are wanted, before the pass that traces them: the cells that a disc about a hit
 // touches.
-void record_photon_mark(const RenderPlan& plan, const Slice& slice, const Plane& hits, Recording& recording);
+void record_photon_mark(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                        Recording& recording);
 
 // Sorts the stored photons into buckets: photon.scan, photon.sort.
 void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
@@ -43,17 +44,19 @@ struct PhotonPlanes {
 // shrinks (persistent buffer photon.radii). Then the grid is that of the first radius in all iterations.
 enum class PhotonRadii { common, own };
 
-// The irradiance at each hit from the sorted photons around it. The slice is the whole picture.
-[[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const Slice& slice, const Plane& hits,
-                                                PhotonRadii radii, Recording& recording);
+// The irradiance at each hit from the sorted photons around it. The tile is the whole picture.
+[[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& tile,
+                                                const Plane& hits, PhotonRadii radii, Recording& recording);
 
 // The same, to the bit, from photons that look for the points around them instead: `scatter`. Photons need
 // not be sorted (constant sorts_photons of the pass that stores them is 0).
 [[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
-                                               const Slice& slice, const Plane& hits, Recording& recording);
+                                               const DispatchTile& tile, const Plane& hits,
+                                               Recording& recording);
 
 // How far the radiance of each pixel is off because discs smooth the light of photons.
-[[nodiscard]] Plane record_photon_bias(const RenderPlan& plan, const Slice& slice, const SpecularPlanes& seen,
-                                       const PhotonPlanes& photons, Recording& recording);
+[[nodiscard]] Plane record_photon_bias(const RenderPlan& plan, const DispatchTile& tile,
+                                       const SpecularPlanes& seen, const PhotonPlanes& photons,
+                                       Recording& recording);
 
 }  // namespace voxilux

@@ -6,10 +6,10 @@
 namespace voxilux {
 namespace {
 
-// The lamps, or the placeholder where only the sun sends photons.
-std::string lamp_buffer(const RenderPlan& plan, std::string (*buffer)(const RenderPlan&, Recording&),
-                        Recording& recording) {
-    return plan.photons.lamp_photons != 0 ? buffer(plan, recording) : placeholder_buffer(recording);
+// The emitters, or the placeholder where only the sun sends photons.
+std::string emitter_buffer(const RenderPlan& plan, std::string (*buffer)(const RenderPlan&, Recording&),
+                           Recording& recording) {
+    return plan.photons.emitter_photons != 0 ? buffer(plan, recording) : placeholder_buffer(recording);
 }
 
 }  // namespace
@@ -22,8 +22,8 @@ void record_photon_emit(const RenderPlan& plan, Recording& recording) {
          .bindings = {{"Frame", frame_buffer(recording)},
                       {"Spheres", spheres_buffer(plan, recording)},
                       {"Materials", materials_buffer(plan, recording)},
-                      {"Lights", lamp_buffer(plan, lights_buffer, recording)},
-                      {"LightTable", lamp_buffer(plan, light_table_buffer, recording)},
+                      {"Lights", emitter_buffer(plan, lights_buffer, recording)},
+                      {"LightTable", emitter_buffer(plan, light_table_buffer, recording)},
                       {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.count())}},
          .constants = surface_constants(plan)});
 }

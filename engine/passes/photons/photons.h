@@ -5,8 +5,8 @@
 namespace voxilux {
 
 // The light of photons at each hit by the technique of the plan, in an iteration counted from 1; none without
-// photons. The slice is the whole picture.
-[[nodiscard]] PhotonPlanes record_photons(const RenderPlan& plan, const Slice& slice, const Plane& hits,
+// photons. The tile is the whole picture.
+[[nodiscard]] PhotonPlanes record_photons(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                           std::uint32_t iteration, Recording& recording);
 
 }  // namespace voxilux

@@ -2,14 +2,14 @@
 
 namespace voxilux {
 
-Plane record_sphere_trace(const RenderPlan& plan, const Slice& slice, const Plane& voxel_hits,
+Plane record_sphere_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& voxel_hits,
                           Recording& recording) {
     const Plane hits{declare_plane<gpu::Hit>(plan, "sphere.hits", recording)};
     std::vector<Constant> constants = surface_constants(plan);
     constants.push_back({"hits_stride", voxel_hits.stride});
     recording.dispatch({.label = "sphere.trace",
                         .shader = "sphere_trace",
-                        .extent = pixel_extent(plan, slice),
+                        .extent = pixel_extent(plan, tile),
                         .bindings = {{"Frame", frame_buffer(recording)},
                                      {"Spheres", spheres_buffer(plan, recording)},
                                      {"SphereTable", sphere_table_buffer(plan, recording)},

@@ -4,7 +4,7 @@ namespace voxilux {
 
 std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
-            {"Tally", tally_buffer(recording)},
+            {"Counters", tally_buffer(recording)},
             {"Spheres", spheres_buffer(plan, recording)},
             {"SphereTable", sphere_table_buffer(plan, recording)},
             {"Materials", materials_buffer(plan, recording)}};
@@ -17,13 +17,13 @@ std::vector<Constant> path_constants(const RenderPlan& plan) {
     return constants;
 }
 
-SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice, const Plane& first_hits,
-                                     Recording& recording) {
+SpecularPlanes record_specular_trace(const RenderPlan& plan, const DispatchTile& tile,
+                                     const Plane& first_hits, Recording& recording) {
     const SpecularPlanes planes{.hits = {declare_plane<gpu::Hit>(plan, "specular.hits", recording)},
                                 .weights = {declare_plane<gpu::vec3>(plan, "specular.weights", recording)}};
     Dispatch dispatch{.label = "specular.trace",
                       .shader = "specular_trace",
-                      .extent = pixel_extent(plan, slice),
+                      .extent = pixel_extent(plan, tile),
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
     dispatch.bindings.insert(

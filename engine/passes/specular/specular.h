@@ -10,10 +10,10 @@ struct SpecularPlanes {
     Plane weights;
 };
 
-[[nodiscard]] SpecularPlanes record_specular_trace(const RenderPlan& plan, const Slice& slice,
+[[nodiscard]] SpecularPlanes record_specular_trace(const RenderPlan& plan, const DispatchTile& tile,
                                                    const Plane& first_hits, Recording& recording);
 
-// Bindings and constants of every pass that follows paths (shaders/lib/path.glsl), the frame and the tally
+// Bindings and constants of every pass that follows paths (shaders/lib/path.glsl), the frame and the counters
 // included.
 [[nodiscard]] std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording);
 [[nodiscard]] std::vector<Constant> path_constants(const RenderPlan& plan);

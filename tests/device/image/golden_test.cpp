@@ -15,7 +15,7 @@
 #include "formats/png.h"
 #include "formats/scene_toml.h"
 #include "scene/scene_camera.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 
 namespace voxilux {
 namespace {

@@ -7,13 +7,13 @@
 #include <array>
 #include <set>
 
-#include "support/ao_rig.h"
+#include "support/ao_fixture.h"
 
 namespace voxilux {
 namespace {
 
+using test::AoFixture;
 using test::AoFrame;
-using test::AoRig;
 using test::CellSums;
 
 // Sums over the frames of a run.
@@ -26,12 +26,12 @@ struct Ledger {
     std::uint64_t full = 0;
 
     void add(const AoFrame& frame) {
-        traced += frame.tally[gpu::kWorkAoRays];
-        dropped += frame.tally[gpu::kWorkAoDropped];
-        own += frame.tally[gpu::kWorkAoOwnRays];
-        claimed += frame.tally[gpu::kWorkAoClaimed];
-        evicted += frame.tally[gpu::kWorkAoEvicted];
-        full += frame.tally[gpu::kFaultAoTableFull];
+        traced += frame.counters[gpu::kWorkAoRays];
+        dropped += frame.counters[gpu::kWorkAoDropped];
+        own += frame.counters[gpu::kWorkAoOwnRays];
+        claimed += frame.counters[gpu::kWorkAoClaimed];
+        evicted += frame.counters[gpu::kWorkAoEvicted];
+        full += frame.counters[gpu::kFaultAoTableFull];
     }
 };
 
@@ -63,7 +63,7 @@ struct Slots {
     std::uint64_t hits = 0;
 };
 
-Slots slots_of(const AoRig& rig, const AoFrame& frame) {
+Slots slots_of(const AoFixture& rig, const AoFrame& frame) {
     Slots slots;
     for (std::size_t i = 0; i < frame.hits.size(); ++i) {
         if (frame.hits[i].face >= gpu::kFaceInside) continue;
@@ -90,7 +90,7 @@ Ledger fly(const Run& run) {
     Scene scene = test::pillared_scene();
     scene.settings.ao.slots = run.slots;
     scene.settings.ao.cell_px = run.cell_px;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     Ledger ledger;
     for (int i = 0; i < run.frames; ++i) {
         const AoFrame frame = rig.render(test::flying_camera(run.stride * i));
@@ -98,10 +98,10 @@ Ledger fly(const Run& run) {
         EXPECT_EQ(imbalance(ledger, frame), "") << "frame " << i;
         const Slots slots = slots_of(rig, frame);
         EXPECT_EQ(slots.wrong, "") << "frame " << i;
-        EXPECT_EQ(slots.none, frame.tally[gpu::kFaultAoTableFull]) << "frame " << i;
-        EXPECT_EQ(frame.tally[gpu::kWorkAoOwnRays], slots.none * scene.settings.ao_rays);
-        EXPECT_EQ(frame.tally[gpu::kWorkAoRays], slots.hits * scene.settings.ao_rays);
-        EXPECT_EQ(frame.tally[gpu::kWorkAoReused] + frame.tally[gpu::kWorkAoSearches], slots.hits);
+        EXPECT_EQ(slots.none, frame.counters[gpu::kFaultAoTableFull]) << "frame " << i;
+        EXPECT_EQ(frame.counters[gpu::kWorkAoOwnRays], slots.none * scene.settings.ao_rays);
+        EXPECT_EQ(frame.counters[gpu::kWorkAoRays], slots.hits * scene.settings.ao_rays);
+        EXPECT_EQ(frame.counters[gpu::kWorkAoReused] + frame.counters[gpu::kWorkAoSearches], slots.hits);
         if (testing::Test::HasFailure()) break;
     }
     return ledger;
@@ -126,7 +126,7 @@ TEST(HardCase, hole03_books_balance_in_a_table_of_16_cells) {
 }
 
 TEST(AoCells, comparison_rejects_a_lost_a_stray_and_a_doubled_sample) {
-    AoRig rig(test::pillared_scene());
+    AoFixture rig(test::pillared_scene());
     const AoFrame frame = rig.render();
     Ledger ledger;
     ledger.add(frame);
@@ -163,11 +163,11 @@ std::size_t levels_of(const CellSums& sums) {
 }
 
 Flight short_flight(const Scene& scene, Executor& executor = test_executor()) {
-    AoRig rig(scene, executor);
+    AoFixture rig(scene, executor);
     Flight flight;
     for (int i = 0; i < 20; ++i) {
         const AoFrame frame = rig.render(test::flying_camera(i), static_cast<std::uint32_t>(i % 3));
-        flight.pictures.push_back(frame.openness);
+        flight.pictures.push_back(frame.visibility);
         flight.sums = test::sums_of(frame);
     }
     return flight;
@@ -212,7 +212,7 @@ TEST(AoCells, comparison_rejects_another_seed_and_another_cell_size) {
 }
 
 // Cells whose open samples are not those that a march in C++ finds of the same numbers.
-int differing_cells(const AoRig& rig, const AoFrame& frame, std::uint64_t first_number) {
+int differing_cells(const AoFixture& rig, const AoFrame& frame, std::uint64_t first_number) {
     int differing = 0;
     for (const auto& [key, sum] : test::sums_of(frame))
         differing +=
@@ -224,7 +224,7 @@ TEST(AoCells, sums_are_those_of_the_cell_s_own_samples_marched_in_cpp) {
     for (const Sequence sequence : {Sequence::sobol, Sequence::halton, Sequence::white}) {
         Scene scene = test::pillared_scene();
         scene.settings.sequence = sequence;
-        AoRig rig(scene);
+        AoFixture rig(scene);
         AoFrame frame;
         for (int i = 0; i < 6; ++i)
             frame = rig.render(test::flying_camera(i));
@@ -233,8 +233,8 @@ TEST(AoCells, sums_are_those_of_the_cell_s_own_samples_marched_in_cpp) {
     }
 }
 
-TEST(AoCells, openness_of_a_pixel_is_the_open_share_of_its_cell) {
-    AoRig rig(test::pillared_scene());
+TEST(AoCells, visibility_of_a_pixel_is_the_open_share_of_its_cell) {
+    AoFixture rig(test::pillared_scene());
     for (int i = 0; i < 4; ++i) {
         const AoFrame frame = rig.render(test::flying_camera(5 * i));
         for (std::size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
@@ -242,7 +242,7 @@ TEST(AoCells, openness_of_a_pixel_is_the_open_share_of_its_cell) {
             const float expected =
                 slot ? static_cast<float>(frame.opens[*slot]) / static_cast<float>(frame.samples[*slot])
                      : 1.0f;
-            ASSERT_FLOAT_EQ(frame.openness[pixel], expected);
+            ASSERT_FLOAT_EQ(frame.visibility[pixel], expected);
         }
     }
 }
@@ -250,7 +250,7 @@ TEST(AoCells, openness_of_a_pixel_is_the_open_share_of_its_cell) {
 TEST(AoCells, sphere_keeps_its_own_rays) {
     Scene scene = test::pillared_scene();
     scene.spheres.push_back({glm::dvec3(0.0, 0.0, 2.5), 3.0, 0});
-    AoRig rig(scene);
+    AoFixture rig(scene);
     Ledger ledger;
     for (int i = 0; i < 5; ++i) {
         const AoFrame frame = rig.render(test::flying_camera(i));
@@ -259,8 +259,8 @@ TEST(AoCells, sphere_keeps_its_own_rays) {
         const auto on_sphere = static_cast<std::size_t>(
             std::ranges::count(frame.hits, gpu::kFaceSphere, [](const gpu::Hit& hit) { return hit.face; }));
         EXPECT_GT(on_sphere, 30u);
-        EXPECT_EQ(frame.tally[gpu::kWorkAoOwnRays], on_sphere * scene.settings.ao_rays);
-        EXPECT_EQ(frame.tally[gpu::kFaultAoTableFull], 0u);
+        EXPECT_EQ(frame.counters[gpu::kWorkAoOwnRays], on_sphere * scene.settings.ao_rays);
+        EXPECT_EQ(frame.counters[gpu::kFaultAoTableFull], 0u);
     }
 }
 

@@ -5,21 +5,21 @@
 
 #include <algorithm>
 
-#include "support/ao_rig.h"
+#include "support/ao_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
 namespace {
 
+using test::AoFixture;
 using test::AoFrame;
-using test::AoRig;
 
 constexpr double kStillShare = 0.05;  // of the hits that may need a search: what a still camera is asked for
 constexpr double kPanShare = 0.20;    // and a slow pan
 
 double searched_share(const AoFrame& frame) {
-    const double searches = frame.tally[gpu::kWorkAoSearches];
-    return searches / (searches + frame.tally[gpu::kWorkAoReused]);
+    const double searches = frame.counters[gpu::kWorkAoSearches];
+    return searches / (searches + frame.counters[gpu::kWorkAoReused]);
 }
 
 Scene rate_scene(bool reproject) {
@@ -41,7 +41,7 @@ Camera turned(const Scene& scene, double pixels) {
 }
 
 // The largest share of hits searched in a frame after the first.
-double worst_share(AoRig& rig, double pixels_a_frame, bool same_points) {
+double worst_share(AoFixture& rig, double pixels_a_frame, bool same_points) {
     double worst = 0.0;
     for (int i = 0; i < 30; ++i) {
         const auto sample = static_cast<std::uint32_t>(same_points ? 0 : i);
@@ -53,7 +53,7 @@ double worst_share(AoRig& rig, double pixels_a_frame, bool same_points) {
 
 TEST(AoRate, still_camera_searches_few_cells_after_its_first_frame) {
     for (const bool same_points : {true, false}) {
-        AoRig rig(rate_scene(true));
+        AoFixture rig(rate_scene(true));
         const double worst = worst_share(rig, 0.0, same_points);
         EXPECT_LE(worst, same_points ? 0.0 : kStillShare);
         testing::Test::RecordProperty(same_points ? "same_points" : "other_points", std::to_string(worst));
@@ -62,7 +62,7 @@ TEST(AoRate, still_camera_searches_few_cells_after_its_first_frame) {
 
 TEST(AoRate, slow_pan_searches_few_cells) {
     for (const double pixels : {0.3, 1.0, 1.5}) {
-        AoRig rig(rate_scene(true));
+        AoFixture rig(rate_scene(true));
         const double worst = worst_share(rig, pixels, false);
         EXPECT_LE(worst, kPanShare);
         testing::Test::RecordProperty("pan_" + std::to_string(static_cast<int>(10 * pixels)),
@@ -71,30 +71,30 @@ TEST(AoRate, slow_pan_searches_few_cells) {
 }
 
 TEST(AoRate, comparison_rejects_searches_of_every_hit) {
-    AoRig rig(rate_scene(false));
+    AoFixture rig(rate_scene(false));
     EXPECT_EQ(worst_share(rig, 0.0, true), 1.0);
 }
 
 TEST(AoRate, change_of_the_world_or_a_camera_elsewhere_searches_again) {
-    AoRig rig(rate_scene(true));
+    AoFixture rig(rate_scene(true));
     (void)rig.render();
     EXPECT_EQ(searched_share(rig.render()), 0.0);
     Camera behind = *rig.scene().camera;
     behind.yaw_deg += 180.0;
     behind.pitch_deg -= 30.0;
     const AoFrame away = rig.render(behind);
-    EXPECT_TRUE(away.tally[gpu::kWorkAoReused] == 0u);
+    EXPECT_TRUE(away.counters[gpu::kWorkAoReused] == 0u);
     EXPECT_EQ(searched_share(rig.render()), 1.0) << "the last frame saw other places";
     rig.state.change_world();
     const AoFrame anew = rig.render();
     EXPECT_EQ(searched_share(anew), 1.0);
-    EXPECT_EQ(anew.tally[gpu::kWorkAoClaimed], test::sums_of(anew).size()) << "the table was emptied";
+    EXPECT_EQ(anew.counters[gpu::kWorkAoClaimed], test::sums_of(anew).size()) << "the table was emptied";
 }
 
 TEST(AoRate, checkerboard_traces_every_other_pixel_after_the_first_frame) {
     Scene scene = rate_scene(true);
     scene.settings.ao.checkerboard = true;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     const auto width = static_cast<std::size_t>(scene.settings.size.x);
     for (std::uint32_t i = 0; i < 6; ++i) {
         const AoFrame frame = rig.render();
@@ -103,7 +103,7 @@ TEST(AoRate, checkerboard_traces_every_other_pixel_after_the_first_frame) {
             const bool turn = i == 0 || (pixel % width + pixel / width + i) % 2 == 0;
             pixels += frame.hits[pixel].face < gpu::kFaceInside && turn ? 1 : 0;
         }
-        EXPECT_EQ(frame.tally[gpu::kWorkAoRays], pixels * scene.settings.ao_rays) << i;
+        EXPECT_EQ(frame.counters[gpu::kWorkAoRays], pixels * scene.settings.ao_rays) << i;
     }
 }
 
@@ -111,31 +111,31 @@ TEST(AoRate, cells_with_enough_samples_take_no_more_and_are_kept) {
     Scene scene = rate_scene(true);
     scene.settings.ao.sample_limit = 100;
     scene.settings.ao_rays = 8;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     AoFrame full;
     int frames = 0;
     do {
         full = rig.render();
-    } while (full.tally[gpu::kWorkAoRays] > 0 && ++frames < 100);
-    ASSERT_EQ(full.tally[gpu::kWorkAoRays], 0u);
+    } while (full.counters[gpu::kWorkAoRays] > 0 && ++frames < 100);
+    ASSERT_EQ(full.counters[gpu::kWorkAoRays], 0u);
     for (const auto& [key, sum] : test::sums_of(full))
         ASSERT_GE(sum.first, 100u);
     for (int i = 0; i < 100; ++i) {
         const AoFrame frame = rig.render();
-        ASSERT_EQ(frame.tally[gpu::kWorkAoRays], 0u);
-        ASSERT_EQ(frame.tally[gpu::kWorkAoEvicted], 0u);
-        ASSERT_EQ(frame.openness, full.openness);
+        ASSERT_EQ(frame.counters[gpu::kWorkAoRays], 0u);
+        ASSERT_EQ(frame.counters[gpu::kWorkAoEvicted], 0u);
+        ASSERT_EQ(frame.visibility, full.visibility);
     }
 }
 
 // A pixel that takes no samples keeps its cell all the same.
 TEST(AoRate, no_key_is_swapped_when_cells_are_found_by_reprojection) {
-    AoRig rig(rate_scene(true));
+    AoFixture rig(rate_scene(true));
     (void)rig.render();
     const AoFrame frame = rig.render();
-    EXPECT_GT(frame.tally[gpu::kWorkAoReused], 0u);
-    EXPECT_EQ(frame.tally[gpu::kWorkAoSearches], 0u);
-    EXPECT_EQ(frame.tally[gpu::kWorkAoSwaps], 0u);
+    EXPECT_GT(frame.counters[gpu::kWorkAoReused], 0u);
+    EXPECT_EQ(frame.counters[gpu::kWorkAoSearches], 0u);
+    EXPECT_EQ(frame.counters[gpu::kWorkAoSwaps], 0u);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/occlusion_forms.h"
 #include "support/test_scenes.h"
 
@@ -44,7 +44,7 @@ struct Stray {
 using Expected = std::function<double(glm::dvec3 position, gpu::uint face)>;
 
 Stray compare(const Scene& scene, const Expected& blocked) {
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     const test::FramePlanes planes = rig.render(0);
     const double rays = scene.settings.ao_rays;
     Stray stray;
@@ -89,7 +89,7 @@ TEST(AoTrace, plane_is_exactly_one_everywhere) {
             ASSERT_EQ(planes.ao[i], 1.0f) << i;
         }
         EXPECT_GT(on_floor, 200);
-        EXPECT_EQ(planes.tally[gpu::kWorkAoRays], kRays * static_cast<gpu::uint>(on_floor));
+        EXPECT_EQ(planes.counters[gpu::kWorkAoRays], kRays * static_cast<gpu::uint>(on_floor));
     }
 }
 
@@ -180,7 +180,7 @@ TEST(AoTrace, camera_inside_a_solid_sees_no_opening) {
     const test::FramePlanes planes = test::render_first_sample(scene);
     for (const float open : planes.ao)
         ASSERT_EQ(open, 0.0f);
-    EXPECT_EQ(planes.tally[gpu::kWorkAoRays], 0u);
+    EXPECT_EQ(planes.counters[gpu::kWorkAoRays], 0u);
 }
 
 TEST(AoTrace, floor_around_a_resting_sphere_is_the_closed_form) {

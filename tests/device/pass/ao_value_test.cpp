@@ -1,21 +1,21 @@
-// Openness of cells with many samples against closed forms (support/occlusion_forms.h). A cell's truth is the
-// mean of the form over its square, because its samples start everywhere in it. With white noise the counts
-// are binomial.
+// Visibility of cells with many samples against closed forms (support/occlusion_forms.h). A cell's truth is
+// the mean of the form over its square, because its samples start everywhere in it. With white noise the
+// counts are binomial.
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
 
-#include "support/ao_rig.h"
+#include "support/ao_fixture.h"
 #include "support/occlusion_forms.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
 namespace {
 
+using test::AoFixture;
 using test::AoFrame;
-using test::AoRig;
 
 // Standard deviations. All cells of a picture together may stray by this much (1 in 16,000), and one of
 // hundreds by more. The seeds are fixed, so what passes once stays so.
@@ -67,12 +67,12 @@ struct Stray {
 };
 
 Stray compare(const Scene& scene, const Blocked& blocked, int frames = 16) {
-    AoRig rig(scene);
+    AoFixture rig(scene);
     AoFrame frame;
     for (int i = 0; i < frames; ++i)
         frame = rig.render(static_cast<std::uint32_t>(i));
-    for (const float openness : frame.openness)
-        EXPECT_TRUE(openness >= 0.0f && openness <= 1.0f) << openness;
+    for (const float visibility : frame.visibility)
+        EXPECT_TRUE(visibility >= 0.0f && visibility <= 1.0f) << visibility;
     Stray stray;
     double difference = 0.0;
     double variance = 0.0;
@@ -167,10 +167,10 @@ TEST(HardCase, row18_plane_of_cells_is_exactly_open) {
             scene.settings.ao.filter = filter;
             scene.settings.ao_rays = 4;
             scene.camera = test::camera_towards({3.2, -20.0, 2.0}, {0, 0, 0}, 30.0);
-            AoRig rig(scene);
+            AoFixture rig(scene);
             for (std::uint32_t i = 0; i < 4; ++i) {
-                for (const float openness : rig.render(i).openness)
-                    ASSERT_EQ(openness, 1.0f);
+                for (const float visibility : rig.render(i).visibility)
+                    ASSERT_EQ(visibility, 1.0f);
             }
         }
     }
@@ -183,11 +183,11 @@ TEST(HardCase, row18_plane_of_cells_seen_at_a_grazing_angle_is_exactly_open) {
     scene.camera = Camera{.position = glm::dvec3(0.3, -150.0, 0.001), .yaw_deg = 90.0, .fov_y_deg = 0.01};
     scene.settings.size = {32, 32};
     scene.settings.ao_rays = 16;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     const AoFrame frame = rig.render();
-    EXPECT_GT(frame.tally[gpu::kWorkHits], 100u);
-    for (const float openness : frame.openness)
-        ASSERT_EQ(openness, 1.0f);
+    EXPECT_GT(frame.counters[gpu::kWorkHits], 100u);
+    for (const float visibility : frame.visibility)
+        ASSERT_EQ(visibility, 1.0f);
 }
 
 TEST(HardCase, row18_floor_of_a_slit_of_cells_is_the_closed_form) {
@@ -246,13 +246,13 @@ Scene two_rooms() {
 }
 
 TEST(HardCase, hole14_cells_on_both_sides_of_a_thin_wall_never_mix) {
-    AoRig rig(two_rooms());
+    AoFixture rig(two_rooms());
     const Camera inside = test::camera_towards({-3.0, 0.2, 4.0}, {-0.3, 0.0, 0.0}, 70.0);
     const Camera outside = test::camera_towards({4.0, 0.2, 4.0}, {1.3, 0.0, 0.0}, 70.0);
     for (std::uint32_t i = 0; i < 12; ++i) {
         const AoFrame dark = rig.render(inside, i);
-        for (const float openness : dark.openness)
-            ASSERT_EQ(openness, 0.0f);
+        for (const float visibility : dark.visibility)
+            ASSERT_EQ(visibility, 0.0f);
         const AoFrame light = rig.render(outside, i);
         int beside = 0;
         for (std::size_t pixel = 0; pixel < light.hits.size(); ++pixel) {
@@ -260,8 +260,8 @@ TEST(HardCase, hole14_cells_on_both_sides_of_a_thin_wall_never_mix) {
             const int x = rig.march_world().origin.x + hit.cell.x;
             if (hit.face != 5u || x != 1) continue;
             ++beside;
-            ASSERT_GT(light.openness[pixel], 0.25f) << "half is blocked at the wall";
-            ASSERT_LT(light.openness[pixel], 0.85f);
+            ASSERT_GT(light.visibility[pixel], 0.25f) << "half is blocked at the wall";
+            ASSERT_LT(light.visibility[pixel], 0.85f);
         }
         EXPECT_GT(beside, 5);
     }

@@ -15,7 +15,7 @@ MarchBenchOptions small_bench(std::vector<Traversal> traversals) {
 }
 
 TEST(BenchMarch, every_structure_meets_what_the_plain_walk_meets) {
-    const BenchScene scene = procedural_scene(kLeastExtent, 1);
+    const BenchScene scene = procedural_scene(kMinExtent, 1);
     const MarchBenchOptions options = small_bench({all_traversals().begin(), all_traversals().end()});
     const std::vector<BenchRow> rows = bench_march(scene, options, test_device());
     ASSERT_EQ(rows.size(), all_traversals().size() * kRayKinds.size());
@@ -33,7 +33,7 @@ TEST(BenchMarch, every_structure_meets_what_the_plain_walk_meets) {
 }
 
 TEST(BenchMarch, camera_that_sees_no_voxel_leaves_rows_without_rays) {
-    BenchScene scene = procedural_scene(kLeastExtent, 1);
+    BenchScene scene = procedural_scene(kMinExtent, 1);
     scene.camera.pitch_deg = 90.0;
     scene.camera.position.z = 1000.0;
     const std::vector<BenchRow> rows = bench_march(scene, small_bench({Traversal::naadf}), test_device());

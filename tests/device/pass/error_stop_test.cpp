@@ -8,7 +8,7 @@
 #include "passes/upload.h"
 #include "renderer/pilot_film.h"
 #include "support/device_fixture.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux::test {
@@ -124,7 +124,7 @@ TEST(ErrorPilotOnDevice, decides_alike_in_two_runs) {
     ASSERT_EQ(first.points.size(), second.points.size());
     for (std::size_t i = 0; i < first.points.size(); ++i)
         EXPECT_EQ(first.points[i].noise_high, second.points[i].noise_high);
-    EXPECT_GE(first.samples, kFewestPilotSamples);
+    EXPECT_GE(first.samples, kMinPilotSamples);
 }
 
 TEST(ErrorPilotOnDevice, has_random_numbers_of_its_own) {

@@ -8,7 +8,7 @@
 #include "formats/vox_read.h"
 #include "jobs/render_session.h"
 #include "scene/vox_scene.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 #include "support/vox_builder.h"
 

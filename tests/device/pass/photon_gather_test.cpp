@@ -11,7 +11,7 @@
 
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
-#include "support/photon_rig.h"
+#include "support/photon_fixture.h"
 #include "support/statistics.h"
 
 namespace voxilux {
@@ -41,7 +41,7 @@ PhotonJob random_job(std::uint64_t seed, glm::vec3 centre, double spread, std::u
     PhotonJob job;
     job.setup = {.radius = 0.2 * spread,
                  .extent = 1.0 + spread + glm::length(glm::dvec3(centre)),
-                 .most_power = {3.0, 2.0, 0.5},
+                 .max_power = {3.0, 2.0, 0.5},
                  .buckets = 1024,
                  .capacity = 4000};
     for (int i = 0; i < 3000; ++i) {
@@ -73,7 +73,7 @@ Truth light_at(const PhotonJob& job, const gpu::Hit& hit, double radius) {
         truth.is_close = truth.is_close || std::abs(distance / radius - 1.0) < 1e-6;
         if (distance > radius) continue;
         const gpu::PackedPower packed = gpu::pack_power(photon.power, params.power_scale, photon.position);
-        truth.light += glm::dvec3(gpu::unpack_power(packed.words)) * job.setup.most_power /
+        truth.light += glm::dvec3(gpu::unpack_power(packed.words)) * job.setup.max_power /
                        static_cast<double>(gpu::kPhotonQuanta);
     }
     truth.light /= std::numbers::pi * radius * radius;
@@ -99,7 +99,7 @@ int wrong_points(const PhotonJob& job, const PhotonOutcome& outcome) {
 
 void expect_no_faults(const PhotonOutcome& outcome) {
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
-        EXPECT_EQ(outcome.tally[i], 0u) << gpu::kTallyNames[i];
+        EXPECT_EQ(outcome.counters[i], 0u) << gpu::kCounterNames[i];
 }
 
 TEST(PhotonGather, light_is_the_sum_over_all_photons_of_the_surface_within_the_radius) {
@@ -158,7 +158,7 @@ TEST(PhotonGather, sums_are_whole_or_a_fault_is_counted) {
         job.photons.insert(job.photons.end(), few.begin(), few.end());
     const PhotonOutcome outcome = test::run_photons(job);
     const bool is_whole = wrong_points(job, outcome) == 0;
-    EXPECT_NE(is_whole, outcome.tally[gpu::kFaultLoopCut] > 0);
+    EXPECT_NE(is_whole, outcome.counters[gpu::kFaultLoopCut] > 0);
     job.photons.resize(30000);
     expect_no_faults(test::run_photons(job));
 }
@@ -172,8 +172,8 @@ TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
     for (const std::uint32_t capacity : {count, count - 1, 64u, 1u}) {
         job.setup.capacity = capacity;
         const PhotonOutcome outcome = test::run_photons(job);
-        EXPECT_EQ(outcome.tally[gpu::kFaultPhotonStoreFull], count - capacity);
-        EXPECT_EQ(outcome.tally[gpu::kWorkPhotonsStored], capacity);
+        EXPECT_EQ(outcome.counters[gpu::kFaultPhotonStoreFull], count - capacity);
+        EXPECT_EQ(outcome.counters[gpu::kWorkPhotonsStored], capacity);
         EXPECT_EQ(outcome.head.count, count);
         std::vector<std::array<std::uint64_t, gpu::kSortedWords>> sorted;
         for (std::size_t i = 0; i < capacity; ++i)
@@ -198,7 +198,7 @@ TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
     const auto near = std::ranges::count_if(job.photons, [](const auto& p) { return p.position.x < 20.0f; });
     const PhotonOutcome outcome = test::run_photons(job);
     EXPECT_EQ(wrong_points(job, outcome), 0);
-    EXPECT_EQ(outcome.head.count, outcome.tally[gpu::kWorkPhotonsStored]);
+    EXPECT_EQ(outcome.head.count, outcome.counters[gpu::kWorkPhotonsStored]);
     EXPECT_LE(outcome.head.count, near);
     EXPECT_GT(outcome.head.count, near / 2);
     // The twin: a photon that a point takes and that is left out is missed.
@@ -221,7 +221,7 @@ TEST(PhotonGather, places_that_hold_no_photon_change_nothing) {
     job.setup.capacity = 16 * 3000;
     const PhotonOutcome gathered = test::run_photons(job);
     expect_no_faults(gathered);
-    EXPECT_EQ(gathered.tally[gpu::kWorkPhotonsStored], want.head.count);
+    EXPECT_EQ(gathered.counters[gpu::kWorkPhotonsStored], want.head.count);
     EXPECT_EQ(gathered.head.count, 16 * want.head.count);
     EXPECT_TRUE(same_light(want, gathered));
     EXPECT_TRUE(same_light(want, test::run_splat(job)));
@@ -265,7 +265,7 @@ TEST(PhotonGather, a_radius_below_the_least_is_the_least) {
     job.setup.radius = 0.0;
     const PhotonOutcome outcome = test::run_photons(job);
     EXPECT_EQ(wrong_points(job, outcome), 0);
-    EXPECT_EQ(photon_params(job.setup).radius, gpu::kLeastPhotonRadius);
+    EXPECT_EQ(photon_params(job.setup).radius, gpu::kMinPhotonRadius);
     for (const glm::vec3& light : outcome.light)
         ASSERT_TRUE(std::isfinite(light.x + light.y + light.z));
 }
@@ -282,7 +282,7 @@ TEST(PhotonGather, bad_powers_and_places_are_counted_and_never_spread) {
     job.photons[65].position.y = std::nanf("");
     job.photons[35].position.x = -INFINITY;
     const PhotonOutcome outcome = test::run_photons(job);
-    EXPECT_EQ(outcome.tally[gpu::kFaultPhotonPower], 6u);
+    EXPECT_EQ(outcome.counters[gpu::kFaultPhotonPower], 6u);
     for (const glm::vec3& light : outcome.light)
         ASSERT_TRUE(std::isfinite(light.x + light.y + light.z));
 }
@@ -291,7 +291,7 @@ TEST(PhotonGather, bad_powers_and_places_are_counted_and_never_spread) {
 // points but those of their own face.
 TEST(PhotonGather, light_leaks_neither_through_a_wall_nor_round_a_corner) {
     PhotonJob job;
-    job.setup = {.radius = 3.0, .extent = 32.0, .most_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
+    job.setup = {.radius = 3.0, .extent = 32.0, .max_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
     for (std::uint32_t face = 0; face < 6; ++face) {
         gpu::Hit hit{.cell = {4, 4, 4}, .face = face, .fraction = glm::vec3(0.5f)};
         hit.fraction[static_cast<int>(face / 2)] = static_cast<float>(face % 2);
@@ -310,7 +310,7 @@ TEST(PhotonGather, light_leaks_neither_through_a_wall_nor_round_a_corner) {
 // disc is missing from the area.
 TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_leaves) {
     PhotonJob job;
-    job.setup = {.radius = 2.0, .extent = 20.0, .most_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
+    job.setup = {.radius = 2.0, .extent = 20.0, .max_power = glm::dvec3(1.0), .buckets = 16, .capacity = 64};
     job.points = {sphere_point({1.0f, 5.0f, 0.0f}, 0)};
     job.photons = {{{1.25f, 5.0f, 0.0f}, gpu::photon_surface(job.points[0]), glm::vec3(0.5f), 1u}};
     const PhotonOutcome open = test::run_photons(job);

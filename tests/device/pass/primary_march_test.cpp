@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "passes/plane.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/march_probe.h"
 #include "support/pixel_oracle.h"
 #include "support/same_bits.h"
@@ -75,7 +75,7 @@ struct Marched {
 
 // Marches on the device and expects the bits of C++.
 Marched march_picture(const Scene& scene) {
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     Marched marched{.hits = rig.render(0).hits, .solids = local_cells(scene, rig.march_world().origin)};
     std::vector<gpu::Hit> want;
     const gpu::uint sequence = sequence_id(scene.settings.sequence);

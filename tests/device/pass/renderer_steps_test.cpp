@@ -44,7 +44,7 @@ FilmSums fresh_film(const Scene& scene, std::uint32_t samples = kSamples,
     Renderer renderer(test_device(), poisoned());
     renderer.prepare(scene, request);
     while (renderer.film().position().samples < samples)
-        (void)renderer.step_slice();
+        (void)renderer.step_tile();
     return renderer.read_film();
 }
 
@@ -57,7 +57,7 @@ Scene yard() {
     scene.settings = {.size = {40, 24}, .spp = kSamples};
     scene.settings.ao.method = AoMethod::brute;
     add_diffuse(scene, 0.5f);
-    add_lamp(scene, 4.0f);
+    add_emitter(scene, 4.0f);
     add_box(scene, {-8, -8, -1}, {8, 8, 0});
     add_box(scene, {-8, 2, 0}, {3, 4, 9}, 1);
     scene.sun.irradiance = glm::vec3(2.0f);
@@ -75,8 +75,8 @@ Scene yard_of_cells() {
 Scene lit_room() {
     Scene scene = dark_scene(24, 500, 1.0);
     add_room(scene, {8, 8, 6}, add_diffuse(scene, 0.7f));
-    const std::uint16_t lamp = add_lamp(scene, 6.0f);
-    add_box(scene, {3, 3, 5}, {5, 5, 6}, lamp);
+    const std::uint16_t emitter = add_emitter(scene, 6.0f);
+    add_box(scene, {3, 3, 5}, {5, 5, 6}, emitter);
     scene.spheres = {{{4.0, 4.0, 1.5}, 1.0, add_glass(scene, 1.5f)}};
     scene.camera = camera_towards({1, 1, 3}, {6, 6, 2}, 70.0);
     return scene;
@@ -191,11 +191,11 @@ TEST(Renderer, step_without_time_takes_one_slice_and_more_time_takes_more) {
     (void)film_after(prepared(renderer, scene), 1);  // pipelines are made
     renderer.restart();
     const StepResult least = renderer.step(0.0);
-    EXPECT_EQ(least.slices, 1u);
+    EXPECT_EQ(least.tiles, 1u);
     EXPECT_EQ(least.pixels, 320u);
     EXPECT_EQ(least.samples, 0u);
     const StepResult most = renderer.step(2.0);
-    EXPECT_GT(most.slices, 1u);
+    EXPECT_GT(most.tiles, 1u);
     EXPECT_GT(most.samples, 0u);
     EXPECT_FALSE(most.passes.empty());
 }
@@ -262,7 +262,7 @@ TEST_P(RendererEdits, device_has_the_words_of_the_edited_structure) {
     PlanRequest request = with_aov();
     request.traversal = GetParam();
     Renderer renderer(test_device(), poisoned());
-    EXPECT_TRUE(grew_a_world(prepared(renderer, scene, request).step_slice()));
+    EXPECT_TRUE(grew_a_world(prepared(renderer, scene, request).step_tile()));
     std::vector<BoxEdit> edits;
     for (int i = 0; i < 6; ++i) {
         const glm::ivec3 low(-7 + 2 * i, -6 + 2 * i, i);
@@ -270,7 +270,7 @@ TEST_P(RendererEdits, device_has_the_words_of_the_edited_structure) {
         if (i == 4) edits.back().material.reset();
         renderer.edit(std::span(&edits.back(), 1));
         expect_device_holds(renderer, renderer.prepared().march_world);
-        EXPECT_EQ(grew_a_world(renderer.step_slice()), !has_free_boxes(GetParam())) << "edit " << i;
+        EXPECT_EQ(grew_a_world(renderer.step_tile()), !has_free_boxes(GetParam())) << "edit " << i;
         EXPECT_EQ(film_after(renderer, 1), fresh_film(edited_scene(scene, edits), 1, request))
             << "edit " << i;
     }
@@ -364,10 +364,10 @@ TEST(RendererDisplay, joins_film_bands) {
     scene.settings.size = {1024, 1100};
     Renderer renderer(test_device(), {});
     renderer.prepare(scene, {});
-    ASSERT_EQ(renderer.plan().band_count, 2u);
+    ASSERT_EQ(renderer.plan().film_tile_count, 2u);
     EXPECT_EQ(values_off(displayed(renderer), film_after(renderer, 0)), 0u);
     while (renderer.film().position().samples < 1)
-        (void)renderer.step_slice();
+        (void)renderer.step_tile();
     EXPECT_EQ(values_off(displayed(renderer), renderer.read_film()), 0u);
 }
 

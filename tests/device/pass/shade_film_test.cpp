@@ -10,7 +10,7 @@
 #include "plan/film_planes.h"
 #include "shared/film_sum.h"
 #include "shared/sampling.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
@@ -53,7 +53,7 @@ TEST(ShadeResolve, plane_under_a_constant_sky_is_albedo_times_radiance_exactly) 
         ASSERT_EQ(planes.color[i], is_hit ? albedo * scene.sky.radiance : scene.sky.radiance);
     }
     EXPECT_GT(on_plane, 200);
-    EXPECT_EQ(planes.tally[gpu::kWorkHits], static_cast<gpu::uint>(on_plane));
+    EXPECT_EQ(planes.counters[gpu::kWorkHits], static_cast<gpu::uint>(on_plane));
 }
 
 TEST(ShadeResolve, plane_under_sky_and_hard_sun_is_the_closed_form) {
@@ -80,10 +80,10 @@ TEST(ShadeResolve, convex_things_vanish_in_a_white_furnace) {
     for (Scene& scene : scenes) {
         scene.settings.size = {32, 24};
         scene.settings.ao_rays = 8;
-        test::FrameRig rig(scene);
+        test::FrameFixture rig(scene);
         for (std::uint32_t sample = 0; sample < 3; ++sample) {
             const test::FramePlanes planes = rig.render(sample);
-            EXPECT_GT(planes.tally[gpu::kWorkHits], 100u);
+            EXPECT_GT(planes.counters[gpu::kWorkHits], 100u);
             for (const glm::vec3& color : planes.color)
                 ASSERT_EQ(color, glm::vec3(1.0f));
         }
@@ -119,7 +119,7 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
     test::add_box(scene, {-3, -3, 0}, {3, 3, 6});
     scene.materials[0].albedo = glm::vec3(0.3f, 0.6f, 0.9f);
     scene.settings.ao_rays = 3;
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     std::vector<std::int64_t> ao(480), sun(480), a(480 * 3), b(480 * 3), squares(480 * 3);
     for (std::uint32_t sample = 0; sample < 5; ++sample) {
         const test::FramePlanes planes = rig.render(sample);
@@ -150,7 +150,7 @@ TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
     Recording recording;
     recording.declare({.name = "t.values", .size_bytes = values.size() * sizeof(float)});
     recording.declare({.name = "t.sums", .size_bytes = values.size() * sizeof(std::int64_t)});
-    recording.declare({.name = "t.tally", .size_bytes = gpu::kTallyCount * sizeof(gpu::uint)});
+    recording.declare({.name = "t.tally", .size_bytes = gpu::kCounterCount * sizeof(gpu::uint)});
     recording.upload("t.values", std::as_bytes(std::span(values)));
     recording.clear("t.sums");
     recording.clear("t.tally");
@@ -158,18 +158,18 @@ TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
     recording.dispatch({.label = "film.add",
                         .shader = "film_add",
                         .extent = {push.count, 1, 1},
-                        .bindings = {{"Tally", "t.tally"}, {"Values", "t.values"}, {"Sums", "t.sums"}},
+                        .bindings = {{"Counters", "t.tally"}, {"Values", "t.values"}, {"Sums", "t.sums"}},
                         .push = to_bytes(push)});
     recording.readback("t.sums");
     recording.readback("t.tally");
     const RunResult result = test_executor().run(recording);
     std::vector<std::int64_t> sums(values.size());
     std::memcpy(sums.data(), result.readbacks.at("t.sums").data(), sums.size() * sizeof(std::int64_t));
-    std::array<gpu::uint, gpu::kTallyCount> tally{};
-    std::memcpy(tally.data(), result.readbacks.at("t.tally").data(), sizeof(tally));
+    std::array<gpu::uint, gpu::kCounterCount> counters{};
+    std::memcpy(counters.data(), result.readbacks.at("t.tally").data(), sizeof(counters));
     EXPECT_EQ(sums, want);
-    EXPECT_EQ(tally[gpu::kFaultFilmNonFinite], 3u);
-    EXPECT_EQ(tally[gpu::kFaultFilmClamped], 2u);
+    EXPECT_EQ(counters[gpu::kFaultFilmNonFinite], 3u);
+    EXPECT_EQ(counters[gpu::kFaultFilmClamped], 2u);
 }
 
 // Surface AOVs are means over samples; position and depth are those of the first.
@@ -177,7 +177,7 @@ TEST(Aov, albedo_and_normal_follow_the_hits) {
     Scene scene = plane_scene();
     scene.materials.push_back({.name = "red", .albedo = glm::vec3(0.75f, 0.5f, 0.25f)});
     test::add_box(scene, {-4, -4, 0}, {4, 4, 5}, 1);
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     const test::FramePlanes planes = rig.render(0);
     const std::vector<std::int64_t> albedo = rig.film_sums("albedo");
     const std::vector<std::int64_t> normal = rig.film_sums("normal");

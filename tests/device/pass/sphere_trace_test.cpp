@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "passes/plane.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/march_probe.h"
 #include "support/pixel_oracle.h"
 #include "support/test_scenes.h"
@@ -52,7 +52,7 @@ struct Judged {
 Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
     Scene bare = scene;
     bare.spheres.clear();
-    test::FrameRig rig(bare);
+    test::FrameFixture rig(bare);
     const std::vector<gpu::Hit> voxels = rig.render(0).hits;
     Judged judged;
     for (std::size_t i = 0; i < hits.size(); ++i) {

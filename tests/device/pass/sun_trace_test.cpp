@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "shared/sampling.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/occlusion_forms.h"
 #include "support/test_scenes.h"
 
@@ -34,7 +34,7 @@ Scene sunny_floor() {
     return scene;
 }
 
-glm::dvec3 position_of(const test::FrameRig& rig, const gpu::Hit& hit) {
+glm::dvec3 position_of(const test::FrameFixture& rig, const gpu::Hit& hit) {
     return glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
 }
 
@@ -66,7 +66,7 @@ Scene walled_floor(float angular_diameter_deg) {
 }
 
 TEST(SunTrace, hard_shadow_ends_where_the_wall_top_hides_the_sun) {
-    test::FrameRig rig(walled_floor(0.0f));
+    test::FrameFixture rig(walled_floor(0.0f));
     const test::FramePlanes planes = rig.render(0);
     const double reach = kWallTop / std::tan(radians(40.0));  // of the shadow along the floor
     int lit = 0;
@@ -86,7 +86,7 @@ TEST(SunTrace, sphere_under_a_sun_in_the_zenith_shadows_a_disc_of_its_radius) {
     scene.sun.elevation_deg = 90.0f;
     scene.spheres.push_back({glm::dvec3(0.25, 0.5, 7.0), 2.5, 0});
     scene.camera = test::camera_towards({0.0, -14.0, 4.0}, {0.25, 0.5, 0.0}, 40.0);
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     const test::FramePlanes planes = rig.render(0);
     int dark = 0;
     for (std::size_t i = 0; i < planes.hits.size(); ++i) {
@@ -126,7 +126,7 @@ Penumbra measure_penumbra(Sequence sequence, double shift) {
     constexpr double kRadius = 4.0;  // degrees
     Scene scene = walled_floor(static_cast<float>(2.0 * kRadius));
     scene.settings.sequence = sequence;
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     Penumbra penumbra;
     double difference = 0.0;
     double variance = 0.0;
@@ -174,7 +174,7 @@ TEST(SunTrace, mean_over_a_soft_sun_is_the_cosine_of_its_cap) {
     scene.sun.angular_diameter_deg = 20.0f;
     scene.settings.sequence = Sequence::white;
     scene.camera = test::camera_down({0, 0, 20}, 30.0);
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     double sum = 0.0;
     double squares = 0.0;
     double count = 0.0;
@@ -198,7 +198,7 @@ TEST(SunTrace, sun_half_below_the_horizon_lights_half_the_samples) {
     scene.sun.elevation_deg = 1e-6f;
     scene.sun.angular_diameter_deg = 6.0f;
     scene.camera = test::camera_down({0, 0, 20}, 30.0);
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     int lit = 0;
     int count = 0;
     for (std::uint32_t sample = 0; sample < 16; ++sample) {
@@ -208,7 +208,7 @@ TEST(SunTrace, sun_half_below_the_horizon_lights_half_the_samples) {
             ASSERT_GE(value, 0.0f);
             lit_now += value > 0.0f ? 1 : 0;
         }
-        EXPECT_EQ(planes.tally[gpu::kWorkSunRays], static_cast<gpu::uint>(lit_now));
+        EXPECT_EQ(planes.counters[gpu::kWorkSunRays], static_cast<gpu::uint>(lit_now));
         lit += lit_now;
         count += static_cast<int>(planes.sun.size());
     }

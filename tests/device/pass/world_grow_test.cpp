@@ -30,22 +30,22 @@ std::vector<std::uint32_t> words_of(const RunResult& result, const std::string& 
     return words;
 }
 
-MarchWorld grown_on_device(MarchWorld skeleton) {
-    const GrowthNeeds needs = growth_needs(skeleton);
+MarchWorld grown_on_device(MarchWorld unexpanded) {
+    const GrowthNeeds needs = growth_needs(unexpanded);
     Recording recording;
-    const WorldBuffers buffers{declare(recording, "test.roots", skeleton.roots.size()),
-                               declare(recording, "test.nodes", skeleton.nodes.size()),
-                               declare(recording, "test.leaves", skeleton.leaves.size()),
+    const WorldBuffers buffers{declare(recording, "test.roots", unexpanded.roots.size()),
+                               declare(recording, "test.nodes", unexpanded.nodes.size()),
+                               declare(recording, "test.leaves", unexpanded.leaves.size()),
                                declare(recording, "test.homes", needs.home_bytes / 4),
                                declare(recording, "test.grown", needs.grown_bytes / 4)};
-    record_world_build(skeleton, needs, buffers, recording);
+    record_world_build(unexpanded, needs, buffers, recording);
     for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
         recording.readback(name);
     const RunResult result = test_executor().run(recording);
-    skeleton.roots = words_of(result, buffers.roots, skeleton.roots.size());
-    skeleton.nodes = words_of(result, buffers.nodes, skeleton.nodes.size());
-    skeleton.leaves = words_of(result, buffers.leaves, skeleton.leaves.size());
-    return skeleton;
+    unexpanded.roots = words_of(result, buffers.roots, unexpanded.roots.size());
+    unexpanded.nodes = words_of(result, buffers.nodes, unexpanded.nodes.size());
+    unexpanded.leaves = words_of(result, buffers.leaves, unexpanded.leaves.size());
+    return unexpanded;
 }
 
 class WorldGrow : public ::testing::TestWithParam<Traversal> {};
@@ -53,7 +53,7 @@ class WorldGrow : public ::testing::TestWithParam<Traversal> {};
 TEST_P(WorldGrow, device_gives_the_bits_of_the_cpu_for_every_small_world) {
     for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
         const MarchWorld want = build_march_world(named.world, GetParam());
-        const MarchWorld got = grown_on_device(build_march_skeleton(named.world, GetParam()));
+        const MarchWorld got = grown_on_device(build_unexpanded_world(named.world, GetParam()));
         EXPECT_EQ(got.roots, want.roots) << named.name;
         EXPECT_EQ(got.nodes, want.nodes) << named.name;
         EXPECT_EQ(got.leaves, want.leaves) << named.name;
@@ -80,7 +80,7 @@ TEST_P(WorldGrowNightly, b11_roots_of_more_than_65535_groups_get_the_bits_of_the
         world.set(glm::ivec3(gpu::pcg3d(glm::uvec3(i, kSeed, 1)) % glm::uvec3(world.size())), 1);
     const MarchWorld want = build_march_world(world, GetParam());
     ASSERT_GT(want.roots.size(), std::size_t{65535} * 64);
-    const MarchWorld got = grown_on_device(build_march_skeleton(world, GetParam()));
+    const MarchWorld got = grown_on_device(build_unexpanded_world(world, GetParam()));
     EXPECT_TRUE(got.roots == want.roots && got.nodes == want.nodes && got.leaves == want.leaves);
 }
 
@@ -98,20 +98,20 @@ TEST(WorldGrowLargeNightly, levels_over_the_binding_limit_get_the_bits_of_the_cp
     for (const Traversal traversal : {Traversal::deep, Traversal::wide}) {
         const MarchWorld want = build_march_world(world, traversal);
         ASSERT_GT(std::max(want.nodes.size(), want.roots.size()), std::size_t{128 << 20} / 4);
-        const MarchWorld got = grown_on_device(build_march_skeleton(world, traversal));
+        const MarchWorld got = grown_on_device(build_unexpanded_world(world, traversal));
         EXPECT_TRUE(got.roots == want.roots && got.nodes == want.nodes && got.leaves == want.leaves)
             << name_of(traversal);
     }
 }
 
-TEST(WorldGrowJudge, sees_a_world_that_differs_by_one_voxel) {
+TEST(WorldGrowChecker, sees_a_world_that_differs_by_one_voxel) {
     test::NamedWorld named = test::small_worlds(kSeed).back();
     const MarchWorld want = build_march_world(named.world, Traversal::wide);
     glm::ivec3 empty(1);
     while (named.world.get(empty) != VoxelWorld::kEmpty)
         ++empty.x;
     named.world.set(empty, 1);
-    const MarchWorld got = grown_on_device(build_march_skeleton(named.world, Traversal::wide));
+    const MarchWorld got = grown_on_device(build_unexpanded_world(named.world, Traversal::wide));
     EXPECT_FALSE(got.leaves == want.leaves && got.roots == want.roots);
 }
 

@@ -63,7 +63,7 @@ TEST_P(MarchOnDevice, every_family_agrees_with_boxes_in_double_precision) {
 
 INSTANTIATE_TEST_SUITE_P(Probe, MarchOnDevice, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
-TEST(MarchOnDeviceJudge, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
+TEST(MarchOnDeviceChecker, a_ray_changed_in_its_last_bit_is_caught_by_the_comparison) {
     const MarchWorld march_world = build_march_world(test::small_worlds(kSeed)[9].world);
     std::vector<gpu::Ray> rays = all_rays(march_world.size(), 100);
     const auto got = test::march_on_device(march_world, rays);

@@ -61,19 +61,19 @@ using Words = std::vector<std::uint32_t> MarchWorld::*;
 
 // The device's rays against those of C++, and against those of a world whose last or first words are other.
 void expect_march_reads_both_ends(const VoxelWorld& world, Traversal traversal, Words words) {
-    MarchWorld skeleton = build_march_skeleton(world, traversal);
-    ASSERT_GT((skeleton.*words).size(), kBindingWords);
+    MarchWorld unexpanded = build_unexpanded_world(world, traversal);
+    ASSERT_GT((unexpanded.*words).size(), kBindingWords);
     const std::vector<gpu::Ray> rays = rays_at_both_ends(world);
-    const auto got = test::march_on_device(skeleton, rays);
-    const auto difference = test::differing_bits<gpu::MarchProbe>(got, test::march_in_cpp(skeleton, rays));
+    const auto got = test::march_on_device(unexpanded, rays);
+    const auto difference = test::differing_bits<gpu::MarchProbe>(got, test::march_in_cpp(unexpanded, rays));
     EXPECT_EQ(difference.count, 0u) << test::print(rays[difference.first]) << ", " << difference.detail;
     constexpr std::ptrdiff_t block = 64;
-    const auto first = (skeleton.*words).begin();
-    const auto last = (skeleton.*words).end() - block;
+    const auto first = (unexpanded.*words).begin();
+    const auto last = (unexpanded.*words).end() - block;
     for (const auto& place : {first, last}) {
         const std::vector<std::uint32_t> kept(place, place + block);
         std::fill(place, place + block, 0u);
-        const auto changed = test::march_in_cpp(skeleton, rays);
+        const auto changed = test::march_in_cpp(unexpanded, rays);
         EXPECT_GT(test::differing_bits<gpu::MarchProbe>(got, changed).count, 0u);
         std::ranges::copy(kept, place);
     }

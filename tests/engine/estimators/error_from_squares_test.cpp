@@ -151,7 +151,7 @@ TEST(FilmVariance, where_squares_are_full_the_halves_tell) {
     const std::vector<std::uint64_t> four = {4};
     // (2 - 1)^2 / 4
     EXPECT_DOUBLE_EQ(mean_variance({a, four}, {b, four}, full, 0)[0], 0.25);
-    // Equal halves: a lamp too bright for its squares has no noise.
+    // Equal halves: an emitter too bright for its squares has no noise.
     EXPECT_EQ(mean_variance({a, four}, {a, four}, full, 0)[0], 0.0);
 }
 

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kRoundings = 1e-6;  // of some floats of order one
 
-const AoReference kReference{.pixels = {1, 3}, .openness = {0.25f, 0.5f}};
+const AoReference kReference{.pixels = {1, 3}, .visibility = {0.25f, 0.5f}};
 
 TEST(AoNumbers, rmse_is_the_root_of_the_mean_square_over_the_reference) {
-    const std::vector<float> openness = {9.0f, 0.5f, 9.0f, 1.0f};
-    EXPECT_NEAR(rmse_over(kReference, openness), std::sqrt((0.0625 + 0.25) / 2.0), kRoundings);
+    const std::vector<float> visibility = {9.0f, 0.5f, 9.0f, 1.0f};
+    EXPECT_NEAR(rmse_over(kReference, visibility), std::sqrt((0.0625 + 0.25) / 2.0), kRoundings);
 }
 
 TEST(AoNumbers, rmse_sees_each_pixel_of_the_reference_and_no_other) {
@@ -45,10 +45,10 @@ TEST(AoNumbers, change_is_the_mean_over_the_pixels_in_either_direction) {
 }
 
 TEST(AoNumbers, noise_of_a_reference_is_that_of_a_coin_thrown_so_often) {
-    const AoReference coin{.pixels = {0}, .openness = {0.5f}};
+    const AoReference coin{.pixels = {0}, .visibility = {0.5f}};
     EXPECT_NEAR(noise_bound(coin, 100), 0.05, kRoundings);
     EXPECT_NEAR(noise_bound(coin, 400), 0.025, kRoundings);
-    const AoReference certain{.pixels = {0, 1}, .openness = {0.0f, 1.0f}};
+    const AoReference certain{.pixels = {0, 1}, .visibility = {0.0f, 1.0f}};
     EXPECT_EQ(noise_bound(certain, 1), 0.0);
     EXPECT_EQ(noise_bound({}, 1), 0.0);
 }
@@ -57,14 +57,14 @@ TEST(AoNumbers, noise_of_a_reference_is_that_of_a_coin_thrown_so_often) {
 AoWork two_frames() {
     AoWork work;
     for (const gpu::uint swaps : {10u, 0u}) {
-        std::array<gpu::uint, gpu::kTallyCount> tally{};
-        tally[gpu::kWorkAoRays] = 400;
-        tally[gpu::kWorkAoOwnRays] = 80;
-        tally[gpu::kWorkAoSwaps] = swaps;
-        tally[gpu::kWorkAoSearches] = 25;
-        tally[gpu::kWorkAoReused] = 75;
-        tally[gpu::kWorkAoProbes] = 50;
-        work.add(tally);
+        std::array<gpu::uint, gpu::kCounterCount> counters{};
+        counters[gpu::kWorkAoRays] = 400;
+        counters[gpu::kWorkAoOwnRays] = 80;
+        counters[gpu::kWorkAoSwaps] = swaps;
+        counters[gpu::kWorkAoSearches] = 25;
+        counters[gpu::kWorkAoReused] = 75;
+        counters[gpu::kWorkAoProbes] = 50;
+        work.add(counters);
     }
     return work;
 }
@@ -75,7 +75,7 @@ TEST(AoNumbers, atomics_are_the_swaps_and_two_for_each_sample_of_a_cell) {
 }
 
 TEST(AoNumbers, atomics_change_with_each_count_that_they_depend_on) {
-    for (std::size_t i = 0; i < gpu::kTallyCount; ++i) {
+    for (std::size_t i = 0; i < gpu::kCounterCount; ++i) {
         AoWork perturbed = two_frames();
         perturbed.counts[i] += 8;
         const bool counts = i == gpu::kWorkAoRays || i == gpu::kWorkAoOwnRays || i == gpu::kWorkAoSwaps;

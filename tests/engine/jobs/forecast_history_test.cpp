@@ -51,13 +51,13 @@ TEST(ForecastHistory, place_that_cannot_be_written_is_no_error) {
 TEST(ForecastHistory, file_that_is_full_becomes_the_old_one) {
     const ScratchFolder scratch;
     const std::filesystem::path file = scratch / "f.jsonl";
-    const Json big = {{"text", std::string(kMostHistoryBytes / 4, 'x')}};
+    const Json big = {{"text", std::string(kMaxHistoryBytes / 4, 'x')}};
     for (int i = 0; i < 11; ++i)
         EXPECT_TRUE(append_history(file, big));
     std::uintmax_t bytes = 0;
     for (const auto& found : std::filesystem::directory_iterator(file.parent_path()))
         bytes += found.file_size();
-    EXPECT_LE(bytes, 2 * (kMostHistoryBytes + kMostHistoryBytes / 4 + 64));
+    EXPECT_LE(bytes, 2 * (kMaxHistoryBytes + kMaxHistoryBytes / 4 + 64));
     EXPECT_GE(read_history(file).size(), 4u);
     EXPECT_LE(read_history(file).size(), 8u);
 }

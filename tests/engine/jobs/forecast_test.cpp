@@ -60,7 +60,7 @@ TEST(Forecast, discs_that_shrink_make_later_samples_cheaper) {
 }
 
 TEST(Forecast, samples_allowed_bound_it) {
-    const Forecast forecast = make_forecast(calm_pilot(0.02), 0.01, {.most_samples = 100}).value();
+    const Forecast forecast = make_forecast(calm_pilot(0.02), 0.01, {.max_samples = 100}).value();
     EXPECT_FALSE(forecast.is_reachable);
     EXPECT_EQ(forecast.samples, 100u);
     EXPECT_EQ(forecast.reason, "it needs more than the 100 samples allowed");
@@ -149,12 +149,12 @@ TEST(ErrorRounds, samples_of_a_checkpoint_count) {
 }
 
 TEST(ProgressEstimate, time_left_is_between_the_two_paces) {
-    const FrameRest rest = estimate_rest({.samples = 25.0,
-                                          .end = 100.0,
-                                          .end_high = 120.0,
-                                          .sampling_s = 50.0,
-                                          .recent_s = 1.0,
-                                          .end_s = 3.0});
+    const RemainingTime rest = estimate_remaining({.samples = 25.0,
+                                                   .end = 100.0,
+                                                   .end_high = 120.0,
+                                                   .sampling_s = 50.0,
+                                                   .recent_s = 1.0,
+                                                   .end_s = 3.0});
     EXPECT_EQ(rest.done, 0.25);
     EXPECT_NEAR(rest.expected_s, 153.0, 1e-9);
     EXPECT_NEAR(rest.low_s, 75.0 * 0.95 + 3.0, 1e-9);
@@ -162,7 +162,7 @@ TEST(ProgressEstimate, time_left_is_between_the_two_paces) {
 }
 
 TEST(ProgressEstimate, time_limit_ends_it) {
-    const FrameRest rest = estimate_rest(
+    const RemainingTime rest = estimate_remaining(
         {.samples = 25.0, .end = 100.0, .end_high = 100.0, .sampling_s = 50.0, .limit_left_s = 10.0});
     EXPECT_EQ(rest.high_s, 10.0);
     EXPECT_NEAR(rest.done, 50.0 / 60.0, 1e-9);

@@ -6,7 +6,7 @@
 
 #include "jobs/bench/bench_rays.h"
 #include "jobs/bench/bench_row.h"
-#include "jobs/bench/ray_judge.h"
+#include "jobs/bench/ray_checker.h"
 #include "shared/limits.h"
 #include "support/march_oracle.h"
 #include "support/ray_families.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr glm::ivec2 kSize{64, 40};
 
-struct Rig {
+struct Fixture {
     BenchScene scene = procedural_scene(64, 3);
     MarchWorld guide = build_march_world(scene.world);
 
@@ -48,7 +48,7 @@ TEST(BenchScene, same_seed_gives_the_same_world_and_another_another) {
 }
 
 TEST(BenchScene, world_has_many_materials_an_empty_border_and_mostly_air) {
-    for (const int extent : {kLeastExtent, 64, 256}) {
+    for (const int extent : {kMinExtent, 64, 256}) {
         const BenchScene scene = procedural_scene(extent, 0);
         EXPECT_EQ(scene.world.size(), glm::ivec3(extent));
         std::set<int> materials;
@@ -72,14 +72,14 @@ TEST(BenchScene, voxels_grow_as_a_surface) {
 }
 
 TEST(BenchScene, picture_has_surfaces_and_sky) {
-    const Rig rig;
+    const Fixture rig;
     const double share = static_cast<double>(rig.rays(RayKind::ao).size()) / (kSize.x * kSize.y);
     EXPECT_GT(share, 0.5);
     EXPECT_LT(share, 0.95);
 }
 
 TEST(BenchRays, primary_rays_come_in_tiles_whose_rows_alternate) {
-    const Rig rig;
+    const Fixture rig;
     const std::vector<gpu::Ray> rays = rig.rays(RayKind::primary);
     ASSERT_EQ(rays.size(), 64u * 40u);
     // Rows of tiles 0 2 4 1 3 of the picture, whose directions go down.
@@ -91,7 +91,7 @@ TEST(BenchRays, primary_rays_come_in_tiles_whose_rows_alternate) {
 }
 
 TEST(BenchRays, other_rays_leave_what_the_primary_rays_meet) {
-    const Rig rig;
+    const Fixture rig;
     const std::vector<gpu::Ray> bounded = rig.rays(RayKind::ao);
     const std::vector<gpu::Ray> unbounded = rig.rays(RayKind::unbounded);
     std::size_t hits = 0;
@@ -107,7 +107,7 @@ TEST(BenchRays, other_rays_leave_what_the_primary_rays_meet) {
     }
 }
 
-TEST(RayJudge, walk_stops_where_boxes_in_double_precision_stop_the_ray) {
+TEST(RayChecker, walk_stops_where_boxes_in_double_precision_stop_the_ray) {
     constexpr double kMargin = 1e-4;  // voxels; rays of fewer than 64 cells in floats
     int judged = 0;
     for (const test::NamedWorld& named : test::small_worlds(7)) {
@@ -126,11 +126,11 @@ TEST(RayJudge, walk_stops_where_boxes_in_double_precision_stop_the_ray) {
     EXPECT_GT(judged, 1000);
 }
 
-TEST(RayJudge, march_has_no_mismatch_and_each_perturbed_hit_is_one) {
-    const Rig rig;
+TEST(RayChecker, march_has_no_mismatch_and_each_perturbed_hit_is_one) {
+    const Fixture rig;
     for (const RayKind kind : kRayKinds) {
         const std::vector<gpu::Ray> rays = rig.rays(kind);
-        const Verdicts verdicts = judge_rays(rig.scene.world, rays, ~std::uint64_t{0});
+        const Verdicts verdicts = check_rays(rig.scene.world, rays, ~std::uint64_t{0});
         EXPECT_EQ(verdicts.rays.size(), rays.size());
         const std::vector<gpu::BenchHit> hits = march_all(rig.guide, rays);
         EXPECT_EQ(count_mismatches(verdicts, hits), 0u) << name_of(kind);
@@ -150,10 +150,10 @@ TEST(RayJudge, march_has_no_mismatch_and_each_perturbed_hit_is_one) {
     }
 }
 
-TEST(RayJudge, few_cells_judge_a_spread_share_of_the_rays) {
-    const Rig rig;
+TEST(RayChecker, few_cells_judge_a_spread_share_of_the_rays) {
+    const Fixture rig;
     const std::vector<gpu::Ray> rays = rig.rays(RayKind::primary);
-    const Verdicts verdicts = judge_rays(rig.scene.world, rays, 2000);
+    const Verdicts verdicts = check_rays(rig.scene.world, rays, 2000);
     const std::set<std::size_t> judged(verdicts.rays.begin(), verdicts.rays.end());
     EXPECT_EQ(judged.size(), verdicts.rays.size());
     ASSERT_GE(judged.size(), 10u);

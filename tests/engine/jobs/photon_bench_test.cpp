@@ -23,21 +23,21 @@ float& at(Image& image, int x, int y) {
     return image.channels["Y"].pixels[static_cast<std::size_t>(y * image.width + x)];
 }
 
-TEST(PhotonErrors, mask_leaves_out_a_lamp_and_three_steps_around_it) {
+TEST(PhotonErrors, mask_leaves_out_a_emitter_and_three_steps_around_it) {
     Image picture = grey(16, 12, 1.0f);
     at(picture, 7, 5) = 5.1f;
-    Image mask = lamp_mask(picture);
+    Image mask = emitter_mask(picture);
     for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 16; ++x)
             EXPECT_EQ(at(mask, x, y) == 0.0f, std::abs(x - 7) + std::abs(y - 5) <= 3) << x << " " << y;
 }
 
-TEST(PhotonErrors, mask_at_a_corner_stays_inside_and_no_lamp_masks_nothing) {
+TEST(PhotonErrors, mask_at_a_corner_stays_inside_and_no_emitter_masks_nothing) {
     Image picture = grey(5, 5, 5.0f);
-    Image mask = lamp_mask(picture);
+    Image mask = emitter_mask(picture);
     EXPECT_EQ(std::ranges::count(mask.channels["Y"].pixels, 0.0f), 0);
     at(picture, 4, 4) = 6.0f;
-    mask = lamp_mask(picture);
+    mask = emitter_mask(picture);
     EXPECT_EQ(std::ranges::count(mask.channels["Y"].pixels, 0.0f), 10);  // 4 + 3 + 2 + 1
 }
 
@@ -57,7 +57,7 @@ TEST(PhotonErrors, blur_keeps_what_is_equal_everywhere_up_to_the_border) {
     EXPECT_NEAR(blurred_rmse(reference, test, {0, 0, 1, 1}), 0.5, kRoundings);
 }
 
-TEST(PhotonErrors, lamps_count_for_nothing_and_other_pixels_as_relmse) {
+TEST(PhotonErrors, emitters_count_for_nothing_and_other_pixels_as_relmse) {
     Image reference = grey(20, 20, 1.0f);
     at(reference, 0, 0) = 9.0f;
     Image test = grey(20, 20, 1.1f);

@@ -1,4 +1,4 @@
-// Knobs, runs, CSV and JSON of a price list that no device measured.
+// Parameters, runs, CSV and JSON of a price list that no device measured.
 
 #include <gtest/gtest.h>
 
@@ -18,45 +18,47 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
         plan.effects[static_cast<std::size_t>(effect)].on = true;
     plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
     plan.settings.size = plan.image_size = {4, 3};
-    plan.band_rows = plan.slice_rows = 3;
-    plan.band_count = 1;
+    plan.film_tile_rows = plan.tile_rows = 3;
+    plan.film_tile_count = 1;
     plan.world.root_bytes = plan.world.node_bytes = plan.world.leaf_bytes = 4;
     plan.material_count = 1;
     return plan;
 }
 
-std::set<std::string> knobs_of(const KnobDesign& design) {
+std::set<std::string> parameters_of(const ParameterDesign& design) {
     std::set<std::string> names;
-    for (const Knob& knob : design.knobs)
-        names.insert(knob.name);
+    for (const Parameter& parameter : design.parameters)
+        names.insert(parameter.name);
     return names;
 }
 
-TEST(Knobs, are_those_of_what_the_plan_uses) {
-    EXPECT_EQ(knobs_of(design_knobs(plan_with({Effect::spheres}), {})),
+TEST(Parameters, are_those_of_what_the_plan_uses) {
+    EXPECT_EQ(parameters_of(design_parameters(plan_with({Effect::spheres}), {})),
               (std::set<std::string>{"samples", "sequence"}));
-    EXPECT_EQ(knobs_of(design_knobs(plan_with({Effect::voxels, Effect::ao}), {})),
+    EXPECT_EQ(parameters_of(design_parameters(plan_with({Effect::voxels, Effect::ao}), {})),
               (std::set<std::string>{"samples", "sequence", "traversal", "ao", "ao_cell", "ao_rays"}));
     RenderPlan photons = plan_with({Effect::spheres, Effect::indirect});
-    photons.photons.lamp_photons = 4096;
+    photons.photons.emitter_photons = 4096;
     photons.photons.radius = 2.0;
-    EXPECT_EQ(knobs_of(design_knobs(photons, {.settings = {.photons = {.radius = 2.0}}})),
+    EXPECT_EQ(parameters_of(design_parameters(photons, {.settings = {.photons = {.radius = 2.0}}})),
               (std::set<std::string>{"samples", "sequence", "photons", "radius", "alpha", "gather", "paths",
                                      "estimate"}));
 }
 
-TEST(Knobs, change_one_setting_and_share_the_default) {
+TEST(Parameters, change_one_setting_and_share_the_default) {
     RenderPlan plan = plan_with({Effect::voxels, Effect::ao});
     plan.world.traversal = Traversal::wide;
-    const KnobDesign design = design_knobs(plan, {});
-    for (const Knob& knob : design.knobs) {
-        if (knob.name == "samples") continue;
-        std::set<std::size_t> ways;
-        for (const KnobSetting& setting : knob.settings)
-            EXPECT_TRUE(ways.insert(setting.way).second) << knob.name << " " << setting.name;
-        EXPECT_TRUE(ways.contains(0) || knob.name == "ao_cell") << knob.name;
+    const ParameterDesign design = design_parameters(plan, {});
+    for (const Parameter& parameter : design.parameters) {
+        if (parameter.name == "samples") continue;
+        std::set<std::size_t> configurations;
+        for (const ParameterSetting& setting : parameter.settings)
+            EXPECT_TRUE(configurations.insert(setting.configuration).second)
+                << parameter.name << " " << setting.name;
+        EXPECT_TRUE(configurations.contains(0) || parameter.name == "ao_cell") << parameter.name;
     }
-    EXPECT_EQ(design.ways.size(), 1u + 2u + 5u + 1u + 4u + 3u);  // base, sequences, worlds, hash, cells, rays
+    EXPECT_EQ(design.configurations.size(),
+              1u + 2u + 5u + 1u + 4u + 3u);  // base, sequences, worlds, hash, cells, rays
 }
 
 Level level_of(std::uint32_t samples, double time_s, double error) {
@@ -68,17 +70,17 @@ Level level_of(std::uint32_t samples, double time_s, double error) {
     return level;
 }
 
-// Way 0 has noise alone; each other way takes twice the time for the same.
+// Configuration 0 has noise alone; each other configuration takes twice the time for the same.
 PriceList small_list() {
     PriceList list{.scene = "a.toml", .repeats = 3, .asked = 16, .top = 16};
     const RenderPlan plan = plan_with({Effect::voxels, Effect::ao});
-    list.design = design_knobs(plan, {});
-    for (std::size_t i = 0; i < list.design.ways.size(); ++i) {
-        MeasuredWay way{.way = list.design.ways[i], .plan = plan};
+    list.design = design_parameters(plan, {});
+    for (std::size_t i = 0; i < list.design.configurations.size(); ++i) {
+        MeasuredConfiguration configuration{.configuration = list.design.configurations[i], .plan = plan};
         const double factor = i == 0 ? 0.01 : 0.02;
         for (const std::uint32_t samples : {1u, 4u, 16u})
-            way.levels.push_back(level_of(samples, factor * samples, 0.4 / std::sqrt(samples)));
-        list.ways.push_back(std::move(way));
+            configuration.levels.push_back(level_of(samples, factor * samples, 0.4 / std::sqrt(samples)));
+        list.configurations.push_back(std::move(configuration));
     }
     list.effects = {{.effect = Effect::ao, .on = true, .ms_per_sample = 3.0, .error = 0.2}};
     list.equal_time.pictures.resize(1);
@@ -92,28 +94,28 @@ TEST(PriceList, front_is_way_0_whose_slope_is_a_half) {
     for (const PricedRun& run : front_of(list, list_runs(list)))
         front.push_back(run.id);
     EXPECT_EQ(front, (std::vector<std::string>{"samples-1", "samples-4", "samples-16"}));
-    EXPECT_NEAR(slope_of(list.ways.front())->value, -0.5, 1e-9);
-    EXPECT_NEAR(slope_of_samples(list.ways.front())->value, -0.5, 1e-9);
+    EXPECT_NEAR(slope_of(list.configurations.front())->value, -0.5, 1e-9);
+    EXPECT_NEAR(slope_of_samples(list.configurations.front())->value, -0.5, 1e-9);
 }
 
 TEST(PriceList, run_that_gets_cheap_joins_the_front) {
     PriceList list = small_list();
-    list.ways[1].levels.back().times_s = {0.005, 0.005, 0.005};
+    list.configurations[1].levels.back().times_s = {0.005, 0.005, 0.005};
     const std::vector<PricedRun> front = front_of(list, list_runs(list));
     ASSERT_EQ(front.size(), 1u);
-    EXPECT_EQ(front.front().way, 1u);
+    EXPECT_EQ(front.front().configuration, 1u);
 }
 
 TEST(PriceList, way_without_a_level_has_no_run_and_says_why) {
     PriceList list = small_list();
     const std::size_t before = list_runs(list).size();
-    list.ways.back().levels.clear();
-    list.ways.back().refusal = "too large";
+    list.configurations.back().levels.clear();
+    list.configurations.back().refusal = "too large";
     EXPECT_EQ(list_runs(list).size(), before - 1);
     int left_out = 0;
     const nlohmann::ordered_json json = to_json(list);
-    for (const auto& knob : json["knobs"])
-        for (const auto& setting : knob["left_out"])
+    for (const auto& parameter : json["knobs"])
+        for (const auto& setting : parameter["left_out"])
             left_out += setting["why"] == "too large" ? 1 : 0;
     EXPECT_EQ(left_out, 1);
 }
@@ -132,8 +134,8 @@ TEST(PriceList, json_has_the_keys_that_pages_read) {
         for (const char* key : {"total", "noise", "bias", "bias_low", "bias_high"})
             EXPECT_TRUE(run["error"].contains(key));
     }
-    for (const auto& knob : json["knobs"])
-        for (const auto& id : knob["runs"])
+    for (const auto& parameter : json["knobs"])
+        for (const auto& id : parameter["runs"])
             EXPECT_TRUE(ids.contains(id)) << id;
     for (const auto& id : json["front"])
         EXPECT_TRUE(ids.contains(id)) << id;
@@ -151,36 +153,37 @@ TEST(PriceList, csv_has_as_many_fields_as_names_in_each_line) {
         EXPECT_EQ(std::ranges::count(line, ','), commas) << line;
         ++rows;
     }
-    EXPECT_EQ(rows, 3 * (1u + 3u + 6u + 2u + 5u + 4u));  // levels of: samples, then the settings of each knob
+    EXPECT_EQ(rows,
+              3 * (1u + 3u + 6u + 2u + 5u + 4u));  // levels of: samples, then the settings of each parameter
 }
 
 TEST(SamplePlan, halves_what_was_asked_until_it_fits) {
-    std::vector<MeasuredWay> ways(3);
-    for (MeasuredWay& way : ways)
-        way.per_sample_s = 0.1;
-    RenderSession* const any = reinterpret_cast<RenderSession*>(&ways);  // only compared with null
-    for (MeasuredWay& way : ways)
-        way.session = any;
-    const SamplePlan rich = plan_samples(ways, 64, 3, 1e6);
+    std::vector<MeasuredConfiguration> configurations(3);
+    for (MeasuredConfiguration& configuration : configurations)
+        configuration.per_sample_s = 0.1;
+    RenderSession* const any = reinterpret_cast<RenderSession*>(&configurations);  // only compared with null
+    for (MeasuredConfiguration& configuration : configurations)
+        configuration.session = any;
+    const SamplePlan rich = plan_samples(configurations, 64, 3, 1e6);
     EXPECT_EQ(rich.top, 64u);
-    EXPECT_EQ(rich.of_way[1], (std::vector<std::uint32_t>{4, 16, 64}));
-    EXPECT_EQ(rich.of_way[0], (std::vector<std::uint32_t>{1, 2, 4, 8, 16, 32, 64}));
-    const SamplePlan poor = plan_samples(ways, 64, 3, 20.0);
+    EXPECT_EQ(rich.of_configuration[1], (std::vector<std::uint32_t>{4, 16, 64}));
+    EXPECT_EQ(rich.of_configuration[0], (std::vector<std::uint32_t>{1, 2, 4, 8, 16, 32, 64}));
+    const SamplePlan poor = plan_samples(configurations, 64, 3, 20.0);
     EXPECT_LT(poor.top, 64u);
     EXPECT_LE(poor.cost_s, 20.0);
-    EXPECT_EQ(plan_samples(ways, 64, 3, 0.0).top, 1u);
+    EXPECT_EQ(plan_samples(configurations, 64, 3, 0.0).top, 1u);
 }
 
 TEST(SamplePlan, slow_way_takes_fewer_samples_and_a_refused_one_none) {
-    std::vector<MeasuredWay> ways(3);
-    ways[0].per_sample_s = 0.01;
-    ways[1].per_sample_s = 10.0;
-    RenderSession* const any = reinterpret_cast<RenderSession*>(&ways);
-    ways[0].session = ways[1].session = any;
-    const SamplePlan plan = plan_samples(ways, 64, 3, 400.0);
+    std::vector<MeasuredConfiguration> configurations(3);
+    configurations[0].per_sample_s = 0.01;
+    configurations[1].per_sample_s = 10.0;
+    RenderSession* const any = reinterpret_cast<RenderSession*>(&configurations);
+    configurations[0].session = configurations[1].session = any;
+    const SamplePlan plan = plan_samples(configurations, 64, 3, 400.0);
     EXPECT_EQ(plan.top, 64u);
-    EXPECT_EQ(plan.of_way[1], (std::vector<std::uint32_t>{1}));
-    EXPECT_TRUE(plan.of_way[2].empty());
+    EXPECT_EQ(plan.of_configuration[1], (std::vector<std::uint32_t>{1}));
+    EXPECT_TRUE(plan.of_configuration[2].empty());
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(Effects, unneeded_effect_switched_on_runs_and_says_so) {
 }
 
 // Light that is not let out needs no photons, whatever the scene has.
-TEST(Effects, photons_need_lamps_or_sun_that_are_on) {
+TEST(Effects, photons_need_emitters_or_sun_that_are_on) {
     const auto all_off = [](std::initializer_list<Effect> off) {
         EffectRequest request;
         for (const Effect effect : off)

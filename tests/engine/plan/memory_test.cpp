@@ -122,8 +122,10 @@ TEST(PlanMemory, buffers_of_large_pictures_stay_below_the_binding_limit) {
         scene.settings.size = size;
         const RenderPlan plan = test::plan_of(scene);
         EXPECT_LE(largest_buffer(plan), 128 * kMiB) << size.x << "x" << size.y;
-        EXPECT_GE(std::uint64_t{plan.band_rows} * plan.band_count, static_cast<std::uint64_t>(size.y));
-        EXPECT_LT(std::uint64_t{plan.band_rows} * (plan.band_count - 1), static_cast<std::uint64_t>(size.y));
+        EXPECT_GE(std::uint64_t{plan.film_tile_rows} * plan.film_tile_count,
+                  static_cast<std::uint64_t>(size.y));
+        EXPECT_LT(std::uint64_t{plan.film_tile_rows} * (plan.film_tile_count - 1),
+                  static_cast<std::uint64_t>(size.y));
     }
 }
 

@@ -90,7 +90,7 @@ TEST(PlanAo, picture_of_more_rows_or_rays_than_one_dispatch_takes_or_counts_is_r
     RenderSettings settings = asking_for(AoMethod::hash);
     settings.size = {16, 65536};
     AoNeeds needs = kServes;
-    needs.most_rows = 65535;
+    needs.max_rows = 65535;
     EXPECT_NE(answer(settings, needs).find("over 65535 rows"), std::string::npos);
     settings.size.y = 65535;
     EXPECT_EQ(answer(settings, needs), "hash");
@@ -219,9 +219,10 @@ std::set<std::string> planned_names(const std::vector<std::string>& overrides) {
 }
 
 TEST(PlanAo, plan_lists_exactly_what_its_options_need) {
-    EXPECT_EQ(planned_names({"ao.method=brute"}), (std::set<std::string>{"ao.trace", "ao.open"}));
-    const std::set<std::string> merged{"ao.sample",  "ao.resolve", "ao.open",       "ao.frame", "ao.keys",
-                                       "ao.samples", "ao.opens",   "ao.slots_even", "ao.own",   "ao.touched"};
+    EXPECT_EQ(planned_names({"ao.method=brute"}), (std::set<std::string>{"ao.trace", "ao.visibility"}));
+    const std::set<std::string> merged{"ao.sample", "ao.resolve", "ao.visibility", "ao.frame",
+                                       "ao.keys",   "ao.samples", "ao.unoccluded", "ao.slots_even",
+                                       "ao.own",    "ao.touched"};
     EXPECT_EQ(planned_names({"ao.method=hash"}), merged);
     std::set<std::string> cells = merged;
     cells.insert("ao.lookup");
@@ -250,13 +251,13 @@ TEST(PlanAo, recordings_use_exactly_what_the_plan_lists) {
         request.frames = kFrames;
         const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
         const gpu::FrameParams params = frame_params(prepared.plan, scene, prepared.march_world);
-        const Slice slice{.row_count = static_cast<std::uint32_t>(prepared.plan.settings.size.y)};
+        const DispatchTile tile{.row_count = static_cast<std::uint32_t>(prepared.plan.settings.size.y)};
         const Footprint needs = footprint(prepared.plan);
         FrameState state;
         std::set<std::string> used;
         for (std::uint32_t i = 0; i < kFrames; ++i) {
             Recording recording;
-            record_frame(prepared.plan, slice, params, {0, state}, recording);
+            record_frame(prepared.plan, tile, params, {0, state}, recording);
             for (const BufferProxy& proxy : recording.buffers()) {
                 if (!proxy.name.starts_with("ao.")) continue;
                 used.insert(proxy.name);

@@ -78,16 +78,16 @@ RecordedRender record_render(const Scene& scene, const PreparedScene& prepared) 
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     for (std::uint32_t sample = 0; sample < plan.settings.spp; ++sample) {
         for (std::uint32_t row = 0; row < height;) {
-            const std::uint32_t band = row / plan.band_rows;
-            const std::uint32_t band_end = std::min(height, (band + 1) * plan.band_rows);
-            const Slice slice{.band = band,
-                              .band_first_row = band * plan.band_rows,
-                              .first_row = row,
-                              .row_count = std::min(plan.slice_rows, band_end - row)};
+            const std::uint32_t film_tile = row / plan.film_tile_rows;
+            const std::uint32_t film_tile_end = std::min(height, (film_tile + 1) * plan.film_tile_rows);
+            const DispatchTile tile{.film_tile = film_tile,
+                                    .film_tile_first_row = film_tile * plan.film_tile_rows,
+                                    .first_row = row,
+                                    .row_count = std::min(plan.tile_rows, film_tile_end - row)};
             Recording recording;
-            record_frame(plan, slice, params, {sample, {}}, recording);
+            record_frame(plan, tile, params, {sample, {}}, recording);
             add(render, std::move(recording));
-            row += slice.row_count;
+            row += tile.row_count;
         }
     }
     return render;

@@ -34,7 +34,7 @@ namespace voxilux::test {
 // Dispatches by label.
 [[nodiscard]] std::map<std::string, std::uint64_t> planned_counts(const Footprint& needs);
 
-// All that a whole render records when no slice is cut smaller than the plan's.
+// All that a whole render records when no tile is cut smaller than the plan's.
 struct RecordedRender {
     std::vector<Recording> recordings;           // the scene and the cleared film first, then the samples
     std::map<std::string, BufferProxy> buffers;  // by name

@@ -46,19 +46,19 @@ TEST_P(RecordedPlan, colour_only_render_declares_and_dispatches_exactly_the_plan
     expect_as_planned(test::repository_scene(GetParam(), {"render.spp=2"}), PlanRequest{});
 }
 
-// Two film bands, the second one shorter.
+// Two film tiles, the second one shorter.
 TEST_P(RecordedPlan, banded_render_declares_and_dispatches_exactly_the_plan) {
     const Scene scene = test::repository_scene(GetParam(), {"render.spp=2", "render.size=[1280, 1000]"});
-    ASSERT_EQ(test::plan_of(scene).band_count, 2u);
+    ASSERT_EQ(test::plan_of(scene).film_tile_count, 2u);
     expect_as_planned(scene, test::exr_request());
 }
 
-// A picture so high that a band takes several slices.
+// A picture so high that a film tile takes several tiles.
 TEST_P(RecordedPlan, high_render_declares_and_dispatches_exactly_the_plan) {
     Scene scene = test::repository_scene(GetParam(), {"render.spp=2"});
     scene.settings.size = {4, 131072};
     const RenderPlan plan = test::plan_of(scene);
-    ASSERT_LT(plan.slice_rows, plan.band_rows);
+    ASSERT_LT(plan.tile_rows, plan.film_tile_rows);
     expect_as_planned(scene, test::exr_request());
 }
 
@@ -133,8 +133,9 @@ void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request
     }
     const bool has_photons = prepared.plan.has(Effect::caustics) || prepared.plan.has(Effect::indirect);
     EXPECT_EQ(!found_traces(render, {"photon.", "photon_"}).empty(), has_photons);
-    const bool needs_lamps = prepared.plan.has(Effect::direct) || prepared.plan.photons.lamp_photons != 0;
-    EXPECT_EQ(!found_traces(render, {"light."}).empty(), needs_lamps);
+    const bool needs_emitters =
+        prepared.plan.has(Effect::direct) || prepared.plan.photons.emitter_photons != 0;
+    EXPECT_EQ(!found_traces(render, {"light."}).empty(), needs_emitters);
 }
 
 TEST_P(RecordedPlan, absent_effect_leaves_no_command_buffer_or_shader) {
@@ -168,9 +169,9 @@ TEST(RecordedPlanOf, unneeded_effect_that_is_forced_on_is_recorded) {
 // What a recorder adds to the real one, by no other change, is in the footprint.
 TEST(RecordedPlanOf, pass_that_the_recording_gains_is_planned_with_its_count_and_bytes) {
     const RenderPlan plan = test::plan_of(test::repository_scene("night", {"render.spp=5"}));
-    const auto record = [](const RenderPlan& of, const Slice& slice, gpu::FrameParams params,
+    const auto record = [](const RenderPlan& of, const DispatchTile& tile, gpu::FrameParams params,
                            const SampleNumber& number, Recording& recording) {
-        record_frame(of, slice, params, number, recording);
+        record_frame(of, tile, params, number, recording);
         const std::string words = declare<float>(recording, "extra.words", 7);
         recording.dispatch({.label = "extra.step", .shader = "x", .bindings = {{"Words", words}}});
         if (number.sample == 0) recording.dispatch({.label = "extra.first", .shader = "x"});

@@ -111,7 +111,7 @@ TEST(Techniques, properties_are_those_of_the_plan) {
         const RenderPlan plan = plan_with({override_of(technique), "render.size=[1024, 1032]"});
         EXPECT_EQ(takes_a_shard(technique), technique.mergeable());
         EXPECT_EQ(plan.any(&Technique::keeps_state), !technique.mergeable());
-        EXPECT_EQ(plan.band_count == 1, technique.whole_frame);
+        EXPECT_EQ(plan.film_tile_count == 1, technique.whole_frame);
         if (technique.effect != Effect::indirect) continue;
         EXPECT_EQ(plan.needs_pilot(), technique.needs_pilot);
         EXPECT_EQ(plan.has_independent_samples(), technique.independent_samples);

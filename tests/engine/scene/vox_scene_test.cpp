@@ -50,10 +50,10 @@ TEST(VoxMaterial, types_and_properties_are_mapped) {
 }
 
 TEST(VoxMaterial, emission_is_albedo_times_emit_times_two_to_the_flux) {
-    const Material lamp = material_of({{"_type", "_emit"}, {"_emit", "0.5"}, {"_flux", "3"}});
-    EXPECT_EQ(lamp.surface, Surface::emit);
-    EXPECT_EQ(lamp.albedo, glm::vec3(1.0f));
-    EXPECT_EQ(lamp.emission, glm::vec3(4.0f));
+    const Material emitter = material_of({{"_type", "_emit"}, {"_emit", "0.5"}, {"_flux", "3"}});
+    EXPECT_EQ(emitter.surface, Surface::emit);
+    EXPECT_EQ(emitter.albedo, glm::vec3(1.0f));
+    EXPECT_EQ(emitter.emission, glm::vec3(4.0f));
     EXPECT_EQ(material_of({{"_type", "_diffuse"}, {"_emit", "0.5"}, {"_flux", "3"}}).emission,
               glm::vec3(0.0f));
     EXPECT_EQ(material_of({{"_type", "_emit"}, {"_weight", "0.25"}}).emission, glm::vec3(0.25f));
@@ -89,11 +89,11 @@ TEST(VoxMaterial, old_materials_are_mapped_and_newer_ones_replace_them) {
     const std::string old =
         chunk("MATT", i32(1) + i32(3) + f32(0.5f) + u32(0x2a) + f32(0.125f) + f32(0.25f) + f32(0.5f));
     std::vector<std::string> warnings;
-    const Material lamp = vox_materials(read_good(chiral_model(2, 2, 2) + old), warnings)[1];
-    EXPECT_EQ(lamp.surface, Surface::emit);
-    EXPECT_EQ(lamp.roughness, 0.125f);
-    EXPECT_EQ(lamp.ior, 1.25f);
-    EXPECT_EQ(lamp.emission, glm::vec3(0.5f * 4.0f));
+    const Material emitter = vox_materials(read_good(chiral_model(2, 2, 2) + old), warnings)[1];
+    EXPECT_EQ(emitter.surface, Surface::emit);
+    EXPECT_EQ(emitter.roughness, 0.125f);
+    EXPECT_EQ(emitter.ior, 1.25f);
+    EXPECT_EQ(emitter.emission, glm::vec3(0.5f * 4.0f));
     const auto both = vox_materials(
         read_good(chiral_model(2, 2, 2) + old + record("MATL", 1, {{"_type", "_glass"}})), warnings);
     EXPECT_EQ(both[1].surface, Surface::glass);

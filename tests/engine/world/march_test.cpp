@@ -194,8 +194,7 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
             glm::vec3 direction(0.0f);
             direction[a] = (hit.face & 1u) != 0 ? elevation : -elevation;
             direction[(a + 1) % 3] = std::sqrt(std::max(0.0f, 1.0f - elevation * elevation));
-            const gpu::Ray next =
-                gpu::leave_surface(hit.cell, hit.face, fraction, direction, gpu::kUnbounded);
+            const gpu::Ray next = gpu::spawn_ray(hit.cell, hit.face, fraction, direction, gpu::kUnbounded);
             const gpu::MarchHit second = gpu::march(march_world, next, march_world.chunks_size);
             ++spawned;
             if (second.face == gpu::kFaceMiss) continue;

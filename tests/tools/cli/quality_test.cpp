@@ -49,7 +49,7 @@ TEST(Quality, explicit_flags_win) {
     EXPECT_EQ(samples_of({"--quality", "fine", "--iterations", "7"}), 7u);
 }
 
-TEST(Quality, scenes_with_lamps_have_samples_of_their_own) {
+TEST(Quality, scenes_with_emitters_have_samples_of_their_own) {
     const auto iterations = [](const Words& more) { return samples_of(more, "cornell"); };
     const std::uint64_t preset = iterations({"--quality", "normal"});
     EXPECT_NE(preset, samples_of({"--quality", "normal"}));

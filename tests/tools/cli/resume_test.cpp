@@ -89,7 +89,7 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
     EXPECT_FALSE(bytes_of(scratch / "a.exr") == uninterrupted({"--spp", std::to_string(samples + 4)}));
 }
 
-// So many rays for each pixel that the first slice is one row and the second four: the signal comes within
+// So many rays for each pixel that the first tile is one row and the second four: the signal comes within
 // the first sample.
 TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
     const ScratchFolder scratch;

@@ -55,7 +55,7 @@ TEST(SteadyMemory, of_cells_of_occlusion) {
     EXPECT_LT(growth_mib({scene_file("first_light"), "--ao", "hash"}), kSteady);
 }
 
-TEST(SteadyMemory, of_lamps_and_photons) {
+TEST(SteadyMemory, of_emitters_and_photons) {
     for (const char* scene : {"emitters", "glass_block", "cornell"})
         EXPECT_LT(growth_mib({scene_file(scene), "--photons", "256"}), kSteady) << scene;
 }

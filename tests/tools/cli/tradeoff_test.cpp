@@ -29,10 +29,10 @@ Json json_of(const fs::path& file) {
     return Json::parse(stream);
 }
 
-std::map<std::string, Json> runs_of(const Json& list, const std::string& knob) {
+std::map<std::string, Json> runs_of(const Json& list, const std::string& parameter) {
     std::map<std::string, Json> runs;
     for (const Json& run : list["runs"])
-        if (run["knob"] == knob) runs[run["setting"]] = run;
+        if (run["knob"] == parameter) runs[run["setting"]] = run;
     return runs;
 }
 
@@ -68,11 +68,11 @@ void expect_whole_files(const Made& made) {
         EXPECT_TRUE(there.contains(fs::path(name).filename())) << name;
 }
 
-void expect_knobs_of_the_plan(const Made& made) {
+void expect_parameters_of_the_plan(const Made& made) {
     std::set<std::string> names;
-    for (const Json& knob : made.list["knobs"]) {
-        names.insert(knob["name"]);
-        EXPECT_TRUE(knob["left_out"].empty()) << knob["left_out"];
+    for (const Json& parameter : made.list["knobs"]) {
+        names.insert(parameter["name"]);
+        EXPECT_TRUE(parameter["left_out"].empty()) << parameter["left_out"];
     }
     EXPECT_EQ(names, (std::set<std::string>{"samples", "sequence", "traversal", "ao", "ao_cell", "ao_rays",
                                             "estimate"}));
@@ -97,9 +97,9 @@ void expect_sequences_to_change_pixels(const Made& made) {
 }
 
 void expect_the_slope_of_white_noise(const Made& made) {
-    const Json& knob = made.list["knobs"][0];
-    ASSERT_EQ(knob["name"], "samples");
-    const Json& slope = knob["slope_of_samples"];
+    const Json& parameter = made.list["knobs"][0];
+    ASSERT_EQ(parameter["name"], "samples");
+    const Json& slope = parameter["slope_of_samples"];
     ASSERT_FALSE(slope.is_null());
     EXPECT_NEAR(slope["value"], -0.5, 0.04);
     EXPECT_LT(slope["low"], slope["high"]);
@@ -162,7 +162,7 @@ TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
     ASSERT_EQ(made.ending.code, 0) << made.ending.err;
     EXPECT_EQ(made.ending.out, "");
     expect_whole_files(made);
-    expect_knobs_of_the_plan(made);
+    expect_parameters_of_the_plan(made);
     expect_structures_to_change_no_pixel(made);
     expect_sequences_to_change_pixels(made);
     expect_the_slope_of_white_noise(made);

@@ -1,4 +1,4 @@
-// The Cornell box against the reference picture, as the measure of photon mapping is defined: the lamps'
+// The Cornell box against the reference picture, as the measure of photon mapping is defined: the emitters'
 // discs (luminance above 5, grown by 3 pixels) are left out; a Gaussian filter of 2 pixels tells the caustic
 // of the glass ball from noise.
 
@@ -12,7 +12,7 @@
 
 #include "formats/exr.h"
 #include "formats/scene_toml.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/shared_data.h"
 
 namespace voxilux {
@@ -50,8 +50,8 @@ double luminance(const glm::dvec3& colour) {
     return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// Whether a lamp is within `reach` pixels, counted along rows and columns.
-bool is_near_lamp(const Picture& reference, int x, int y, int reach) {
+// Whether an emitter is within `reach` pixels, counted along rows and columns.
+bool is_near_emitter(const Picture& reference, int x, int y, int reach) {
     for (int j = -reach; j <= reach; ++j) {
         for (int i = -reach + std::abs(j); i <= reach - std::abs(j); ++i) {
             const bool inside =
@@ -100,7 +100,7 @@ Measure measure(const Picture& test, const Picture& reference, int scale) {
         for (int x = 0; x < test.width; ++x) {
             const glm::dvec3 t = test.at(x, y), r = reference.at(x, y);
             difference.push_back(luminance(t) - luminance(r));
-            if (is_near_lamp(reference, x, y, 3)) continue;
+            if (is_near_emitter(reference, x, y, 3)) continue;
             const glm::dvec3 relative = (t - r) * (t - r) / (r * r + 0.01);
             result.relmse += relative.x + relative.y + relative.z;
             test_sum += t;

@@ -7,7 +7,7 @@
 
 #include "estimators/metrics.h"
 #include "jobs/effect_price.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {

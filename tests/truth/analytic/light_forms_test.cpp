@@ -1,4 +1,4 @@
-// Light of lamps, glass and mirrors against closed forms.
+// Light of emitters, glass and mirrors against closed forms.
 
 #include <array>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "shared/tally.h"
-#include "support/frame_rig.h"
+#include "shared/counters.h"
+#include "support/frame_fixture.h"
 #include "support/light_pictures.h"
 #include "support/light_scenes.h"
 
@@ -52,37 +52,37 @@ double farthest(const test::PictureZ& z) {
     return std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
 }
 
-// A white floor under a lamp, seen from above the lamp's side.
-Scene floor_under_lamp(double radius, double height) {
+// A white floor under an emitter, seen from above the emitter's side.
+Scene floor_under_emitter(double radius, double height) {
     Scene scene = test::dark_scene(24, 1024, 0.1);
     test::add_box(scene, {-20, -20, -1}, {20, 20, 0}, test::add_diffuse(scene, 1.0f));
-    scene.spheres.push_back({glm::dvec3(0.0, 0.0, height), radius, test::add_lamp(scene, 3.0f)});
+    scene.spheres.push_back({glm::dvec3(0.0, 0.0, height), radius, test::add_emitter(scene, 3.0f)});
     scene.camera = test::camera_down({8.0, 0.0, 30.0}, 8.0);
     return scene;
 }
 
 // Irradiance of a sphere wholly above the horizon: pi L sin^2 cos, with the angle under which its centre is
 // seen and that of its radius. The radiance of a white floor is that over pi.
-double lamplight(double radius, double height, glm::dvec2 at) {
+double emitter_light(double radius, double height, glm::dvec2 at) {
     const double square = glm::dot(at, at) + height * height;
     return 3.0 * radius * radius / square * height / std::sqrt(square);
 }
 
-TEST(LightForms, sphere_lamp_lights_a_floor_by_its_solid_angle) {
+TEST(LightForms, sphere_emitter_lights_a_floor_by_its_solid_angle) {
     for (const double radius : {0.01, 1.0, 3.999}) {
-        const Scene scene = floor_under_lamp(radius, 4.0);
+        const Scene scene = floor_under_emitter(radius, 4.0);
         const auto z = z_of(render(scene, 48), [&](glm::ivec2 pixel) {
-            return lamplight(radius, 4.0, floor_point(scene, pixel, 0.0));
+            return emitter_light(radius, 4.0, floor_point(scene, pixel, 0.0));
         });
         EXPECT_LT(z.rms, 1.15) << radius;
         EXPECT_LT(farthest(z), kFarOff) << radius;
     }
 }
 
-TEST(LightForms, lamp_a_fiftieth_too_high_is_caught) {
-    const Scene scene = floor_under_lamp(1.0, 4.08);
+TEST(LightForms, emitter_a_fiftieth_too_high_is_caught) {
+    const Scene scene = floor_under_emitter(1.0, 4.08);
     const auto z = z_of(render(scene, 48), [&](glm::ivec2 pixel) {
-        return lamplight(1.0, 4.0, floor_point(scene, pixel, 0.0));
+        return emitter_light(1.0, 4.0, floor_point(scene, pixel, 0.0));
     });
     EXPECT_GT(farthest(z), 2.0 * kFarOff);
 }
@@ -101,8 +101,8 @@ double cube_light(glm::dvec2 at) {
                 point[(axis + 2) % 3] += (i / kParts + 0.5) / kParts;
                 const glm::dvec3 way = point - glm::dvec3(at, 0.0);
                 const double square = glm::dot(way, way);
-                const double lamp_cosine = (side == 1 ? -1.0 : 1.0) * way[axis] / std::sqrt(square);
-                if (lamp_cosine > 0.0) sum += way.z / std::sqrt(square) * lamp_cosine / square;
+                const double emitter_cosine = (side == 1 ? -1.0 : 1.0) * way[axis] / std::sqrt(square);
+                if (emitter_cosine > 0.0) sum += way.z / std::sqrt(square) * emitter_cosine / square;
             }
         }
     }
@@ -112,7 +112,7 @@ double cube_light(glm::dvec2 at) {
 TEST(LightForms, emitting_voxel_lights_a_floor_by_its_faces) {
     Scene scene = test::dark_scene(16, 1024, 0.1);
     test::add_box(scene, {-20, -20, -1}, {20, 20, 0}, test::add_diffuse(scene, 1.0f));
-    test::add_box(scene, {0, 0, 2}, {1, 1, 3}, test::add_lamp(scene, 3.0f));
+    test::add_box(scene, {0, 0, 2}, {1, 1, 3}, test::add_emitter(scene, 3.0f));
     scene.camera = test::camera_down({4.0, 0.5, 30.0}, 8.0);
     const LightPicture picture = render(scene, 64);
     const auto z = z_of(picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0)); });
@@ -159,8 +159,8 @@ TEST(LightForms, slab_of_glass_moves_an_edge_by_snells_law) {
     const auto edge_column = [&](float ior) {
         Scene scene = test::dark_scene(256, 1024, 0.1);
         scene.settings.size = {256, 4};
-        const std::uint16_t lamp = test::add_lamp(scene, 1.0f);
-        test::add_box(scene, {-60, 50, -4}, {0, 51, 4}, lamp);
+        const std::uint16_t emitter = test::add_emitter(scene, 1.0f);
+        test::add_box(scene, {-60, 50, -4}, {0, 51, 4}, emitter);
         if (ior > 1.0f) test::add_box(scene, {-120, 10, -4}, {60, 14, 4}, test::add_glass(scene, ior));
         // Rays come at 45 degrees from far away, almost parallel, and meet the edge (0, 50, 0) without glass.
         const glm::dvec3 back = glm::dvec3(-std::sin(kAngle), -std::cos(kAngle), 0.0);
@@ -251,10 +251,11 @@ TEST(LightForms, ball_of_glass_gathers_the_sun_at_its_focus) {
 }
 
 // A closed white room one wall of which is black and of radiance 1 is full of radiance 1: a furnace.
-Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, int lamp_width) {
+Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, int emitter_width) {
     Scene scene = test::dark_scene(16, 16384, 0.05);
     test::add_room(scene, room, add_wall(scene, 1.0f));
-    test::add_box(scene, {0, room.y, 0}, {lamp_width, room.y + 1, lamp_width}, test::add_lamp(scene, 1.0f));
+    test::add_box(scene, {0, room.y, 0}, {emitter_width, room.y + 1, emitter_width},
+                  test::add_emitter(scene, 1.0f));
     scene.camera = test::camera_towards({0.5 * room.x, 0.25 * room.y, 0.5 * room.z},
                                         {0.9 * room.x, 0.5 * room.y, 0.1 * room.z}, 70.0);
     return scene;
@@ -262,14 +263,14 @@ Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, 
 
 // Standard deviations, of the root of the mean square of blocks that have photons in common: it is hardly
 // more than that of a single number.
-constexpr double kMostOfFew = 2.5;
+constexpr double kMaxOfFew = 2.5;
 
 void expect_furnace(const Scene& scene, std::uint32_t iterations, double radiance, const char* what) {
     const std::array blocks{4, 16};
     const auto pictures = test::render_light(scene, {iterations, blocks, {}});
     const auto z = z_of(pictures[0], [&](glm::ivec2) { return radiance; });
     const auto whole = z_of(pictures[1], [&](glm::ivec2) { return radiance; });
-    EXPECT_LT(z.rms, kMostOfFew) << what;
+    EXPECT_LT(z.rms, kMaxOfFew) << what;
     EXPECT_LT(farthest(whole), kFarOff) << what;
     EXPECT_LT(std::sqrt(pictures[1].pixels[0].variance_of_mean.x), 0.02 * radiance) << what;
 }
@@ -282,7 +283,8 @@ TEST(LightForms, white_furnace_of_diffuse_walls) {
 
 TEST(LightForms, white_furnace_of_mirror_walls) {
     Scene scene = furnace(test::add_mirror, {8, 8, 8}, 8);
-    scene.camera->fov_y_deg = 30.0;  // no ray is nearly parallel to the lamp, which many mirrors would meet
+    scene.camera->fov_y_deg =
+        30.0;  // no ray is nearly parallel to the emitter, which many mirrors would meet
     expect_furnace(scene, 16, 1.0, "mirrors");
 }
 
@@ -318,29 +320,29 @@ TEST(LightForms, furnace_that_loses_a_fiftieth_is_caught) {
 // Where all walls glow with radiance L and have the albedo a, there is L / (1 - a) everywhere.
 TEST(LightForms, room_whose_voxels_all_emit_is_evenly_bright) {
     Scene scene = test::dark_scene(16, 16384, 0.05);
-    test::add_room(scene, {6, 6, 6}, test::add_lamp(scene, 1.0f, 0.5f));
+    test::add_room(scene, {6, 6, 6}, test::add_emitter(scene, 1.0f, 0.5f));
     scene.camera = test::camera_towards({3.0, 1.0, 3.0}, {3.2, 6.0, 2.0}, 70.0);
     expect_furnace(scene, 64, 2.0, "all emit");
 }
 
-// A lamp of radius r in a hollow ball of radius R and albedo a: see path_truth_test.
+// An emitter of radius r in a hollow ball of radius R and albedo a: see path_truth_test.
 Scene hollow_ball(double wall_radius, glm::vec3 albedo) {
     Scene scene = test::dark_scene(16, 16384, 0.02 * wall_radius);
     const std::uint16_t wall = test::add_material(scene, {.name = "wall", .albedo = albedo});
     scene.spheres.push_back({glm::dvec3(0.0), wall_radius, wall});
-    scene.spheres.push_back({glm::dvec3(0.0), 0.25 * wall_radius, test::add_lamp(scene, 8.0f)});
+    scene.spheres.push_back({glm::dvec3(0.0), 0.25 * wall_radius, test::add_emitter(scene, 8.0f)});
     scene.camera = test::camera_towards({0.0, -0.5 * wall_radius, 0.0}, {0.0, -wall_radius, 0.0}, 40.0);
     return scene;
 }
-constexpr double kLampPart = 0.25 * 0.25;
+constexpr double kEmitterPart = 0.25 * 0.25;
 
-TEST(LightForms, lamp_in_a_hollow_ball_of_any_size_gives_the_series_of_reflections) {
+TEST(LightForms, emitter_in_a_hollow_ball_of_any_size_gives_the_series_of_reflections) {
     for (const double radius : {4.0, 1e3, 1e4, 1e5, 1e6}) {
         const Scene scene = hollow_ball(radius, {0.25f, 0.5f, 0.75f});
         const TruthPixel pixel = render(scene, 64, 16).pixels.front();
         for (int c = 0; c < 3; ++c) {
             const double a = 0.25 * (c + 1);
-            const double expected = a * 8.0 * kLampPart / (1.0 - a * (1.0 - kLampPart));
+            const double expected = a * 8.0 * kEmitterPart / (1.0 - a * (1.0 - kEmitterPart));
             EXPECT_LT(std::abs(pixel.mean[c] - expected), kFarOff * std::sqrt(pixel.variance_of_mean[c]))
                 << radius << ' ' << c;
             EXPECT_LT(std::sqrt(pixel.variance_of_mean[c]), 0.01 * expected) << radius;
@@ -349,17 +351,17 @@ TEST(LightForms, lamp_in_a_hollow_ball_of_any_size_gives_the_series_of_reflectio
 }
 
 // A photon is stored where it arrives after the first wall, again and again with probability a (1 - F), until
-// roulette takes it or the black lamp, which keeps none because it sends none on.
+// roulette takes it or the black emitter, which keeps none because it sends none on.
 TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
     for (const float albedo : {0.5f, 0.9f}) {
         constexpr double kPhotons = 16384.0 * 16.0;
         Scene scene = hollow_ball(4.0, glm::vec3(albedo));
         scene.settings.photons.radius = 16.0;  // so that visible points want all of them
-        test::FrameRig rig(scene, PlanRequest{});
+        test::FrameFixture rig(scene, PlanRequest{});
         double stored = 0.0;
         for (std::uint32_t i = 0; i < 16; ++i)
-            stored += rig.render(i).tally[gpu::kWorkPhotonsStored];
-        const double q = albedo * (1.0 - kLampPart);
+            stored += rig.render(i).counters[gpu::kWorkPhotonsStored];
+        const double q = albedo * (1.0 - kEmitterPart);
         const double mean = q / (1.0 - q);  // of one photon
         const double variance = mean / (1.0 - q);
         EXPECT_LT(std::abs(stored - kPhotons * mean), kFarOff * std::sqrt(kPhotons * variance)) << albedo;

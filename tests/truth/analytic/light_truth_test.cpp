@@ -78,12 +78,12 @@ class LightTruth : public testing::TestWithParam<LightCase> {};
 
 // Where caustics are rare (mirror, cornell_small_light) few paths of the truth find them: its variances stay
 // too small, and the fine pictures are up to 1.2 deviations apart.
-constexpr double kMostFine = 1.3;
-constexpr double kMostCoarse = 1.25;
-constexpr double kMostWhole = 4.0;
+constexpr double kMaxFine = 1.3;
+constexpr double kMaxCoarse = 1.25;
+constexpr double kMaxWhole = 4.0;
 
 bool agrees(const LightZ& z) {
-    return z.fine.rms < kMostFine && z.coarse.rms < kMostCoarse && z.whole < kMostWhole;
+    return z.fine.rms < kMaxFine && z.coarse.rms < kMaxCoarse && z.whole < kMaxWhole;
 }
 
 TEST_P(LightTruth, picture_agrees_with_paths) {
@@ -102,7 +102,7 @@ TEST(LightTruthTwin, wall_that_is_a_twentieth_darker_is_caught) {
     EXPECT_FALSE(agrees(z)) << z.coarse.rms << ' ' << z.whole;
 }
 
-TEST(LightTruthTwin, lamp_moved_by_one_unit_is_caught) {
+TEST(LightTruthTwin, emitter_moved_by_one_unit_is_caught) {
     const LightZ z = compare(kCases[0], [](Scene& scene) { scene.spheres.at(7).centre.x += 1.0; });
     EXPECT_FALSE(agrees(z)) << z.coarse.rms << ' ' << z.whole;
 }

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {

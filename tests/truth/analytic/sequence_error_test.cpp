@@ -9,7 +9,7 @@
 #include "estimators/metrics.h"
 #include "film/film.h"
 #include "formats/scene_toml.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/shared_data.h"
 
 namespace voxilux {
@@ -35,11 +35,11 @@ struct Measurement {
 
 // Mean occlusion after each of `spp` samples, in one render.
 std::vector<std::vector<float>> mean_occlusion(const Scene& scene, const std::vector<std::uint32_t>& spp) {
-    test::FrameRig rig(scene);
+    test::FrameFixture rig(scene);
     const auto rows = static_cast<std::uint32_t>(scene.settings.size.y);
     std::vector<std::vector<float>> means;
     for (std::uint32_t sample = 0; sample < spp.back(); ++sample) {
-        rig.render_slices(sample, rows);
+        rig.render_tile(sample, rows);
         if (sample + 1 == spp[means.size()])
             means.push_back(mean_plane(rig.film_sums("ao"), 1, 0, sample + 1));
     }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scene/scene_camera.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/occlusion_forms.h"
 #include "support/test_scenes.h"
 

@@ -7,66 +7,67 @@
 #include <algorithm>
 #include <set>
 
-#include "support/ao_rig.h"
-#include "support/frame_rig.h"
+#include "support/ao_fixture.h"
+#include "support/frame_fixture.h"
 #include "support/occlusion_forms.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
 namespace {
 
+using test::AoFixture;
 using test::AoFrame;
-using test::AoRig;
 using test::CellSums;
 
-std::vector<float> brute_openness(Scene scene) {
+std::vector<float> brute_visibility(Scene scene) {
     scene.settings.ao.method = AoMethod::brute;
-    return test::FrameRig(scene).render(0).ao;
+    return test::FrameFixture(scene).render(0).ao;
 }
 
-TEST(HardCase, row19_pixels_without_a_slot_have_the_openness_of_brute_force_and_are_counted) {
+TEST(HardCase, row19_pixels_without_a_slot_have_the_visibility_of_brute_force_and_are_counted) {
     for (const std::uint32_t slots : {1u, 2u, 16u}) {
         Scene scene = test::pillared_scene();
         scene.settings.ao.slots = slots;
         scene.settings.ao_rays = 8;
-        const AoFrame frame = AoRig(scene).render();
-        const std::vector<float> brute = brute_openness(scene);
+        const AoFrame frame = AoFixture(scene).render();
+        const std::vector<float> brute = brute_visibility(scene);
         std::uint64_t own = 0;
         for (std::size_t i = 0; i < brute.size(); ++i) {
             if (frame.hits[i].face >= gpu::kFaceInside || frame.slot_of(i)) continue;
             ++own;
-            ASSERT_EQ(frame.openness[i], brute[i]) << i;
+            ASSERT_EQ(frame.visibility[i], brute[i]) << i;
         }
         EXPECT_GT(own, 1000u);
-        EXPECT_EQ(frame.tally[gpu::kFaultAoTableFull], own);
-        EXPECT_EQ(frame.tally[gpu::kWorkAoOwnRays], 8 * own);
-        EXPECT_LE(frame.tally[gpu::kWorkAoProbes], 2 * gpu::kCellProbes * frame.tally[gpu::kWorkAoSearches]);
+        EXPECT_EQ(frame.counters[gpu::kFaultAoTableFull], own);
+        EXPECT_EQ(frame.counters[gpu::kWorkAoOwnRays], 8 * own);
+        EXPECT_LE(frame.counters[gpu::kWorkAoProbes],
+                  2 * gpu::kCellProbes * frame.counters[gpu::kWorkAoSearches]);
         EXPECT_EQ(test::sums_of(frame).size(), slots);
     }
 }
 
-TEST(HardCase, row19_comparison_rejects_the_openness_of_another_seed) {
+TEST(HardCase, row19_comparison_rejects_the_visibility_of_another_seed) {
     Scene scene = test::pillared_scene();
-    const std::vector<float> brute = brute_openness(scene);
+    const std::vector<float> brute = brute_visibility(scene);
     scene.settings.seed = 99;
-    EXPECT_NE(brute, brute_openness(scene));
+    EXPECT_NE(brute, brute_visibility(scene));
 }
 
 TEST(HardCase, row19_all_pixels_of_one_key_share_one_cell) {
     Scene scene = test::pillared_scene();
     scene.camera = test::camera_down({8.3, -2.7, 30.0}, 0.3);
     scene.settings.ao.cell_px = 4096.0f;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     const AoFrame frame = rig.render();
-    EXPECT_EQ(frame.tally[gpu::kWorkAoClaimed], 1u);
+    EXPECT_EQ(frame.counters[gpu::kWorkAoClaimed], 1u);
     const CellSums sums = test::sums_of(frame);
     ASSERT_EQ(sums.size(), 1u);
     EXPECT_EQ(sums.begin()->second.first, std::uint64_t{scene.settings.ao_rays} * frame.hits.size());
-    EXPECT_EQ(std::set<float>(frame.openness.begin(), frame.openness.end()).size(), 1u);
+    EXPECT_EQ(std::set<float>(frame.visibility.begin(), frame.visibility.end()).size(), 1u);
 }
 
 // Every pixel's key against double precision; false when a face has none.
-void expect_right_keys(const AoRig& rig, const AoFrame& frame, std::size_t at_least) {
+void expect_right_keys(const AoFixture& rig, const AoFrame& frame, std::size_t at_least) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < frame.hits.size(); ++i) {
         if (frame.hits[i].face >= gpu::kFaceInside) continue;
@@ -82,7 +83,7 @@ TEST(HardCase, row20_camera_a_million_voxels_away_finds_the_cells_of_double_prec
     for (const double fov : {1e-3, 1e-4, 1e-5}) {
         Scene scene = test::pillared_scene();
         scene.camera = test::camera_towards({6e5, 5e5, 6e5}, {1, 2, 1}, fov);
-        AoRig rig(scene);
+        AoFixture rig(scene);
         for (std::uint32_t i = 0; i < 3; ++i)
             expect_right_keys(rig, rig.render(i), 1000);
     }
@@ -95,10 +96,10 @@ TEST(HardCase, row20_scene_a_million_voxels_from_the_origin_has_the_cells_of_the
     for (Instance& instance : moved.instances)
         instance.translation += far;
     moved.camera->position += glm::dvec3(far);
-    AoRig near_rig(near);
+    AoFixture near_rig(near);
     const CellSums sums = test::sums_of(near_rig.render());
     const glm::ivec3 origin = near_rig.march_world().origin;
-    AoRig moved_rig(moved);
+    AoFixture moved_rig(moved);
     ASSERT_EQ(moved_rig.march_world().origin, origin + far);
     EXPECT_TRUE(test::sums_of(moved_rig.render()) == sums);
 }
@@ -107,7 +108,7 @@ TEST(HardCase, row20_scene_a_million_voxels_from_the_origin_has_the_cells_of_the
 TEST(HardCase, row20_levels_follow_the_distance_within_their_bounds) {
     Scene scene = test::pillared_scene();
     scene.settings.ao.cell_px = 4.0f;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     std::set<std::uint32_t> levels;
     for (const double distance : {300.0, 90.0, 40.0, 20.0, 10.0, 5.0, 2.0, 0.6}) {
         const AoFrame frame =
@@ -123,14 +124,14 @@ TEST(HardCase, row20_levels_follow_the_distance_within_their_bounds) {
 TEST(HardCase, hole13_camera_close_to_a_wall_enters_few_cells) {
     Scene scene = test::pillared_scene();
     scene.camera = test::camera_towards({-5.43, 4.999, 2.37}, {-5.43, 6.0, 2.37}, 60.0);
-    const AoFrame frame = AoRig(scene).render();
-    EXPECT_EQ(frame.tally[gpu::kWorkHits], frame.hits.size());
-    EXPECT_LE(frame.tally[gpu::kWorkAoClaimed], 9u) << "the picture is two thousandths of a voxel wide";
+    const AoFrame frame = AoFixture(scene).render();
+    EXPECT_EQ(frame.counters[gpu::kWorkHits], frame.hits.size());
+    EXPECT_LE(frame.counters[gpu::kWorkAoClaimed], 9u) << "the picture is two thousandths of a voxel wide";
 }
 
 // Sums after one more frame on top of others that were put into the table.
 void expect_sums_carry_on(std::uint64_t preset) {
-    AoRig rig(test::pillared_scene());
+    AoFixture rig(test::pillared_scene());
     AoFrame before = rig.render();
     for (std::size_t slot = 0; slot < before.keys.size(); ++slot) {
         if (before.keys[slot] == 0) continue;
@@ -150,13 +151,13 @@ void expect_sums_carry_on(std::uint64_t preset) {
                   test::open_samples(rig, after.keys[slot], preset, preset + more))
             << "the samples are numbered on from " << preset;
     }
-    EXPECT_EQ(taken, after.tally[gpu::kWorkAoRays]);
+    EXPECT_EQ(taken, after.counters[gpu::kWorkAoRays]);
     for (std::size_t i = 0; i < after.hits.size(); ++i) {
         const auto slot = after.slot_of(i);
         if (!slot) continue;
         const double share =
             static_cast<double>(after.opens[*slot]) / static_cast<double>(after.samples[*slot]);
-        ASSERT_NEAR(static_cast<double>(after.openness[i]), share, 2e-7);
+        ASSERT_NEAR(static_cast<double>(after.visibility[i]), share, 2e-7);
     }
 }
 
@@ -166,14 +167,14 @@ TEST(HardCase, row21_sums_carry_on_past_the_end_of_every_counter_width) {
         expect_sums_carry_on(preset);
 }
 
-TEST(HardCase, row22_openness_of_a_plane_stays_one_for_any_number_of_samples) {
+TEST(HardCase, row22_visibility_of_a_plane_stays_one_for_any_number_of_samples) {
     Scene scene = test::white_scene();
     test::add_box(scene, {-40, -40, -1}, {40, 40, 0});
     scene.camera = test::camera_down({0.5, 0.5, 20.0}, 30.0);
     scene.settings.size = {24, 16};
     for (const std::uint32_t filter : {0u, 2u}) {
         scene.settings.ao.filter = filter;
-        AoRig rig(scene);
+        AoFixture rig(scene);
         AoFrame frame = rig.render();
         for (const std::uint64_t count :
              {65535ull, (1ull << 24) + 1, (1ull << 32) - 1, 1ull << 53, 1ull << 63}) {
@@ -181,8 +182,8 @@ TEST(HardCase, row22_openness_of_a_plane_stays_one_for_any_number_of_samples) {
                 frame.samples[slot] = frame.keys[slot] == 0 ? 0 : count;
             rig.set_sums(frame.samples, frame.samples);
             frame = rig.render();
-            for (const float openness : frame.openness)
-                ASSERT_EQ(openness, 1.0f) << count << " filter " << filter;
+            for (const float visibility : frame.visibility)
+                ASSERT_EQ(visibility, 1.0f) << count << " filter " << filter;
         }
     }
 }
@@ -193,7 +194,7 @@ TEST(HardCase, hole05_samples_beyond_65536_in_one_cell_are_all_there) {
     scene.camera = test::camera_down({8.3, -2.7, 30.0}, 0.3);
     scene.settings.ao_rays = 16;
     scene.settings.ao.cell_px = 4096.0f;
-    AoRig rig(scene);
+    AoFixture rig(scene);
     AoFrame frame;
     for (int i = 0; i < 2; ++i)
         frame = rig.render();
@@ -207,7 +208,7 @@ TEST(HardCase, hole05_samples_beyond_65536_in_one_cell_are_all_there) {
 
 // Sums after some frames from a state on.
 CellSums flight_from(std::uint64_t frames_done, int frames) {
-    AoRig rig(test::pillared_scene());
+    AoFixture rig(test::pillared_scene());
     rig.state.frames_done = frames_done;
     CellSums sums;
     for (int i = 0; i < frames; ++i)
@@ -222,37 +223,37 @@ TEST(HardCase, row23_frame_numbers_that_wrap_change_nothing) {
 }
 
 TEST(HardCase, row23_cells_in_sight_outlive_the_wrap_of_frame_numbers) {
-    AoRig rig(test::pillared_scene());
+    AoFixture rig(test::pillared_scene());
     rig.state.frames_done = 0xFFFFFFFFu - 50;
     for (int i = 0; i < 100; ++i)
-        ASSERT_EQ(rig.render().tally[gpu::kWorkAoEvicted], 0u) << i;
+        ASSERT_EQ(rig.render().counters[gpu::kWorkAoEvicted], 0u) << i;
 }
 
 // Cells that come back into sight when they are about to be given up: those that were not given up before are
 // kept.
 TEST(HardCase, hole16_cells_seen_again_are_not_given_up_while_in_sight) {
     for (int away = 28; away <= 42; ++away) {
-        AoRig rig(test::pillared_scene());
+        AoFixture rig(test::pillared_scene());
         (void)rig.render();
         const Camera sky = test::camera_towards({0, 0, 20}, {0, 0.1, 40}, 30.0);
         for (int i = 0; i < away; ++i)
             (void)rig.render(sky);
         (void)rig.render();
         for (int i = 0; i < 12; ++i)
-            ASSERT_EQ(rig.render().tally[gpu::kWorkAoEvicted], 0u)
+            ASSERT_EQ(rig.render().counters[gpu::kWorkAoEvicted], 0u)
                 << i << " frames after " << away << " away";
     }
 }
 
 TEST(HardCase, row23_wrap_of_the_number_of_samples_loses_none) {
-    AoRig rig(test::pillared_scene());
+    AoFixture rig(test::pillared_scene());
     (void)rig.render();
     rig.state.samples_done = 0xFFFFFFFFu;
     std::uint64_t traced = 0;
     CellSums sums;
     for (int i = 0; i < 4; ++i) {
         const AoFrame frame = rig.render();
-        traced += frame.tally[gpu::kWorkAoRays];
+        traced += frame.counters[gpu::kWorkAoRays];
         sums = test::sums_of(frame);
     }
     std::uint64_t samples = 0;
@@ -266,13 +267,13 @@ TEST(HardCase, row23_seeds_at_the_ends_give_other_sums) {
     for (const std::uint32_t seed : {0u, 1u, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFEu, 0xFFFFFFFFu}) {
         Scene scene = test::pillared_scene();
         scene.settings.seed = seed;
-        pictures.insert(AoRig(scene).render().openness);
+        pictures.insert(AoFixture(scene).render().visibility);
     }
     EXPECT_EQ(pictures.size(), 6u);
 }
 
 // Root mean square error of some cells before a wall after so many samples.
-double error_after(const AoRig& rig, std::uint64_t samples) {
+double error_after(const AoFixture& rig, std::uint64_t samples) {
     double sum = 0.0;
     constexpr int kCells = 8;
     for (int i = 0; i < kCells; ++i) {
@@ -293,7 +294,7 @@ TEST(HardCase, hole15_error_of_a_cell_falls_on_to_65536_samples) {
     test::add_box(scene, {-16, -40, -1}, {16, 60, 0});
     test::add_box(scene, {4, -40, 0}, {5, 60, 5});
     scene.settings.ao_radius = 12.0f;
-    const AoRig rig(scene);
+    const AoFixture rig(scene);
     double last = error_after(rig, 64);
     for (const std::uint64_t samples : {1024u, 16384u, 65536u}) {
         const double error = error_after(rig, samples);

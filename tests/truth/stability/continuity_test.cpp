@@ -10,7 +10,7 @@
 
 #include "formats/vox_read.h"
 #include "scene/vox_scene.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/light_pictures.h"
 #include "support/light_scenes.h"
 #include "support/same_bits.h"
@@ -38,11 +38,11 @@ Scene courtyard() {
     return scene;
 }
 
-// A room with a lamp under the ceiling, whose light photons carry on.
+// A room with an emitter under the ceiling, whose light photons carry on.
 Scene lit_room() {
     Scene scene = test::dark_scene(32, 8192, 0.25);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.7f));
-    test::add_box(scene, {4, 4, 7}, {6, 6, 8}, test::add_lamp(scene, 12.0f));
+    test::add_box(scene, {4, 4, 7}, {6, 6, 8}, test::add_emitter(scene, 12.0f));
     test::add_box(scene, {7, 7, 0}, {9, 9, 4}, test::add_diffuse(scene, 0.4f));
     scene.camera = test::camera_towards({5.0, 0.4, 4.0}, {5.0, 10.0, 2.5}, 75.0);
     return scene;
@@ -85,7 +85,8 @@ Scene scene_of(const std::string& models, const std::string& graph, const std::s
 TEST(Continuity, d4_emitter_covered_on_all_sides_changes_no_bit) {
     const Scene scene = lit_room();
     Scene with_emitter = scene;
-    test::add_box(with_emitter, {8, 8, 1}, {9, 9, 2}, test::add_lamp(with_emitter, 50.0f));  // two sides open
+    test::add_box(with_emitter, {8, 8, 1}, {9, 9, 2},
+                  test::add_emitter(with_emitter, 50.0f));  // two sides open
     EXPECT_GT(differences(scene, with_emitter), 0u) << "the negative control: its other sides show";
     with_emitter.instances.back().translation += glm::ivec3(0, 0, -2);  // into the floor
     Scene with_floor = scene;
@@ -101,15 +102,15 @@ TEST(Continuity, d4_hidden_layer_empty_model_and_unused_material_change_no_bit) 
     const std::string two = transform(0, 1, -1, {{}}) + group(1, {2, 4}) + transform(2, 3, 0, {{}}) +
                             shape(3, {{0, {}}}) + transform(4, 5, 1, {{}}) + shape(5, {{1, {}}});
     const std::string hidden = layer(1, {{"_hidden", "1"}}), shown = layer(1, {});
-    const std::string lamp = record("MATL", 2, {{"_type", "_emit"}, {"_emit", "1"}, {"_flux", "4"}});
+    const std::string emitter = record("MATL", 2, {{"_type", "_emit"}, {"_emit", "1"}, {"_flux", "4"}});
     const std::string tower = size_chunk(4, 4, 12) + voxels_chunk({{1, 1, 11, 2}});
     const FramePlanes plain = test::render_first_sample(scene_of("", one));
     const auto changed = [&](const Scene& scene) {
         return differences(plain, test::render_first_sample(scene));
     };
-    EXPECT_EQ(changed(scene_of(tower, two + hidden, lamp)), 0u);
+    EXPECT_EQ(changed(scene_of(tower, two + hidden, emitter)), 0u);
     EXPECT_EQ(changed(scene_of(size_chunk(9, 9, 9) + voxels_chunk({}), two + shown)), 0u);
-    EXPECT_EQ(changed(scene_of("", one, lamp)), 0u);
+    EXPECT_EQ(changed(scene_of("", one, emitter)), 0u);
     EXPECT_GT(changed(scene_of(tower, two + shown)), 0u) << "the negative control: a layer that is shown";
 }
 

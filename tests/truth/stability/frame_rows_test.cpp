@@ -10,7 +10,7 @@
 #include "frame/frame.h"
 #include "plan/film_planes.h"
 #include "shared/film_sum.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
@@ -39,7 +39,7 @@ TEST(HardCase, row09_camera_that_is_not_finite_or_farther_than_floats_tell_is_re
             Scene scene = walled_scene();
             scene.camera->position[axis] = bad;
             try {
-                test::FrameRig rig(scene);
+                test::FrameFixture rig(scene);
                 ADD_FAILURE() << bad << " on axis " << axis << " was not refused";
             } catch (const Error& error) {
                 EXPECT_EQ(error.code(), ExitCode::input_refused);
@@ -68,7 +68,7 @@ TEST(HardCase, row18_plane_seen_at_a_grazing_angle_has_occlusion_exactly_one) {
     scene.settings.size = {32, 32};
     scene.settings.ao_rays = 64;
     const test::FramePlanes planes = test::render_first_sample(scene);
-    EXPECT_GT(planes.tally[gpu::kWorkHits], 100u);
+    EXPECT_GT(planes.counters[gpu::kWorkHits], 100u);
     for (const float open : planes.ao)
         ASSERT_EQ(open, 1.0f);
 }
@@ -86,7 +86,7 @@ std::int64_t sum_after(std::uint64_t samples, float value) {
     recording.clear("t.tally");
     recording.dispatch({.label = "film.add",
                         .shader = "film_add",
-                        .bindings = {{"Tally", "t.tally"}, {"Values", "t.values"}, {"Sums", "t.sums"}},
+                        .bindings = {{"Counters", "t.tally"}, {"Values", "t.values"}, {"Sums", "t.sums"}},
                         .push = to_bytes(gpu::FilmAddPush{1, 1, 0})});
     recording.readback("t.sums");
     const RunResult result = test_executor().run(recording);
@@ -105,7 +105,7 @@ TEST(HardCase, row22_mean_of_a_constant_stays_constant_past_every_counter_width)
 }
 
 std::vector<float> occlusion(const Scene& scene, std::uint32_t sample) {
-    return test::FrameRig(scene).render(sample).ao;
+    return test::FrameFixture(scene).render(sample).ao;
 }
 
 // Of the noise of two pictures around a common mean picture.
@@ -181,9 +181,9 @@ TEST(HardCase, row23_comparison_rejects_a_repeated_picture) {
 
 // Everything that a render leaves in the film after three samples.
 std::vector<std::int64_t> film_of(const Scene& scene, std::uint32_t rows, Executor& executor) {
-    test::FrameRig rig(scene, executor);
+    test::FrameFixture rig(scene, executor);
     for (std::uint32_t sample = 0; sample < 3; ++sample)
-        rig.render_slices(sample, rows);
+        rig.render_tile(sample, rows);
     std::vector<std::int64_t> film;
     for (const FilmPlane& plane : film_planes(rig.plan())) {
         const std::vector<std::int64_t> sums = rig.film_sums(plane.name);

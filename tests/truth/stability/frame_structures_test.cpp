@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
@@ -64,9 +64,9 @@ std::size_t differing_bytes(const test::FramePlanes& a, const test::FramePlanes&
 }
 
 test::FramePlanes planes_of(const Scene& scene, Traversal traversal) {
-    const test::FramePlanes planes = test::FrameRig(scene, test_executor(), traversal).render(0);
+    const test::FramePlanes planes = test::FrameFixture(scene, test_executor(), traversal).render(0);
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
-        EXPECT_EQ(planes.tally[i], 0u) << name_of(traversal) << " fault " << gpu::kTallyNames[i];
+        EXPECT_EQ(planes.counters[i], 0u) << name_of(traversal) << " fault " << gpu::kCounterNames[i];
     return planes;
 }
 

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_toml.h"
-#include "shared/tally.h"
-#include "support/frame_rig.h"
+#include "shared/counters.h"
+#include "support/frame_fixture.h"
 #include "support/light_pictures.h"
 #include "support/light_scenes.h"
 
@@ -47,7 +47,7 @@ std::vector<glm::vec3> colours_of(const Scene& scene, std::array<std::uint32_t, 
     options.group_size = group;
     options.poison_transients = true;
     Executor executor(test_device(), all_shaders(), options);
-    test::FrameRig rig(scene, PlanRequest{}, executor);
+    test::FrameFixture rig(scene, PlanRequest{}, executor);
     std::vector<glm::vec3> colours = rig.render(0).color;
     const std::vector<glm::vec3> more = rig.render(1).color;
     colours.insert(colours.end(), more.begin(), more.end());
@@ -76,11 +76,11 @@ TEST(Row25, critical_angle_of_voxel_glass_seen_from_inside_is_sound) {
         scene.camera =
             test::camera_towards(eye, eye + glm::dvec3(std::sin(critical), 0.0, std::cos(critical)), fov);
         if (fov == 1.0) scene.camera->pitch_deg += 0.3;
-        test::FrameRig rig(scene, PlanRequest{});
+        test::FrameFixture rig(scene, PlanRequest{});
         for (std::uint32_t i = 0; i < 8; ++i) {
             const test::FramePlanes planes = rig.render(i);
             for (std::size_t f = 0; f < gpu::kFaultCount; ++f)
-                ASSERT_EQ(planes.tally[f], 0u) << gpu::kTallyNames[f];
+                ASSERT_EQ(planes.counters[f], 0u) << gpu::kCounterNames[f];
             for (const glm::vec3& colour : planes.color)
                 ASSERT_TRUE(colour.x >= 0.0f && colour.x <= 2.25001f) << colour.x << ' ' << fov;
         }
@@ -96,12 +96,12 @@ TEST(Row25, critical_angle_of_a_glass_ball_seen_from_inside_is_sound) {
         // Across the radius at R / n from the centre, a ray meets the surface at the critical angle. Beyond
         // it is reflected again and again, which the black sides of the picture's other half end.
         scene.camera = test::camera_towards({2.0 * (1.0 - 1e-9), 0.0, 0.0}, {2.0, 5.0, 0.0}, fov);
-        test::FrameRig rig(scene, PlanRequest{});
+        test::FrameFixture rig(scene, PlanRequest{});
         const test::FramePlanes planes = rig.render(0);
         for (const glm::vec3& colour : planes.color)
             ASSERT_TRUE(colour.x >= 0.0f && colour.x <= 2.25001f) << colour.x << ' ' << fov;
-        EXPECT_EQ(planes.tally[gpu::kFaultRayUnsound], 0u);
-        EXPECT_EQ(planes.tally[gpu::kFaultFilmNonFinite], 0u);
+        EXPECT_EQ(planes.counters[gpu::kFaultRayUnsound], 0u);
+        EXPECT_EQ(planes.counters[gpu::kFaultFilmNonFinite], 0u);
     }
 }
 
@@ -122,7 +122,7 @@ TEST(Row26, glass_of_index_1_is_invisible_as_spheres) {
 Scene voxel_room(int pixels) {
     Scene scene = test::dark_scene(pixels, 16384, 0.1);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.7f));
-    test::add_box(scene, {4, 4, 8}, {6, 6, 9}, test::add_lamp(scene, 12.0f));
+    test::add_box(scene, {4, 4, 8}, {6, 6, 9}, test::add_emitter(scene, 12.0f));
     test::add_box(scene, {7, 7, 0}, {9, 9, 4}, test::add_material(scene, {.albedo = {0.8f, 0.3f, 0.2f}}));
     scene.camera = test::camera_towards({5.0, 0.4, 4.0}, {5.0, 10.0, 2.5}, 75.0);
     return scene;
@@ -137,7 +137,7 @@ TEST(Row26, glass_of_index_1_is_invisible_as_voxels) {
 TEST(Row26, glass_that_takes_a_tenth_is_caught) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {1, 3, 0}, {5, 7, 4}, test::add_glass(scene, 1.0f, 0.9f));
-    EXPECT_GT(test::light_z(render(scene, 48), render(voxel_room(32), 48)).rms, test::kMostRms);
+    EXPECT_GT(test::light_z(render(scene, 48), render(voxel_room(32), 48)).rms, test::kMaxRms);
 }
 
 TEST(Row28, voxels_alone_agree_with_paths) {
@@ -145,7 +145,7 @@ TEST(Row28, voxels_alone_agree_with_paths) {
     test::expect_equal_light(render(scene, 64), truth_of(scene, 512), "room");
 }
 
-// Two kinds of glass that touch, a solid and a lamp inside one, and a ball of glass that crosses both.
+// Two kinds of glass that touch, a solid and an emitter inside one, and a ball of glass that crosses both.
 Scene media_room() {
     Scene scene = voxel_room(32);
     const std::uint16_t crown = test::add_glass(scene, 1.5f, 0.95f), flint = test::add_glass(scene, 1.8f);
@@ -166,23 +166,23 @@ TEST(Row28, glass_ball_that_crosses_glass_voxels_agrees_with_paths) {
     test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "crossing");
 }
 
-// Nothing but photons brings this light: the lamp's shadow rays end at the first surface of glass.
-TEST(Row28, lamp_inside_glass_lights_what_is_in_the_same_glass) {
+// Nothing but photons brings this light: the emitter's shadow rays end at the first surface of glass.
+TEST(Row28, emitter_inside_glass_lights_what_is_in_the_same_glass) {
     Scene scene = test::dark_scene(32, 16384, 0.1);
     test::add_room(scene, {8, 8, 6}, test::add_diffuse(scene, 0.5f));
     test::add_box(scene, {2, 3, 0}, {7, 7, 4}, test::add_glass(scene, 1.5f, 0.9f));
-    test::add_box(scene, {4, 5, 2}, {5, 6, 3}, test::add_lamp(scene, 10.0f));
+    test::add_box(scene, {4, 5, 2}, {5, 6, 3}, test::add_emitter(scene, 10.0f));
     scene.camera = test::camera_towards({4.0, 0.4, 4.5}, {4.5, 6.0, 1.0}, 65.0);
     test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "lamp in voxels");
 }
 
-TEST(Row28, lamp_and_ball_inside_glass_balls_of_one_material_agree_with_paths) {
+TEST(Row28, emitter_and_ball_inside_glass_balls_of_one_material_agree_with_paths) {
     Scene scene = test::dark_scene(32, 16384, 0.1);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.5f));
     const std::uint16_t glass = test::add_glass(scene, 1.5f, 0.95f);
     scene.spheres.push_back({glm::dvec3(4.0, 6.0, 3.0), 2.5, glass});
     scene.spheres.push_back({glm::dvec3(6.0, 6.0, 3.0), 2.5, glass});
-    scene.spheres.push_back({glm::dvec3(2.6, 6.0, 3.0), 0.6, test::add_lamp(scene, 40.0f)});
+    scene.spheres.push_back({glm::dvec3(2.6, 6.0, 3.0), 0.6, test::add_emitter(scene, 40.0f)});
     scene.spheres.push_back({glm::dvec3(7.5, 6.0, 3.0), 0.9, test::add_diffuse(scene, 0.8f)});
     scene.camera = test::camera_towards({5.0, 0.4, 4.0}, {5.0, 6.0, 2.8}, 60.0);
     test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "lamp in balls");
@@ -198,7 +198,7 @@ TEST(Row28, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
     test::expect_equal_light(render(with_ball, 64), render(block, 64), "same glass");
     with_other.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, test::add_glass(with_other, 1.5f, 0.5f)});
     EXPECT_GT(test::light_z(render(with_other, 64), render(block, 64)).rms,
-              1.5 * test::kMostRms);  // the twin
+              1.5 * test::kMaxRms);  // the twin
 }
 
 TEST(Row28, camera_inside_glass_agrees_with_paths) {
@@ -219,9 +219,10 @@ TEST(Row30, black_walls_send_nothing_on) {
     const LightPicture picture = render(scene, 4, 1);
     for (const test::TruthPixel& pixel : picture.pixels)
         EXPECT_TRUE(pixel.mean == glm::dvec3(0.0) || pixel.mean == glm::dvec3(12.0));
-    test::FrameRig rig(scene, PlanRequest{});
-    EXPECT_EQ(rig.render(0).tally[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
-    EXPECT_GT(test::FrameRig(voxel_room(16), PlanRequest{}).render(0).tally[gpu::kWorkPhotonsStored], 0u);
+    test::FrameFixture rig(scene, PlanRequest{});
+    EXPECT_EQ(rig.render(0).counters[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
+    EXPECT_GT(test::FrameFixture(voxel_room(16), PlanRequest{}).render(0).counters[gpu::kWorkPhotonsStored],
+              0u);
 }
 
 TEST(Row30, walls_of_albedo_0_and_1_agree_with_paths) {
@@ -231,12 +232,12 @@ TEST(Row30, walls_of_albedo_0_and_1_agree_with_paths) {
     test::expect_equal_light(render(scene, 64), truth_of(scene, 512), "0 and 1");
 }
 
-// Row 31. Light is linear in the lamps, from the faintest that a sum of 64 bits can hold to the brightest.
-TEST(Row31, lamps_of_any_power_give_the_same_picture_in_their_units) {
+// Row 31. Light is linear in the emitters, from the faintest that a sum of 64 bits can hold to the brightest.
+TEST(Row31, emitters_of_any_power_give_the_same_picture_in_their_units) {
     const auto first_sample = [](float radiance) {
         Scene scene = voxel_room(16);
         scene.materials[1].emission = glm::vec3(radiance);
-        return test::FrameRig(scene, PlanRequest{}).render(0);
+        return test::FrameFixture(scene, PlanRequest{}).render(0);
     };
     const auto one = first_sample(1.0f);
     for (const float radiance : {1e-20f, 1e-6f, 1e6f, 1e30f}) {
@@ -244,29 +245,30 @@ TEST(Row31, lamps_of_any_power_give_the_same_picture_in_their_units) {
         for (std::size_t i = 0; i < one.color.size(); ++i)
             ASSERT_NEAR(scaled.color[i].x / radiance, one.color[i].x, 1e-4 * one.color[i].x + 1e-6)
                 << radiance;
-        EXPECT_EQ(scaled.tally[gpu::kFaultPhotonPower], 0u) << radiance;
-        EXPECT_EQ(scaled.tally[gpu::kFaultFilmNonFinite], 0u) << radiance;
+        EXPECT_EQ(scaled.counters[gpu::kFaultPhotonPower], 0u) << radiance;
+        EXPECT_EQ(scaled.counters[gpu::kFaultFilmNonFinite], 0u) << radiance;
     }
 }
 
-TEST(Row31, lamp_too_faint_for_photons_is_no_fault) {
+TEST(Row31, emitter_too_faint_for_photons_is_no_fault) {
     for (const float radiance : {0.0f, 1e-30f, 1e-38f}) {
         Scene scene = voxel_room(16);
         scene.materials[1].emission = glm::vec3(radiance, 0.0f, 0.0f);
-        const test::FramePlanes planes = test::FrameRig(scene, PlanRequest{}).render(0);
+        const test::FramePlanes planes = test::FrameFixture(scene, PlanRequest{}).render(0);
         for (std::size_t f = 0; f < gpu::kFaultCount; ++f)
-            EXPECT_EQ(planes.tally[f], 0u) << gpu::kTallyNames[f] << ' ' << radiance;
+            EXPECT_EQ(planes.counters[f], 0u) << gpu::kCounterNames[f] << ' ' << radiance;
         for (const glm::vec3& colour : planes.color)
             ASSERT_TRUE(colour.x >= 0.0f && colour.x < 1e-20f && colour.y == 0.0f) << radiance;
     }
 }
 
-TEST(Row31, faint_lamp_beside_a_bright_one_and_many_lamps_agree_with_paths) {
+TEST(Row31, faint_emitter_beside_a_bright_one_and_many_emitters_agree_with_paths) {
     Scene scene = voxel_room(32);
-    test::add_box(scene, {1, 9, 1}, {2, 10, 2}, test::add_lamp(scene, 1e-30f));
-    test::add_box(scene, {0, 3, 5}, {1, 4, 6}, test::add_lamp(scene, 300.0f));
+    test::add_box(scene, {1, 9, 1}, {2, 10, 2}, test::add_emitter(scene, 1e-30f));
+    test::add_box(scene, {0, 3, 5}, {1, 4, 6}, test::add_emitter(scene, 300.0f));
     for (int i = 0; i < 9; ++i)
-        test::add_box(scene, {i, 9, 7}, {i + 1, 10, 8}, test::add_lamp(scene, 0.2f * static_cast<float>(i)));
+        test::add_box(scene, {i, 9, 7}, {i + 1, 10, 8},
+                      test::add_emitter(scene, 0.2f * static_cast<float>(i)));
     test::expect_equal_light(render(scene, 64), truth_of(scene, 2048), "many lamps");
 }
 
@@ -304,7 +306,7 @@ Scene two_rooms(double radius) {
     Scene scene = test::dark_scene(64, 65536, radius);
     test::add_room(scene, {9, 6, 5}, test::add_diffuse(scene, 0.8f));
     test::add_box(scene, {4, 0, 0}, {5, 6, 5}, 0);
-    test::add_box(scene, {1, 2, 5}, {3, 4, 6}, test::add_lamp(scene, 50.0f));
+    test::add_box(scene, {1, 2, 5}, {3, 4, 6}, test::add_emitter(scene, 50.0f));
     scene.camera = test::camera_towards({8.8, 3.0, 4.8}, {5.0, 3.0, 1.0}, 80.0);  // in the dark one
     return scene;
 }
@@ -342,7 +344,7 @@ TEST(Row34, dark_room_behind_an_edge_stays_exactly_black) {
     test::add_room(scene, {8, 8, 5}, wall);
     test::add_box(scene, {4, 0, 0}, {8, 4, 5}, wall);
     test::add_box(scene, {0, 4, 0}, {4, 8, 5}, wall);  // left: (0..4, 0..4) and (4..8, 4..8)
-    test::add_box(scene, {1, 1, 5}, {3, 3, 6}, test::add_lamp(scene, 50.0f));
+    test::add_box(scene, {1, 1, 5}, {3, 3, 6}, test::add_emitter(scene, 50.0f));
     scene.camera = test::camera_towards({7.8, 7.8, 2.5}, {4.0, 4.0, 2.5}, 30.0);
     for (const test::TruthPixel& pixel : render(scene, 4, 1).pixels)
         ASSERT_EQ(pixel.mean, glm::dvec3(0.0));
@@ -358,7 +360,7 @@ TEST(Row36, roulette_changes_no_mean) {
     test::expect_equal_light(render(scene, 48), all, "roulette");
     scene.settings.photons.roulette = false;
     scene.settings.photons.depth = 2;
-    EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMostRms) << "the twin: paths cut off";
+    EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMaxRms) << "the twin: paths cut off";
 }
 
 // Between perfect mirrors a path never ends; between good ones roulette ends it.
@@ -367,25 +369,25 @@ TEST(Row36, endless_paths_between_mirrors_end_and_are_counted) {
         Scene scene = test::dark_scene(8, 1024, 0.1);
         test::add_room(scene, {4, 4, 4}, test::add_mirror(scene, albedo));
         scene.camera = test::camera_towards({2.0, 1.0, 2.0}, {2.3, 4.0, 2.1}, 40.0);
-        const test::FramePlanes planes = test::FrameRig(scene, PlanRequest{}).render(0);
-        EXPECT_EQ(planes.tally[gpu::kFaultPathTooLong], albedo == 1.0f ? 64u : 0u);
+        const test::FramePlanes planes = test::FrameFixture(scene, PlanRequest{}).render(0);
+        EXPECT_EQ(planes.counters[gpu::kFaultPathTooLong], albedo == 1.0f ? 64u : 0u);
         for (const glm::vec3& colour : planes.color)
             EXPECT_EQ(colour, glm::vec3(0.0f));
     }
 }
 
 // Seen in a mirror, and through the ball that makes it, a caustic is light that no shadow ray finds at either
-// end; and the tracer that waits for paths to hit the lamp finds it from the camera's end alone.
+// end; and the tracer that waits for paths to hit the emitter finds it from the camera's end alone.
 TEST(Row36, caustic_seen_in_a_mirror_and_through_its_ball_is_reciprocal) {
     Scene scene = test::dark_scene(32, 16384, 0.1);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.6f));
     test::add_box(scene, {2, 10, 0}, {8, 11, 6}, test::add_mirror(scene, 0.9f));
-    test::add_box(scene, {3, 3, 8}, {7, 7, 9}, test::add_lamp(scene, 4.0f));
+    test::add_box(scene, {3, 3, 8}, {7, 7, 9}, test::add_emitter(scene, 4.0f));
     scene.spheres.push_back({glm::dvec3(5.0, 6.0, 2.2), 2.0, test::add_glass(scene, 1.5f)});
     scene.camera = test::camera_towards({5.0, 0.4, 4.0}, {5.0, 6.0, 2.0}, 60.0);
     const LightPicture by_chance =
         test::truth_picture(test::truth_world(scene),
-                            {.size = scene.settings.size / kBlock, .spp = 4096, .samples_lamps = false});
+                            {.size = scene.settings.size / kBlock, .spp = 4096, .samples_emitters = false});
     test::expect_equal_light(render(scene, 64), by_chance, "reciprocity");
 }
 

@@ -7,7 +7,7 @@
 
 #include "shared/hash.h"
 #include "support/march_oracle.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 // Voxels. Times of up to 7100 voxels round at 2^-24 a few times, 2^-9 in all.
 constexpr double kFarMargin = 4e-3;
 // Most bytes of one array that these tests build.
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 27;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 27;
 
 // The traversals whose grid of roots over a world of `chunks` chunks is no larger.
 std::vector<Traversal> traversals_that_hold(glm::ivec3 chunks) {
@@ -23,7 +23,7 @@ std::vector<Traversal> traversals_that_hold(glm::ivec3 chunks) {
     for (const Traversal traversal : all_traversals()) {
         const int log2 = gpu::root_log2(static_cast<gpu::uint>(traversal));
         const auto roots = glm::u64vec3(chunks) << std::uint64_t(gpu::kChunkLog2 - log2);
-        if (roots.x * roots.y * roots.z * 4 <= kMostBytes) fitting.push_back(traversal);
+        if (roots.x * roots.y * roots.z * 4 <= kMaxBytes) fitting.push_back(traversal);
     }
     return fitting;
 }

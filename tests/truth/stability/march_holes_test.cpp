@@ -11,7 +11,7 @@
 
 #include "shared/sampling.h"
 #include "support/interval_walk.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
@@ -131,8 +131,8 @@ TEST(EarlierHole, b07_hits_seen_from_3000_voxels_keep_their_place_and_start_no_r
         ++hits;
         const int axis = static_cast<int>(hit.face >> 1u);
         ASSERT_EQ(got[i].fraction[axis], static_cast<float>(hit.face & 1u));
-        const gpu::Ray next = gpu::leave_surface(hit.cell, hit.face, got[i].fraction,
-                                                 gpu::face_normal(hit.face), gpu::kUnbounded);
+        const gpu::Ray next =
+            gpu::spawn_ray(hit.cell, hit.face, got[i].fraction, gpu::face_normal(hit.face), gpu::kUnbounded);
         ASSERT_EQ(world.get(next.cell), VoxelWorld::kEmpty) << test::print(rays[i]);
         const glm::dvec3 origin = glm::dvec3(rays[i].cell) + glm::dvec3(rays[i].fraction);
         const glm::dvec3 direction(rays[i].direction);

@@ -11,7 +11,7 @@
 #include "shared/sampling.h"
 #include "support/exact_walk.h"
 #include "support/march_oracle.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
@@ -114,7 +114,7 @@ TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
     const std::vector<gpu::MarchProbe> start = test::march_everywhere(structures, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (start[i].hit.face >= gpu::kFaceInside) continue;
-        const gpu::Ray next = gpu::leave_surface(
+        const gpu::Ray next = gpu::spawn_ray(
             start[i].hit.cell, start[i].hit.face, start[i].fraction,
             glm::reflect(rays[i].direction, gpu::face_normal(start[i].hit.face)), gpu::kUnbounded);
         first.push_back(start[i]);
@@ -125,8 +125,8 @@ TEST(HardCase, row05_reversed_ray_returns_to_the_face_it_left) {
     std::vector<gpu::MarchProbe> origin;
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (second[i].hit.face >= gpu::kFaceInside) continue;
-        back.push_back(gpu::leave_surface(second[i].hit.cell, second[i].hit.face, second[i].fraction,
-                                          -out[i].direction, gpu::kUnbounded));
+        back.push_back(gpu::spawn_ray(second[i].hit.cell, second[i].hit.face, second[i].fraction,
+                                      -out[i].direction, gpu::kUnbounded));
         origin.push_back(first[i]);
     }
     ASSERT_GT(back.size(), 500u);

@@ -17,7 +17,7 @@
 #include "support/exact_walk.h"
 #include "support/march_oracle.h"
 #include "support/traversal_name.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {

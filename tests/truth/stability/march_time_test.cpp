@@ -8,14 +8,14 @@
 #include <limits>
 
 #include "support/traversal_name.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
 
 // Bad rays may take this much longer than good ones, the best of ten tries each (as Embree's test of NaN and
 // infinity).
-constexpr double kMostTime = 2.5;
+constexpr double kMaxTime = 2.5;
 constexpr int kTries = 10;
 constexpr int kRays = 20000;
 
@@ -70,7 +70,7 @@ TEST_P(BadDirections, row08_take_at_most_two_and_a_half_times_the_time_of_good_o
     const VoxelWorld& world = test::world_named("random_0.001");
     const MarchWorld march_world = build_march_world(world, GetParam());
     const std::vector<gpu::Ray> good = test::family_named("random", world.size(), kRays);
-    const double allowed = kMostTime * cpu_seconds(march_world, good);
+    const double allowed = kMaxTime * cpu_seconds(march_world, good);
     for (const BadRays& bad : bad_rays(good))
         EXPECT_LE(cpu_seconds(march_world, bad.rays, allowed), allowed) << bad.what;
 }
@@ -98,14 +98,14 @@ INSTANTIATE_TEST_SUITE_P(HardCase, BadDirections, ::testing::ValuesIn(all_traver
                          test::traversal_name);
 
 // The twin: rays that go ten times as far through a world without boxes take more than is allowed.
-TEST(BadDirectionsJudge, sees_rays_that_take_longer_than_is_allowed) {
+TEST(BadDirectionsChecker, sees_rays_that_take_longer_than_is_allowed) {
     const VoxelWorld world(glm::ivec3(0), glm::ivec3(64, 1, 1));
-    MarchWorld march_world = build_march_skeleton(world, all_traversals().back());
+    MarchWorld march_world = build_unexpanded_world(world, all_traversals().back());
     gpu::Ray ray{{1000, 8, 8}, glm::vec3(0.5f), {-1, 0, 0}, gpu::kUnbounded};
     const std::vector<gpu::Ray> slow(kRays, ray);
     ray.direction.x = 1.0f;
     const std::vector<gpu::Ray> fast(kRays, ray);
-    const double allowed = kMostTime * cpu_seconds(march_world, fast);
+    const double allowed = kMaxTime * cpu_seconds(march_world, fast);
     EXPECT_GT(cpu_seconds(march_world, slow, allowed), allowed);
 }
 

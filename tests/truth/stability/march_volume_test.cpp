@@ -11,7 +11,7 @@
 #include "shared/hash.h"
 #include "support/interval_walk.h"
 #include "support/traversal_name.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(Rays, MarchVolumeNightly, ::testing::ValuesIn(all_trave
                          test::traversal_name);
 
 // The twins: a world with one voxel too many, and shells with one voxel missing.
-TEST(MarchVolumeJudge, notices_one_voxel_that_the_structure_has_not) {
+TEST(MarchVolumeChecker, notices_one_voxel_that_the_structure_has_not) {
     VoxelWorld world = test::world_named("random_0.001");
     const MarchWorld built = build_march_world(world);
     world.set({24, 16, 8}, 3);
@@ -206,7 +206,7 @@ TEST(MarchVolumeJudge, notices_one_voxel_that_the_structure_has_not) {
     EXPECT_NE(first_fault(world, test::DenseVoxels(world), rays, got), "");
 }
 
-TEST(MarchVolumeJudge, notices_a_hole_of_one_voxel_in_every_shell) {
+TEST(MarchVolumeChecker, notices_a_hole_of_one_voxel_in_every_shell) {
     for (const Shell& shell : shells()) {
         const Cage cage(shell);
         std::vector<glm::ivec3> wall;

@@ -7,7 +7,7 @@
 #include "shared/hash.h"
 #include "support/march_oracle.h"
 #include "support/test_scenes.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
@@ -123,8 +123,8 @@ TEST(HardCase, row17_spawned_rays_at_any_angle_neither_hit_their_own_face_nor_sk
                 static_cast<float>(std::sin(angle)) * ((probe.hit.face & 1u) != 0 ? 1.0f : -1.0f);
             direction[(axis + 1) % 3] = static_cast<float>(std::cos(angle) * 0.8);
             direction[(axis + 2) % 3] = static_cast<float>(std::cos(angle) * -0.6);
-            spawned.push_back(gpu::leave_surface(probe.hit.cell, probe.hit.face, probe.fraction, direction,
-                                                 gpu::kUnbounded));
+            spawned.push_back(
+                gpu::spawn_ray(probe.hit.cell, probe.hit.face, probe.fraction, direction, gpu::kUnbounded));
             own.push_back(probe.hit.cell);
         }
     }

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/light_scenes.h"
 
 namespace voxilux {
@@ -28,11 +28,11 @@ constexpr std::uint32_t kSeeds = 8;
 // A floor that sees a ball of light in a mirror, as light from behind the wall x = 0: a caustic whose
 // irradiance is known.
 constexpr double kAlbedo = 0.5;
-constexpr double kLampRadius = 0.25;
-constexpr double kLampRadiance = 100.0;
-constexpr double kLampHeight = 2.0;
-constexpr double kLampDistance = 1.0;  // from the mirror
-constexpr double kSeenAt = 3.0;        // the middle of the picture, from the mirror
+constexpr double kEmitterRadius = 0.25;
+constexpr double kEmitterRadiance = 100.0;
+constexpr double kEmitterHeight = 2.0;
+constexpr double kEmitterDistance = 1.0;  // from the mirror
+constexpr double kSeenAt = 3.0;           // the middle of the picture, from the mirror
 
 Scene mirror_scene(std::uint32_t seed, double alpha) {
     Scene scene = test::dark_scene(4, 16384, kFirstRadius);
@@ -41,8 +41,8 @@ Scene mirror_scene(std::uint32_t seed, double alpha) {
     scene.settings.sequence = Sequence::white;
     test::add_box(scene, {0, -16, -1}, {16, 16, 0}, test::add_diffuse(scene, static_cast<float>(kAlbedo)));
     test::add_box(scene, {-1, -16, -1}, {0, 16, 16}, test::add_mirror(scene));
-    const std::uint16_t lamp = test::add_lamp(scene, static_cast<float>(kLampRadiance));
-    scene.spheres.push_back({glm::dvec3(kLampDistance, 0.0, kLampHeight), kLampRadius, lamp});
+    const std::uint16_t emitter = test::add_emitter(scene, static_cast<float>(kEmitterRadiance));
+    scene.spheres.push_back({glm::dvec3(kEmitterDistance, 0.0, kEmitterHeight), kEmitterRadius, emitter});
     scene.camera = test::camera_towards({kSeenAt, 0.0, 12.0}, {kSeenAt, 1e-3, 0.0}, 0.01);
     return scene;
 }
@@ -50,10 +50,10 @@ Scene mirror_scene(std::uint32_t seed, double alpha) {
 // Radiance of the floor at x from the mirror and y along it, by the form factor of a ball that is seen whole
 // (Howell, catalogue of configuration factors, B-54).
 double radiance_at(double x, double y) {
-    const double across = x + kLampDistance;
-    const double squared = across * across + y * y + kLampHeight * kLampHeight;
-    const double irradiance =
-        kPi * kLampRadiance * kLampRadius * kLampRadius * kLampHeight / (squared * std::sqrt(squared));
+    const double across = x + kEmitterDistance;
+    const double squared = across * across + y * y + kEmitterHeight * kEmitterHeight;
+    const double irradiance = kPi * kEmitterRadiance * kEmitterRadius * kEmitterRadius * kEmitterHeight /
+                              (squared * std::sqrt(squared));
     return kAlbedo * irradiance / kPi;
 }
 
@@ -96,7 +96,7 @@ struct RateRow {
 std::vector<double> iterations_of(std::uint32_t seed, double alpha) {
     const PlanRequest request{
         .effects = {.switches = {{Effect::direct, Switch::off}, {Effect::indirect, Switch::off}}}};
-    test::FrameRig rig(mirror_scene(seed, alpha), request);
+    test::FrameFixture rig(mirror_scene(seed, alpha), request);
     std::vector<double> values;
     for (std::uint32_t i = 0; i < kIterations; ++i) {
         const test::FramePlanes planes = rig.render(i);

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "frame/footprint.h"
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
@@ -47,13 +47,13 @@ TEST(HardCase, row39_longest_row_renders) {
     EXPECT_EQ(test::render_validated(one_voxel({131072, 1})).image.width, 131072);
 }
 
-// Film 8-byte sums, 6 of them a pixel: 12 GiB. It splits into bands below every limit of one buffer, and is
-// refused by a budget of memory, not by the device.
+// Film 8-byte sums, 6 of them a pixel: 12 GiB. It splits into film tiles below every limit of one buffer, and
+// is refused by a budget of memory, not by the device.
 TEST(HardCase, row39_plan_of_16384_squared_splits_into_bands_or_is_refused_by_the_budget) {
     const Scene scene = one_voxel({16384, 16384});
     const DeviceLimits limits;
     const RenderPlan plan = prepare_scene(scene, {}, limits).plan;
-    EXPECT_GE(std::uint64_t{plan.band_rows} * plan.band_count, 16384u);
+    EXPECT_GE(std::uint64_t{plan.film_tile_rows} * plan.film_tile_count, 16384u);
     const Footprint needs = footprint(plan);
     for (const PlannedBuffer& planned : needs.buffers)
         EXPECT_LE(planned.bytes, limits.max_binding_bytes) << planned.buffer;

@@ -6,12 +6,12 @@
 
 #include "support/exact_walk.h"
 #include "support/interval_walk.h"
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 namespace voxilux {
 namespace {
 
-TEST(MarchJudge, notices_a_structure_of_another_world_among_equal_ones) {
+TEST(MarchChecker, notices_a_structure_of_another_world_among_equal_ones) {
     const VoxelWorld& world = test::world_named("random_0.02");
     VoxelWorld other = world;
     other.set({24, 16, 8}, 3);
@@ -25,7 +25,7 @@ TEST(MarchJudge, notices_a_structure_of_another_world_among_equal_ones) {
     EXPECT_NE(found.find(name_of(structures.back().traversal)), std::string::npos) << found;
 }
 
-TEST(MarchJudge, notices_a_change_in_any_part_of_a_hit) {
+TEST(MarchChecker, notices_a_change_in_any_part_of_a_hit) {
     const VoxelWorld& world = test::world_named("random_0.3");
     gpu::MarchHit hit{};
     for (const gpu::Ray& ray : test::family_named("random", world.size(), 100)) {

@@ -10,8 +10,8 @@
 #include "frame/frame_state.h"
 #include "jobs/render_session.h"
 #include "plan/render_plan.h"
+#include "shared/counters.h"
 #include "shared/gpu_types.h"
-#include "shared/tally.h"
 #include "support/device_fixture.h"
 
 namespace voxilux::test {
@@ -22,23 +22,23 @@ struct FramePlanes {
     std::vector<float> ao;
     std::vector<float> sun;
     std::vector<glm::vec3> color;
-    std::array<gpu::uint, gpu::kTallyCount> tally{};
+    std::array<gpu::uint, gpu::kCounterCount> counters{};
 };
 
 // A scene on a device, sample by sample. Persistent buffers go by name, so one rig at a time uses an
-// executor. The plan has one film band and every AOV.
-class FrameRig {
+// executor. The plan has one film tile and every AOV.
+class FrameFixture {
   public:
     // The plan chooses the structure of the world when `traversal` is none.
-    explicit FrameRig(const Scene& scene, Executor& executor = test_executor(),
-                      std::optional<Traversal> traversal = std::nullopt);
-    FrameRig(const Scene& scene, const PlanRequest& request, Executor& executor = test_executor());
+    explicit FrameFixture(const Scene& scene, Executor& executor = test_executor(),
+                          std::optional<Traversal> traversal = std::nullopt);
+    FrameFixture(const Scene& scene, const PlanRequest& request, Executor& executor = test_executor());
 
     // Renders the sample in one piece into the film.
     FramePlanes render(std::uint32_t sample);
 
-    // Renders the sample in slices of `rows` rows into the film.
-    void render_slices(std::uint32_t sample, std::uint32_t rows);
+    // Renders the sample in tiles of `rows` rows into the film.
+    void render_tile(std::uint32_t sample, std::uint32_t rows);
 
     // The exact sums of a film plane, interleaved components.
     [[nodiscard]] std::vector<std::int64_t> film_sums(const std::string& plane);

@@ -1,4 +1,4 @@
-#include "jobs/price_list/knobs.h"
+#include "jobs/price_list/parameters.h"
 
 #include <algorithm>
 #include <array>
@@ -13,38 +13,39 @@
 namespace voxilux {
 namespace {
 
-// Adds ways that differ from the first in one thing.
+// Adds configurations that differ from the first in one thing.
 class Designer {
   public:
-    explicit Designer(const Way& base) { design_.ways.push_back(base); }
+    explicit Designer(const Configuration& base) { design_.configurations.push_back(base); }
 
-    void begin(Knob knob) { design_.knobs.push_back(std::move(knob)); }
+    void begin(Parameter parameter) { design_.parameters.push_back(std::move(parameter)); }
 
-    // A way that is there already is used again.
-    void add(const std::string& name, const std::function<void(Way&)>& change) {
-        Way way = design_.ways.front();
-        change(way);
-        const auto known = std::ranges::find(design_.ways, way);
-        const auto index = static_cast<std::size_t>(known - design_.ways.begin());
-        if (known == design_.ways.end()) design_.ways.push_back(way);
-        std::vector<KnobSetting>& settings = design_.knobs.back().settings;
-        if (std::ranges::find(settings, index, &KnobSetting::way) == settings.end())
+    // A configuration that is there already is used again.
+    void add(const std::string& name, const std::function<void(Configuration&)>& change) {
+        Configuration configuration = design_.configurations.front();
+        change(configuration);
+        const auto known = std::ranges::find(design_.configurations, configuration);
+        const auto index = static_cast<std::size_t>(known - design_.configurations.begin());
+        if (known == design_.configurations.end()) design_.configurations.push_back(configuration);
+        std::vector<ParameterSetting>& settings = design_.parameters.back().settings;
+        if (std::ranges::find(settings, index, &ParameterSetting::configuration) == settings.end())
             settings.push_back({name, index});
     }
 
     void fix(FixedChoice choice) { design_.fixed.push_back(std::move(choice)); }
 
-    [[nodiscard]] const Way& base() const { return design_.ways.front(); }
+    [[nodiscard]] const Configuration& base() const { return design_.configurations.front(); }
 
-    // Knobs with one setting have nothing to compare.
-    [[nodiscard]] KnobDesign result() {
-        std::erase_if(design_.knobs,
-                      [](const Knob& knob) { return knob.name != "samples" && knob.settings.size() < 2; });
+    // Parameters with one setting have nothing to compare.
+    [[nodiscard]] ParameterDesign result() {
+        std::erase_if(design_.parameters, [](const Parameter& parameter) {
+            return parameter.name != "samples" && parameter.settings.size() < 2;
+        });
         return std::move(design_);
     }
 
   private:
-    KnobDesign design_;
+    ParameterDesign design_;
 };
 
 void design_sequence(Designer& designer) {
@@ -52,9 +53,12 @@ void design_sequence(Designer& designer) {
                     .label = "sequence",
                     .axis = "sequence of sample points",
                     .why = "Points that are spread more evenly than random ones leave less noise."});
-    designer.add("sobol", [](Way& way) { way.settings.sequence = Sequence::sobol; });
-    designer.add("halton", [](Way& way) { way.settings.sequence = Sequence::halton; });
-    designer.add("white", [](Way& way) { way.settings.sequence = Sequence::white; });
+    designer.add("sobol",
+                 [](Configuration& configuration) { configuration.settings.sequence = Sequence::sobol; });
+    designer.add("halton",
+                 [](Configuration& configuration) { configuration.settings.sequence = Sequence::halton; });
+    designer.add("white",
+                 [](Configuration& configuration) { configuration.settings.sequence = Sequence::white; });
 }
 
 void design_traversal(const RenderPlan& plan, Designer& designer) {
@@ -64,8 +68,8 @@ void design_traversal(const RenderPlan& plan, Designer& designer) {
                     .why = "All structures find the same cells, so that only time and memory differ."});
     for (std::size_t i = 0; i < kTraversalCount; ++i) {
         const auto traversal = static_cast<Traversal>(i);
-        designer.add(std::string(name_of(traversal)), [&](Way& way) {
-            if (traversal != plan.world.traversal) way.traversal = traversal;
+        designer.add(std::string(name_of(traversal)), [&](Configuration& configuration) {
+            if (traversal != plan.world.traversal) configuration.traversal = traversal;
         });
     }
 }
@@ -79,8 +83,8 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
                         "Pixels trace occlusion alone, or share samples in cells of the surface, which trade "
                         "noise for blur."});
     const auto method = [&](AoMethod wanted) {
-        return [planned, wanted](Way& way) {
-            if (planned != wanted) way.settings.ao.method = wanted;
+        return [planned, wanted](Configuration& configuration) {
+            if (planned != wanted) configuration.settings.ao.method = wanted;
         };
     };
     designer.add("brute", method(AoMethod::brute));
@@ -92,9 +96,9 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
                     .why = "Wider cells share more samples and blur more."});
     const float usual = designer.base().settings.ao.cell_px;
     for (const float factor : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
-        designer.add(fmt::format("{:g} px", factor * usual), [&](Way& way) {
-            method(AoMethod::hash)(way);
-            way.settings.ao.cell_px = factor * usual;
+        designer.add(fmt::format("{:g} px", factor * usual), [&](Configuration& configuration) {
+            method(AoMethod::hash)(configuration);
+            configuration.settings.ao.cell_px = factor * usual;
         });
     }
 
@@ -105,7 +109,7 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
     const std::uint32_t rays = designer.base().settings.ao_rays;
     for (const std::uint32_t factor : {1u, 2u, 4u, 8u})
         designer.add(fmt::format("{}", factor * rays),
-                     [&](Way& way) { way.settings.ao_rays = factor * rays; });
+                     [&](Configuration& configuration) { configuration.settings.ao_rays = factor * rays; });
 }
 
 void set_photon_method(const std::string& method, PhotonSettings& photons) {
@@ -121,10 +125,10 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
     const double count = plan.photons.count();
     for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
         const double wanted =
-            std::clamp(std::round(factor * count), 1.0, static_cast<double>(PhotonSettings::kMostCount));
+            std::clamp(std::round(factor * count), 1.0, static_cast<double>(PhotonSettings::kMaxCount));
         const auto photons = static_cast<std::uint32_t>(wanted);
-        designer.add(fmt::format("{}", photons), [&](Way& way) {
-            if (photons != plan.photons.count()) way.settings.photons.count = photons;
+        designer.add(fmt::format("{}", photons), [&](Configuration& configuration) {
+            if (photons != plan.photons.count()) configuration.settings.photons.count = photons;
         });
     }
     designer.begin({.name = "radius",
@@ -133,8 +137,9 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
                     .why = "Light is averaged over a disc: a wide one blurs, a narrow one is noisy."});
     const double radius = plan.photons.radius;
     for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
-        designer.add(fmt::format("{:.3g}", factor * radius),
-                     [&](Way& way) { way.settings.photons.radius = factor * radius; });
+        designer.add(fmt::format("{:.3g}", factor * radius), [&](Configuration& configuration) {
+            configuration.settings.photons.radius = factor * radius;
+        });
     }
     designer.begin(
         {.name = "alpha",
@@ -143,7 +148,8 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
          .why = "The smaller alpha, the faster the discs shrink: less blur in the end, more noise."});
     const double alpha = designer.base().settings.photons.alpha;
     for (const double value : {0.5, alpha, 0.8, 1.0})
-        designer.add(fmt::format("{:.3g}", value), [&](Way& way) { way.settings.photons.alpha = value; });
+        designer.add(fmt::format("{:.3g}", value),
+                     [&](Configuration& configuration) { configuration.settings.photons.alpha = value; });
 }
 
 void design_photon_methods(Designer& designer) {
@@ -154,8 +160,8 @@ void design_photon_methods(Designer& designer) {
                            "gives each pixel a radius of its own."});
     const std::string planned = photon_method(designer.base().settings.photons);
     for (const char* method : {"gather", "scatter", "classic"}) {
-        designer.add(method, [&](Way& way) {
-            if (method != planned) set_photon_method(method, way.settings.photons);
+        designer.add(method, [&](Configuration& configuration) {
+            if (method != planned) set_photon_method(method, configuration.settings.photons);
         });
     }
     designer.begin({.name = "paths",
@@ -163,12 +169,13 @@ void design_photon_methods(Designer& designer) {
                     .axis = "what ends a path",
                     .why = "Chance ends paths without bias; a depth that is too small loses light."});
     const auto cut = [](std::uint32_t depth) {
-        return [depth](Way& way) {
-            way.settings.photons.roulette = false;
-            way.settings.photons.depth = depth;
+        return [depth](Configuration& configuration) {
+            configuration.settings.photons.roulette = false;
+            configuration.settings.photons.depth = depth;
         };
     };
-    designer.add("roulette", [](Way& way) { way.settings.photons.roulette = true; });
+    designer.add("roulette",
+                 [](Configuration& configuration) { configuration.settings.photons.roulette = true; });
     designer.add("depth 2", cut(2));
     designer.add("depth 8", cut(8));
 }
@@ -186,8 +193,8 @@ void design_estimate(const RenderPlan& plan, Designer& designer) {
                     .why =
                         "Sums of squares, and of the bias of photons, tell the error more exactly than two "
                         "halves; they change no pixel."});
-    designer.add("halves", [](Way&) {});
-    designer.add("squares", [](Way& way) { way.request.wants_error = true; });
+    designer.add("halves", [](Configuration&) {});
+    designer.add("squares", [](Configuration& configuration) { configuration.request.wants_error = true; });
 }
 
 void name_fixed(const RenderPlan& plan, Designer& designer) {
@@ -210,7 +217,7 @@ std::string photon_method(const PhotonSettings& photons) {
     return photons.scatter ? "scatter" : "gather";
 }
 
-KnobDesign design_knobs(const RenderPlan& plan, const Way& base) {
+ParameterDesign design_parameters(const RenderPlan& plan, const Configuration& base) {
     Designer designer(base);
     designer.begin({.name = "samples",
                     .label = "samples",

@@ -11,7 +11,7 @@
 
 #include "frame/frame_state.h"
 #include "jobs/render_session.h"
-#include "shared/tally.h"
+#include "shared/counters.h"
 #include "support/ao_keys.h"
 #include "support/device_fixture.h"
 
@@ -22,11 +22,11 @@ struct AoFrame {
     gpu::FrameParams params{};
     std::vector<gpu::Hit> hits;
     std::vector<gpu::uint> slots;
-    std::vector<float> openness;
+    std::vector<float> visibility;
     std::vector<std::uint64_t> keys;
     std::vector<std::uint64_t> samples;
     std::vector<std::uint64_t> opens;
-    std::array<gpu::uint, gpu::kTallyCount> tally{};
+    std::array<gpu::uint, gpu::kCounterCount> counters{};
 
     // The slot of a pixel; none when it has no cell.
     [[nodiscard]] std::optional<std::uint32_t> slot_of(std::size_t pixel) const;
@@ -38,10 +38,10 @@ using CellSums = std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>
 
 // A scene on a device, frame by frame, each of one sample. Persistent buffers go by name, so one rig at a
 // time uses an executor. A frame counted a fault other than a full table fails the test.
-class AoRig {
+class AoFixture {
   public:
     // Uses the hash whatever method the scene asks for.
-    explicit AoRig(Scene scene, Executor& executor = test_executor());
+    explicit AoFixture(Scene scene, Executor& executor = test_executor());
 
     // The next frame through a camera; `sample` numbers the points of the pixels and of brute force.
     AoFrame render(const Camera& camera, std::uint32_t sample = 0);
@@ -63,7 +63,7 @@ class AoRig {
     PreparedScene prepared_;
 };
 
-// A floor with pillars, a slit and a wall: many different opennesses.
+// A floor with pillars, a slit and a wall: many different visibilities.
 [[nodiscard]] Scene pillared_scene();
 
 // A camera that flies around the scene above, a step each frame.
@@ -71,11 +71,11 @@ class AoRig {
 
 // Empty when a hit on a voxel's face has this key: its cell is that which double precision finds. A wanted
 // width within rounding of a border between levels may be on either side.
-[[nodiscard]] std::string key_disagreement(const AoRig& rig, const AoFrame& frame, const gpu::Hit& hit,
+[[nodiscard]] std::string key_disagreement(const AoFixture& rig, const AoFrame& frame, const gpu::Hit& hit,
                                            std::uint64_t key);
 
 // How many of the samples with the numbers first <= n < end of a cell meet nothing, marched in C++.
-[[nodiscard]] std::uint64_t open_samples(const AoRig& rig, std::uint64_t key, std::uint64_t first,
+[[nodiscard]] std::uint64_t open_samples(const AoFixture& rig, std::uint64_t key, std::uint64_t first,
                                          std::uint64_t end);
 
 }  // namespace voxilux::test

@@ -1,8 +1,8 @@
 // Counters of the shaders, which the host reads back after every recording: faults, which are all zero in a
 // good run, and work done. VX_COUNTER(constant, number, name in reports); is one of them. Numbers have no
 // gap; C++ refuses to compile a number that is missing or taken.
-#ifndef VX_TALLY_H
-#define VX_TALLY_H
+#ifndef VX_COUNTERS_H
+#define VX_COUNTERS_H
 
 #include "portable.h"
 
@@ -32,7 +32,7 @@ VX_COUNTER(kFaultAoTableFull, 4u,
            ao_table_full);  // hits without a slot for their cell: they used their own rays
 VX_COUNTER(kFaultPhotonStoreFull, 5u, photon_store_full);  // photons without room in the store: they are lost
 VX_COUNTER(kFaultPhotonPower, 6u, photon_power);  // photons of a power or place out of range: clamped or lost
-VX_COUNTER(kFaultPathTooLong, 7u, path_too_long);  // paths that met kMostBounces surfaces, and ended there
+VX_COUNTER(kFaultPathTooLong, 7u, path_too_long);  // paths that met kMaxBounces surfaces, and ended there
 VX_COUNTER(kFaultLoopCut, 8u, loop_cut);           // paths or sums that the device cut off (lib/loops.glsl)
 VX_CONST(uint, kFaultCount, kFaultLoopCut + 1u);
 
@@ -49,19 +49,20 @@ VX_COUNTER(kWorkAoDropped, 17u, ao_dropped);          // samples that were in th
 VX_COUNTER(kWorkAoOwnRays, 18u, ao_own_rays);         // occlusion rays that no cell took
 VX_COUNTER(kWorkAoSwaps, 19u, ao_swaps);              // compare-and-swaps of keys
 VX_COUNTER(kWorkPhotonsStored, 20u, photons_stored);  // photons that found room in the store
-VX_COUNTER(kWorkPathSegments, 21u, path_segments);  // ways from surface to surface, and shadow rays to lamps
-VX_CONST(uint, kTallyCount, kWorkPathSegments + 1u);
+VX_COUNTER(kWorkPathSegments, 21u,
+           path_segments);  // ways from surface to surface, and shadow rays to emitters
+VX_CONST(uint, kCounterCount, kWorkPathSegments + 1u);
 
 VX_END
 
 #ifdef __cplusplus
 namespace voxilux::gpu {
-inline constexpr auto kTallyNames = []<uint... numbers>(std::integer_sequence<uint, numbers...>) {
+inline constexpr auto kCounterNames = []<uint... numbers>(std::integer_sequence<uint, numbers...>) {
     static_assert(((kCounterName<numbers> != nullptr) && ...), "a number below kTallyCount has no counter");
-    static_assert(kCounterName<kTallyCount> == nullptr, "kTallyCount is that of a counter");
+    static_assert(kCounterName<kCounterCount> == nullptr, "kTallyCount is that of a counter");
     return std::array{kCounterName<numbers>...};
 }
-(std::make_integer_sequence<uint, kTallyCount>());
+(std::make_integer_sequence<uint, kCounterCount>());
 }  // namespace voxilux::gpu
 #endif
 

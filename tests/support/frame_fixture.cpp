@@ -1,4 +1,4 @@
-#include "support/frame_rig.h"
+#include "support/frame_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -17,57 +17,57 @@ std::vector<T> plane_of(const RunResult& result, const std::string& buffer) {
     return result.readbacks.contains(buffer) ? values_of<T>(result, buffer) : std::vector<T>{};
 }
 
-Slice slice_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t rows) {
+DispatchTile tile_of(const RenderPlan& plan, std::uint32_t first_row, std::uint32_t rows) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     return {.first_row = first_row, .row_count = std::min(rows, height - first_row)};
 }
 
 }  // namespace
 
-FrameRig::FrameRig(const Scene& scene, Executor& executor, std::optional<Traversal> traversal)
-    : FrameRig(scene, PlanRequest{.effects = {.wants_aov = true}, .traversal = traversal}, executor) {}
+FrameFixture::FrameFixture(const Scene& scene, Executor& executor, std::optional<Traversal> traversal)
+    : FrameFixture(scene, PlanRequest{.effects = {.wants_aov = true}, .traversal = traversal}, executor) {}
 
-FrameRig::FrameRig(const Scene& scene, const PlanRequest& request, Executor& executor)
+FrameFixture::FrameFixture(const Scene& scene, const PlanRequest& request, Executor& executor)
     : executor_(executor),
       prepared_(prepare_scene(scene, request, test_device().limits())),
       params_(frame_params(prepared_.plan, scene, prepared_.march_world)) {
-    EXPECT_EQ(prepared_.plan.band_count, 1u) << "a rig renders pictures of one band";
+    EXPECT_EQ(prepared_.plan.film_tile_count, 1u) << "a rig renders pictures of one band";
     Recording recording;
     record_scene_upload(prepared_.plan, scene, prepared_.march_world, prepared_.lights, recording);
     record_film_clear(prepared_.plan, recording);
     executor_.run(recording);
 }
 
-FramePlanes FrameRig::render(std::uint32_t sample) {
+FramePlanes FrameFixture::render(std::uint32_t sample) {
     Recording recording;
-    record_frame(prepared_.plan, slice_of(prepared_.plan, 0, prepared_.plan.band_rows), params_,
+    record_frame(prepared_.plan, tile_of(prepared_.plan, 0, prepared_.plan.film_tile_rows), params_,
                  {sample, state_}, recording);
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
-    for (const std::string& buffer : {hits, std::string("ao.open"), std::string("sun.lit"),
-                                      std::string("shade.color"), std::string("tally")}) {
+    for (const std::string& buffer : {hits, std::string("ao.visibility"), std::string("sun.lit"),
+                                      std::string("shade.color"), std::string("counters")}) {
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
     }
     const RunResult result = executor_.run(recording);
     FramePlanes planes{.hits = plane_of<gpu::Hit>(result, hits),
-                       .ao = plane_of<float>(result, "ao.open"),
+                       .ao = plane_of<float>(result, "ao.visibility"),
                        .sun = plane_of<float>(result, "sun.lit"),
                        .color = plane_of<glm::vec3>(result, "shade.color")};
-    const std::vector<gpu::uint> tally = values_of<gpu::uint>(result, "tally");
-    std::copy_n(tally.begin(), planes.tally.size(), planes.tally.begin());
+    const std::vector<gpu::uint> counters = values_of<gpu::uint>(result, "counters");
+    std::copy_n(counters.begin(), planes.counters.size(), planes.counters.begin());
     return planes;
 }
 
-void FrameRig::render_slices(std::uint32_t sample, std::uint32_t rows) {
+void FrameFixture::render_tile(std::uint32_t sample, std::uint32_t rows) {
     const auto height = static_cast<std::uint32_t>(prepared_.plan.settings.size.y);
     for (std::uint32_t row = 0; row < height; row += rows) {
         Recording recording;
-        record_frame(prepared_.plan, slice_of(prepared_.plan, row, rows), params_, {sample, state_},
+        record_frame(prepared_.plan, tile_of(prepared_.plan, row, rows), params_, {sample, state_},
                      recording);
         executor_.run(recording);
     }
 }
 
-std::vector<std::int64_t> FrameRig::film_sums(const std::string& plane) {
+std::vector<std::int64_t> FrameFixture::film_sums(const std::string& plane) {
     Recording recording;
     const std::vector<FilmPlane> planes = film_planes(prepared_.plan);
     const auto found = std::ranges::find(planes, plane, &FilmPlane::name);
@@ -78,9 +78,9 @@ std::vector<std::int64_t> FrameRig::film_sums(const std::string& plane) {
 }
 
 FramePlanes render_first_sample(const Scene& scene) {
-    FramePlanes planes = FrameRig(scene).render(0);
+    FramePlanes planes = FrameFixture(scene).render(0);
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
-        EXPECT_EQ(planes.tally[i], 0u) << "fault " << gpu::kTallyNames[i];
+        EXPECT_EQ(planes.counters[i], 0u) << "fault " << gpu::kCounterNames[i];
     return planes;
 }
 

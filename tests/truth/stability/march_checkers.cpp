@@ -1,4 +1,4 @@
-#include "truth/stability/march_judges.h"
+#include "truth/stability/march_checkers.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

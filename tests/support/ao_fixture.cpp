@@ -1,4 +1,4 @@
-#include "support/ao_rig.h"
+#include "support/ao_fixture.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@ Scene with_hash(Scene scene) {
     return scene;
 }
 
-// The last buffer that holds the frame's openness.
-std::string openness_buffer(const RenderPlan& plan) {
-    return plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.open";
+// The last buffer that holds the frame's visibility.
+std::string visibility_buffer(const RenderPlan& plan) {
+    return plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.visibility";
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ CellSums sums_of(const AoFrame& frame) {
     return sums;
 }
 
-AoRig::AoRig(Scene scene, Executor& executor)
+AoFixture::AoFixture(Scene scene, Executor& executor)
     : executor_(executor),
       scene_(with_hash(std::move(scene))),
       prepared_(prepare_scene(scene_, {.effects = {.wants_aov = true}}, test_device().limits())) {
@@ -54,7 +54,7 @@ AoRig::AoRig(Scene scene, Executor& executor)
     executor_.run(recording);
 }
 
-AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
+AoFrame AoFixture::render(const Camera& camera, std::uint32_t sample) {
     Scene seen;
     seen.camera = camera;
     seen.sun = scene_.sun;
@@ -67,34 +67,36 @@ AoFrame AoRig::render(const Camera& camera, std::uint32_t sample) {
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
     const bool is_even = state.samples_done % 2 == 0 || !prepared_.plan.ao.reprojects;
     const std::string slots = is_even ? "ao.slots_even" : "ao.slots_odd";
-    const std::string openness = openness_buffer(prepared_.plan);
+    const std::string visibility = visibility_buffer(prepared_.plan);
     for (const std::string& buffer :
-         {hits, slots, openness, std::string("ao.keys"), std::string("ao.samples"), std::string("ao.opens"),
-          std::string("tally")})
+         {hits, slots, visibility, std::string("ao.keys"), std::string("ao.samples"),
+          std::string("ao.unoccluded"), std::string("counters")})
         recording.readback(buffer);
     const RunResult result = executor_.run(recording);
     frame.hits = values_of<gpu::Hit>(result, hits);
     frame.slots = values_of<gpu::uint>(result, slots);
-    frame.openness = values_of<float>(result, openness);
+    frame.visibility = values_of<float>(result, visibility);
     frame.keys = values_of<std::uint64_t>(result, "ao.keys");
     frame.samples = values_of<std::uint64_t>(result, "ao.samples");
-    frame.opens = values_of<std::uint64_t>(result, "ao.opens");
-    const auto tally = values_of<gpu::uint>(result, "tally");
-    std::copy_n(tally.begin(), frame.tally.size(), frame.tally.begin());
+    frame.opens = values_of<std::uint64_t>(result, "ao.unoccluded");
+    const auto counters = values_of<gpu::uint>(result, "counters");
+    std::copy_n(counters.begin(), frame.counters.size(), frame.counters.begin());
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i)
-        EXPECT_TRUE(frame.tally[i] == 0 || i == gpu::kFaultAoTableFull) << "fault " << gpu::kTallyNames[i];
+        EXPECT_TRUE(frame.counters[i] == 0 || i == gpu::kFaultAoTableFull)
+            << "fault " << gpu::kCounterNames[i];
     state.finish_sample(frame.params);
-    state.live_cells += std::uint64_t{frame.tally[gpu::kWorkAoClaimed]} - frame.tally[gpu::kWorkAoEvicted];
+    state.live_cells +=
+        std::uint64_t{frame.counters[gpu::kWorkAoClaimed]} - frame.counters[gpu::kWorkAoEvicted];
     ++state.frames_done;
     return frame;
 }
 
-void AoRig::set_sums(const std::vector<std::uint64_t>& samples, const std::vector<std::uint64_t>& opens) {
+void AoFixture::set_sums(const std::vector<std::uint64_t>& samples, const std::vector<std::uint64_t>& opens) {
     Recording recording;
     const std::uint64_t slots = prepared_.plan.ao.slots;
     recording.upload(declare<std::uint64_t>(recording, "ao.samples", slots, Lifetime::persistent),
                      std::as_bytes(std::span(samples)));
-    recording.upload(declare<std::uint64_t>(recording, "ao.opens", slots, Lifetime::persistent),
+    recording.upload(declare<std::uint64_t>(recording, "ao.unoccluded", slots, Lifetime::persistent),
                      std::as_bytes(std::span(opens)));
     executor_.run(recording);
 }
@@ -122,7 +124,8 @@ Camera flying_camera(int frame) {
     return camera_towards(position, {0.0, 0.0, 1.0}, 50.0);
 }
 
-std::string key_disagreement(const AoRig& rig, const AoFrame& frame, const gpu::Hit& hit, std::uint64_t key) {
+std::string key_disagreement(const AoFixture& rig, const AoFrame& frame, const gpu::Hit& hit,
+                             std::uint64_t key) {
     constexpr double kWidthError = 1e-6;  // relative: some roundings of floats
     const double pixel = 2.0 * glm::length(glm::dvec3(frame.params.camera_up)) / frame.params.height;
     const double width = double{hit.t} * double{rig.plan().settings.ao.cell_px} * pixel;
@@ -136,7 +139,7 @@ std::string key_disagreement(const AoRig& rig, const AoFrame& frame, const gpu::
                        cell ? static_cast<int>(cell->level) : -1);
 }
 
-std::uint64_t open_samples(const AoRig& rig, std::uint64_t key, std::uint64_t first, std::uint64_t end) {
+std::uint64_t open_samples(const AoFixture& rig, std::uint64_t key, std::uint64_t first, std::uint64_t end) {
     const gpu::AoCell cell = cell_of_key(key).value();
     const gpu::uint stream = gpu::ao_cell_stream(key_words(key));
     const RenderSettings& settings = rig.scene().settings;
@@ -148,7 +151,7 @@ std::uint64_t open_samples(const AoRig& rig, std::uint64_t key, std::uint64_t fi
         const gpu::vec3 direction =
             gpu::cosine_on_face(cell.face, gpu::sample_2d(sequence, sample, gpu::kPairOcclusion));
         const gpu::vec3 start = gpu::ao_cell_point(cell, gpu::sample_2d(sequence, sample, gpu::kPairPixel));
-        const gpu::Ray ray = gpu::leave_surface(cell.voxel, cell.face, start, direction, settings.ao_radius);
+        const gpu::Ray ray = gpu::spawn_ray(cell.voxel, cell.face, start, direction, settings.ao_radius);
         const gpu::MarchHit hit = gpu::march(rig.march_world(), ray, rig.march_world().chunks_size);
         open += hit.face == gpu::kFaceMiss ? 1 : 0;
     }

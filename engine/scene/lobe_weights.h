@@ -8,16 +8,16 @@
 namespace voxilux {
 
 // Shares of the light on a surface that meet a mirror and clear glass; the rest meets a diffuse surface.
-struct SurfaceShares {
+struct LobeWeights {
     float mirror = 0.0f;
     float glass = 0.0f;
 
-    bool operator==(const SurfaceShares&) const = default;
+    bool operator==(const LobeWeights&) const = default;
 };
 
 // A rough metal is a mix of mirror and diffuse surface, which has no lobe in between; rough glass is clear.
 // Emitters are diffuse, media too.
-[[nodiscard]] SurfaceShares surface_shares(const Material& material);
+[[nodiscard]] LobeWeights lobe_weights(const Material& material);
 
 // Numbers of the spheres in the order of the device: those with glass come first, each group in the order of
 // the scene.

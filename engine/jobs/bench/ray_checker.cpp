@@ -1,4 +1,4 @@
-#include "jobs/bench/ray_judge.h"
+#include "jobs/bench/ray_checker.h"
 
 #include <array>
 #include <cmath>
@@ -15,14 +15,14 @@ namespace {
 // One axis of a walk.
 struct WalkAxis {
     int step = 0;  // -1, 0 (never crosses) or 1
-    float pace = 0.0f;
+    float inverse_direction = 0.0f;
     float offset = 0.0f;
     int crossed = 0;
 
     [[nodiscard]] float next_time() const {
         if (step == 0) return std::numeric_limits<float>::infinity();
         const int planes = crossed + 1 - (step < 0 ? 1 : 0);
-        return (static_cast<float>(planes) + offset) * pace;
+        return (static_cast<float>(planes) + offset) * inverse_direction;
     }
 };
 
@@ -30,7 +30,7 @@ WalkAxis walk_axis(float direction, float fraction) {
     const float speed = std::abs(direction);
     if (speed < gpu::kMinDirection) return {};
     const int step = direction < 0.0f ? -1 : 1;
-    return {.step = step, .pace = 1.0f / speed, .offset = step < 0 ? fraction : -fraction};
+    return {.step = step, .inverse_direction = 1.0f / speed, .offset = step < 0 ? fraction : -fraction};
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ WalkedHit walk_ray(const VoxelWorld& world, const gpu::Ray& ray) {
     return hit;
 }
 
-Verdicts judge_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays, std::uint64_t most_cells) {
+Verdicts check_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays, std::uint64_t max_cells) {
     Verdicts verdicts;
     if (rays.empty()) return verdicts;
     // Steps of the golden ratio visit a list evenly however early the visit ends; a step without a common
@@ -70,7 +70,7 @@ Verdicts judge_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays, std
         ++stride;
     std::uint64_t cells = 0;
     std::size_t at = 0;
-    for (std::size_t i = 0; i < rays.size() && (i == 0 || cells < most_cells); ++i) {
+    for (std::size_t i = 0; i < rays.size() && (i == 0 || cells < max_cells); ++i) {
         const gpu::WorldEntry entry = gpu::enter_world(rays[at], world.size());
         const WalkedHit hit = entry.enters ? walk_ray(world, entry.ray) : WalkedHit{};
         verdicts.rays.push_back(at);

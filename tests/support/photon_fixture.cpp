@@ -1,4 +1,4 @@
-#include "support/photon_rig.h"
+#include "support/photon_fixture.h"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Rec
          .extent = {count, 1, 1},
          .bindings = {{"In", "t.photons"},
                       {"PhotonFrame", photon_frame_buffer(recording)},
-                      {"Tally", tally_buffer(recording)},
+                      {"Counters", tally_buffer(recording)},
                       {"PhotonHeads", photon_head_buffer(recording)},
                       {"StoredPhotons", photon_store_buffer(plan, recording)},
                       {"WantedCells", photon_wanted_buffer(plan, recording)},
@@ -55,8 +55,8 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
         outcome.sorted = values_of<gpu::SortedPhoton>(result, "photon.sorted");
     if (result.readbacks.contains("photon.radii"))
         outcome.radii = values_of<gpu::PixelRadius>(result, "photon.radii");
-    const auto tally = values_of<gpu::uint>(result, "tally");
-    std::copy_n(tally.begin(), outcome.tally.size(), outcome.tally.begin());
+    const auto counters = values_of<gpu::uint>(result, "counters");
+    std::copy_n(counters.begin(), outcome.counters.size(), outcome.counters.begin());
     outcome.times = result.passes;
     return outcome;
 }
@@ -64,18 +64,18 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
 PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     const RenderPlan plan = photon_plan(job);
     const gpu::PhotonParams params = photon_params(job.setup);
-    const Slice slice{.row_count = rows_of(job)};
+    const DispatchTile tile{.row_count = rows_of(job)};
     Recording recording;
     record_inputs(plan, job, recording);
     record_photon_clear(plan, params, recording);
-    record_photon_mark(plan, slice, {"t.points"}, recording);
+    record_photon_mark(plan, tile, {"t.points"}, recording);
     record_append(plan, job, !scatters, recording);
     if (!scatters) record_photon_sort(plan, params, recording);
     const PhotonPlanes planes = scatters
-                                    ? record_photon_splat(plan, params, slice, {"t.points"}, recording)
-                                    : record_photon_gather(plan, slice, {"t.points"}, job.radii, recording);
+                                    ? record_photon_splat(plan, params, tile, {"t.points"}, recording)
+                                    : record_photon_gather(plan, tile, {"t.points"}, job.radii, recording);
     for (const std::string& buffer :
-         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("tally")})
+         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("counters")})
         recording.readback(buffer);
     for (const char* buffer : {"photon.sorted", "photon.radii"})
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
@@ -91,7 +91,7 @@ std::uint32_t rows_of(const PhotonJob& job) {
 RenderPlan photon_plan(const PhotonJob& job) {
     RenderPlan plan;
     plan.settings.size = {static_cast<int>(job.width), static_cast<int>(rows_of(job))};
-    plan.slice_rows = rows_of(job);
+    plan.tile_rows = rows_of(job);
     plan.effects[static_cast<std::size_t>(Effect::spheres)].on = !job.spheres.empty();
     if (job.knows_lanes) plan.photons.gather_lanes = gather_lanes(test_device().limits());
     plan.photons.capacity = std::max(job.setup.capacity, 1u);

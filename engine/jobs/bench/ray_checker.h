@@ -32,10 +32,10 @@ struct Verdicts {
     std::vector<WalkedHit> hits;    // of those
 };
 
-// Walks rays spread evenly over the list until about `most_cells` cells are visited: at least one ray, at
+// Walks rays spread evenly over the list until about `max_cells` cells are visited: at least one ray, at
 // most all.
-[[nodiscard]] Verdicts judge_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays,
-                                  std::uint64_t most_cells);
+[[nodiscard]] Verdicts check_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays,
+                                  std::uint64_t max_cells);
 
 // How many of the judged rays met something else. `hits` has one entry per ray of the list.
 [[nodiscard]] std::uint64_t count_mismatches(const Verdicts& verdicts, std::span<const gpu::BenchHit> hits);

@@ -10,7 +10,7 @@
 
 #include "passes/photons/photon.h"
 #include "probe/photon_functions.h"
-#include "shared/tally.h"
+#include "shared/counters.h"
 #include "support/device_fixture.h"
 
 namespace voxilux::test {
@@ -34,7 +34,7 @@ struct PhotonOutcome {
     std::vector<gpu::SortedPhoton> sorted;
     std::vector<gpu::PixelRadius> radii;
     gpu::PhotonHead head{};
-    std::array<gpu::uint, gpu::kTallyCount> tally{};
+    std::array<gpu::uint, gpu::kCounterCount> counters{};
     std::vector<PassTime> times;
 };
 

@@ -1,4 +1,4 @@
-#include "scene/surface_shares.h"
+#include "scene/lobe_weights.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,12 +7,12 @@ namespace voxilux {
 namespace {
 
 bool has_glass(const Scene& scene, std::uint32_t sphere) {
-    return surface_shares(scene.materials.at(scene.spheres[sphere].material)).glass > 0.0f;
+    return lobe_weights(scene.materials.at(scene.spheres[sphere].material)).glass > 0.0f;
 }
 
 }  // namespace
 
-SurfaceShares surface_shares(const Material& material) {
+LobeWeights lobe_weights(const Material& material) {
     if (glm::any(glm::greaterThan(material.emission, glm::vec3(0.0f)))) return {};
     const float polish = std::clamp(material.metallic * (1.0f - material.roughness), 0.0f, 1.0f);
     const float clear = std::clamp(material.transmission, 0.0f, 1.0f);
