@@ -161,21 +161,21 @@ Planes make_planes(const Image& image, WriteReport& report) {
 }
 
 template <class T>
-Imf::DispatchTile tile_of(Imf::PixelType type, const std::vector<T>& plane, const Imath::Box2i& window) {
+Imf::Slice slice_of(Imf::PixelType type, const std::vector<T>& plane, const Imath::Box2i& window) {
     const std::size_t width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-    return Imf::DispatchTile::Make(type, plane.data(), window, sizeof(T), sizeof(T) * width);
+    return Imf::Slice::Make(type, plane.data(), window, sizeof(T), sizeof(T) * width);
 }
 
 void write_planes(Imf::OStream& stream, const Imf::Header& header, const Planes& planes, const Image& image) {
     Imf::FrameBuffer frame;
     const Imath::Box2i window = header.dataWindow();
     for (const auto& [name, plane] : planes.halves)
-        frame.insert(name, tile_of(Imf::HALF, plane, window));
+        frame.insert(name, slice_of(Imf::HALF, plane, window));
     for (const auto& [name, plane] : planes.singles)
-        frame.insert(name, tile_of(Imf::FLOAT, plane, window));
+        frame.insert(name, slice_of(Imf::FLOAT, plane, window));
     for (const auto& [name, words] : image.words) {
         VX_ASSERT_EQ(words.size(), pixel_count(image));
-        frame.insert(name, tile_of(Imf::UINT, words, window));
+        frame.insert(name, slice_of(Imf::UINT, words, window));
     }
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(frame);

@@ -120,12 +120,12 @@ enum class Area {
 };
 
 template <class T>
-Imf::DispatchTile tile_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& box) {
+Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& box) {
     static_assert(sizeof(T) == 4);
     const Window data = window_of(box);
     plane.resize(static_cast<std::size_t>(data.width * data.height));
-    return Imf::DispatchTile::Make(type, plane.data(), box, sizeof(T),
-                                   sizeof(T) * static_cast<std::size_t>(data.width));
+    return Imf::Slice::Make(type, plane.data(), box, sizeof(T),
+                            sizeof(T) * static_cast<std::size_t>(data.width));
 }
 
 void read_channels(Imf::InputPart& part, Area area, Image& image) {
@@ -139,9 +139,9 @@ void read_channels(Imf::InputPart& part, Area area, Image& image) {
             throw std::runtime_error(fmt::format("two channels are called {}", quoted_name(name)));
         const bool is_whole_number = c.channel().type == Imf::UINT;
         if (is_whole_number && area == Area::data) {
-            frame.insert(c.name(), tile_of(Imf::UINT, image.words[name], box));
+            frame.insert(c.name(), slice_of(Imf::UINT, image.words[name], box));
         } else if (!is_whole_number || !name.starts_with(kSumsLayer)) {
-            frame.insert(c.name(), tile_of(Imf::FLOAT, planes[name], box));
+            frame.insert(c.name(), slice_of(Imf::FLOAT, planes[name], box));
             image.channels[name].precision =
                 c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
         }

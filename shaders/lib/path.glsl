@@ -84,7 +84,7 @@ CellExit exit_cell(PathRay path) {
     int axis = first_axis(times);
     CellExit result;
     result.t = max(min(times.x, min(times.y, times.z)), 0.0);
-    result.face = uint(toward_axis(axes, axis));
+    result.face = uint(direction_number(axes, axis));
     float on_face = float(result.face & 1u);
     vec3 fraction = clamp(path.fraction + result.t * path.direction, vec3(0.0), vec3(1.0));
     result.fraction = vec3(axis == 0 ? on_face : fraction.x, axis == 1 ? on_face : fraction.y,

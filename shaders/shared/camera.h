@@ -85,14 +85,14 @@ VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
     entry.enters = true;
     if (!is_outside(ray.cell, size) || !is_sound(ray)) return entry;
     const MarchAxes axes = march_axes(ray);
-    const ivec3 ahead = ivec3(axes.flip.x < 0 ? ray.cell.x - size.x + 1 : -ray.cell.x,
-                              axes.flip.y < 0 ? ray.cell.y - size.y + 1 : -ray.cell.y,
-                              axes.flip.z < 0 ? ray.cell.z - size.z + 1 : -ray.cell.z);
+    const ivec3 ahead = ivec3(axes.sign_mask.x < 0 ? ray.cell.x - size.x + 1 : -ray.cell.x,
+                              axes.sign_mask.y < 0 ? ray.cell.y - size.y + 1 : -ray.cell.y,
+                              axes.sign_mask.z < 0 ? ray.cell.z - size.z + 1 : -ray.cell.z);
     const bool stuck = (ahead.x > 0 && axes.speed.x == 0.0f) || (ahead.y > 0 && axes.speed.y == 0.0f) ||
                        (ahead.z > 0 && axes.speed.z == 0.0f);
-    const TwoFloat tx = entry_time(ahead.x, axes.flip.x, axes.offset.x, axes.speed.x);
-    const TwoFloat ty = entry_time(ahead.y, axes.flip.y, axes.offset.y, axes.speed.y);
-    const TwoFloat tz = entry_time(ahead.z, axes.flip.z, axes.offset.z, axes.speed.z);
+    const TwoFloat tx = entry_time(ahead.x, axes.sign_mask.x, axes.offset.x, axes.speed.x);
+    const TwoFloat ty = entry_time(ahead.y, axes.sign_mask.y, axes.offset.y, axes.speed.y);
+    const TwoFloat tz = entry_time(ahead.z, axes.sign_mask.z, axes.offset.z, axes.speed.z);
     TwoFloat t = tx;
     int axis = 0;
     if (is_later(ty, t)) {
@@ -105,9 +105,9 @@ VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
     }
     entry.enters = !stuck && t.hi >= 0.0f && t.hi < kFarthestEntry && t.hi < ray.t_max;
     if (!entry.enters) return entry;
-    PlaneCount nx = count_planes(t, axes.speed.x, axes.flip.x, axes.offset.x);
-    PlaneCount ny = count_planes(t, axes.speed.y, axes.flip.y, axes.offset.y);
-    PlaneCount nz = count_planes(t, axes.speed.z, axes.flip.z, axes.offset.z);
+    PlaneCount nx = count_planes(t, axes.speed.x, axes.sign_mask.x, axes.offset.x);
+    PlaneCount ny = count_planes(t, axes.speed.y, axes.sign_mask.y, axes.offset.y);
+    PlaneCount nz = count_planes(t, axes.speed.z, axes.sign_mask.z, axes.offset.z);
     // Rounding must not leave a ray just short of a plane that it has reached.
     if (axis == 0 || nx.whole < ahead.x) nx.rest = 0.0f;
     if (axis == 1 || ny.whole < ahead.y) ny.rest = 0.0f;
@@ -115,11 +115,11 @@ VX_FN WorldEntry enter_world(Ray ray, ivec3 size) {
     const ivec3 reached =
         ivec3(axis == 0 ? ahead.x : nx.whole, axis == 1 ? ahead.y : ny.whole, axis == 2 ? ahead.z : nz.whole);
     const ivec3 n = max(reached, ahead);
-    entry.ray.cell = ray.cell + (n ^ axes.flip) - axes.flip;
+    entry.ray.cell = ray.cell + (n ^ axes.sign_mask) - axes.sign_mask;
     entry.ray.fraction =
-        vec3(axes.speed.x == 0.0f ? ray.fraction.x : (axes.flip.x < 0 ? 1.0f - nx.rest : nx.rest),
-             axes.speed.y == 0.0f ? ray.fraction.y : (axes.flip.y < 0 ? 1.0f - ny.rest : ny.rest),
-             axes.speed.z == 0.0f ? ray.fraction.z : (axes.flip.z < 0 ? 1.0f - nz.rest : nz.rest));
+        vec3(axes.speed.x == 0.0f ? ray.fraction.x : (axes.sign_mask.x < 0 ? 1.0f - nx.rest : nx.rest),
+             axes.speed.y == 0.0f ? ray.fraction.y : (axes.sign_mask.y < 0 ? 1.0f - ny.rest : ny.rest),
+             axes.speed.z == 0.0f ? ray.fraction.z : (axes.sign_mask.z < 0 ? 1.0f - nz.rest : nz.rest));
     entry.ray.t_max = ray.t_max - t.hi;
     entry.t = t.hi;
     entry.enters = !is_outside(entry.ray.cell, size);
