@@ -6,11 +6,14 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <fstream>
 #include <functional>
+
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "formats/exr.h"
@@ -142,8 +145,8 @@ std::string exr_file(const std::filesystem::path& path, const std::string& name,
     header.insert("comments", Imf::StringAttribute(name));
     float pixels[4] = {1, 2, 3, 4};
     Imf::FrameBuffer frame;
-    frame.insert(
-        name, Imf::DispatchTile::Make(Imf::FLOAT, pixels, Imath::V2i(0, 0), 2, 2, 0, 0, sampling, sampling));
+    frame.insert(name, Imf::Slice::Make(Imf::FLOAT, pixels, Imath::V2i(0, 0), 2, 2, std::size_t{0},
+                                        std::size_t{0}, sampling, sampling));
     Imf::OutputFile file(path.string().c_str(), header);
     file.setFrameBuffer(frame);
     file.writePixels(2 / sampling * sampling);
