@@ -49,19 +49,19 @@ class Presets(unittest.TestCase):
         found = choose_presets.choose(ALL)
         self.assertEqual([one["name"] for one in found], list(choose_presets.TARGETS))
         self.assertEqual([one["sky"]["samples"] for one in found], [64, 256, 2048, 32768])
-        self.assertEqual([one["lamps"]["samples"] for one in found], [16, 256, 1024, 8192])
+        self.assertEqual([one["emitters"]["samples"] for one in found], [16, 256, 1024, 8192])
         self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
         self.assertAlmostEqual(found[3]["sky"]["error"], 0.4 / 32768**0.5)
 
     def test_price_is_the_median_time_of_a_megapixel(self):
         found = choose_presets.choose(ALL)[0]
         self.assertAlmostEqual(found["sky"]["seconds_per_megapixel"], 0.1 * 64 / 0.5)
-        self.assertAlmostEqual(found["lamps"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
+        self.assertAlmostEqual(found["emitters"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
 
     def test_what_is_not_measured_is_told(self):
         found = choose_presets.choose(ALL)
         self.assertEqual([one["sky"]["is_measured"] for one in found], [True, False, False, False])
-        self.assertEqual([one["lamps"]["is_measured"] for one in found], [True, False, False, False])
+        self.assertEqual([one["emitters"]["is_measured"] for one in found], [True, False, False, False])
 
     def rays(self, name, error, time):
         """A scene whose error and time change by these factors with 4 rays."""
@@ -76,7 +76,7 @@ class Presets(unittest.TestCase):
         self.assertEqual(found[0]["sky"]["samples"], 16)
         self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
         self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
-        self.assertEqual(found[0]["lamps"], choose_presets.choose(ALL)[0]["lamps"])
+        self.assertEqual(found[0]["emitters"], choose_presets.choose(ALL)[0]["lamps"])
 
     def test_rays_that_gain_less_than_a_tenth_are_not(self):
         self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(self.rays("a", 1.0, 0.95) + LAMP)))
