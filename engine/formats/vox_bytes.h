@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
+
 namespace voxilux {
 
 // Why a file is refused: a rule and the byte where it is broken. Never leaves read_vox.
@@ -34,8 +36,8 @@ class VoxBytes {
 
     [[nodiscard]] std::span<const std::byte> bytes(std::size_t count, std::string_view name) {
         if (count > left())
-            throw VoxRefusal(
-                at_, fmt::format("{} needs {} bytes for its {} but has {} left", what_, count, name, left()));
+            throw VoxRefusal(at_, fmt::format("{} needs {} bytes for its {} but has {} left",
+                                              printable(what_), count, name, left()));
         const auto part = file_.subspan(at_, count);
         at_ += count;
         return part;
@@ -59,8 +61,8 @@ class VoxBytes {
         const std::uint32_t n = u32(items);
         const std::size_t room = left() / item_bytes;
         if (n > room)
-            throw VoxRefusal(
-                start, fmt::format("{} holds {} {} but the chunk has room for {}", what_, n, items, room));
+            throw VoxRefusal(start, fmt::format("{} holds {} {} but the chunk has room for {}",
+                                                printable(what_), n, items, room));
         return n;
     }
 

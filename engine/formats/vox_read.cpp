@@ -27,7 +27,7 @@ void read_chunk(VoxReading& reading, std::span<const std::byte> bytes, VoxBytes&
         throw VoxRefusal(start, fmt::format("{} has {} + {} bytes where MAIN has {} left", quoted_name(id),
                                             content, children, in.left()));
     }
-    VoxBytes chunk(bytes, in.offset(), in.offset() + content, printable(id));
+    VoxBytes chunk(bytes, in.offset(), in.offset() + content, id);
     const std::size_t nodes = reading.file.nodes.size();
     const bool is_known = read_vox_chunk(reading, chunk);
     if (reading.file.nodes.size() > nodes) reading.node_offsets.push_back(start);

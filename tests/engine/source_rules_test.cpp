@@ -142,7 +142,7 @@ TEST(ShaderBlocks, each_is_readonly_or_writeonly_or_has_a_reason) {
 
 TEST(ShaderBlocks, block_without_access_is_found) {
     EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) readonly buffer A {\n"}).size(), 0u);
-    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer Tally {\n"}).size(), 0u);
+    EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer Counters {\n"}).size(), 0u);
     EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer A {\n"}).size(), 1u);
     EXPECT_EQ(undeclared_access({"a.comp", "layout(scalar) buffer A { uint readonly_words[]; };\n"}).size(),
               1u);

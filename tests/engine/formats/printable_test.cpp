@@ -30,16 +30,18 @@ namespace {
 
 // What a terminal, JSON and a person stand, told apart by other means than the code under test: ASCII that is
 // printed, or well-formed UTF-8 outside the C1 and bidirectional controls.
-bool is_harmless(const std::string& text) {
+bool is_harmless(const std::string& text, bool has_lines = false) {
     if (text.size() > 4 * 1000) return false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto c = static_cast<unsigned char>(text[i]);
-        if (c == '\n') continue;  // between lines of ours
+        if (c == '\n' && has_lines) continue;  // between lines of ours
         if (c < 0x20 || c == 0x7F || c > 0xF4) return false;
         if (c < 0x80) continue;
         if (c < 0xC2) return false;
         const int more = c >= 0xF0 ? 3 : c >= 0xE0 ? 2 : 1;
-        if (c == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0) return false;
+        const int next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0;
+        if ((c == 0xC2 && next < 0xA0) || (c == 0xED && next >= 0xA0))
+            return false;  // C1 controls, surrogates
         if (text.compare(i, 3, "\u202e") == 0) return false;
         for (int k = 0; k < more; ++k) {
             if (++i >= text.size() || (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return false;
@@ -128,7 +130,7 @@ TEST(HostileNames, of_chunks_attributes_and_types_of_a_vox_file) {
         ASSERT_TRUE(file.ok()) << file.reason();
         const auto info = summarize(file.value());
         ASSERT_TRUE(info.ok());
-        EXPECT_TRUE(is_harmless(describe(info.value())));
+        EXPECT_TRUE(is_harmless(describe(info.value()), true));
         EXPECT_TRUE(is_harmless(to_json(info.value()).dump()));
         std::vector<std::string> warnings;
         (void)vox_materials(file.value(), warnings);
