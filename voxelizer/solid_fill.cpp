@@ -97,39 +97,44 @@ class OpenRow {
         : tree_(tree), row_(row), runs_(runs) {}
 
     // Cells first..last, between which the surface does not cross the row, so that the winding number has no
-    // step: looked at in 17 places, and halved between two of them that differ.
+    // step there.
     void add_stretch(int first, int last) {
         if (last < first) return;
         constexpr int kParts = 16;
-        const int step = std::max(1, (last - first) / kParts);
-        int from = first;
-        bool is_inside = is_inside_at(first);
-        for (int x = first; x < last;) {
-            const int next = std::min(x + step, last);
-            const bool next_is_inside = is_inside_at(next);
-            if (next_is_inside != is_inside) {
-                const int change = change_between(x, next, is_inside);
-                if (is_inside) add(from, change - 1);
-                from = change;
-                is_inside = next_is_inside;
-            }
-            x = next;
-        }
-        if (is_inside) add(from, last);
+        step_ = std::max(1, (last - first) / kParts);
+        const double end = winding_at(last);
+        add_part(first, last, first == last ? end : winding_at(first), end);
+        if (is_inside(end)) add(last, last);
     }
 
   private:
-    [[nodiscard]] bool is_inside_at(int x) const {
-        return std::abs(tree_.at(glm::dvec3(x, row_.x, row_.y) + 0.5)) > 0.5;
-    }
+    // As near as this to the threshold, the winding number may cross it between two places that agree.
+    static constexpr double kUncertainty = 0.2;
 
-    // The first cell of (low, high] that is not as `low` is.
-    [[nodiscard]] int change_between(int low, int high, bool low_is_inside) const {
-        while (high - low > 1) {
-            const int middle = low + (high - low) / 2;
-            (is_inside_at(middle) == low_is_inside ? low : high) = middle;
+    [[nodiscard]] double winding_at(int x) const {
+        return std::abs(tree_.at(glm::dvec3(x, row_.x, row_.y) + 0.5));
+    }
+    static bool is_inside(double winding) { return winding > 0.5; }
+    static bool is_uncertain(double winding) { return std::abs(winding - 0.5) < kUncertainty; }
+
+    // Cells first..last - 1, given the winding numbers at both ends: halved down to a step while they are
+    // uncertain, and to one cell where they differ.
+    void add_part(int first, int last, double at_first, double at_last) {
+        if (last == first) return;
+        const bool agree = is_inside(at_first) == is_inside(at_last);
+        const int middle = first + (last - first) / 2;
+        if (last - first == 1 || (agree && last - first <= step_)) {
+            if (is_inside(at_first)) add(first, last - 1);
+            return;
         }
-        return high;
+        const double at_middle = winding_at(middle);
+        const bool all_agree = agree && is_inside(at_middle) == is_inside(at_first);
+        if (all_agree && !is_uncertain(at_first) && !is_uncertain(at_middle) && !is_uncertain(at_last)) {
+            if (is_inside(at_first)) add(first, last - 1);
+            return;
+        }
+        add_part(first, middle, at_first, at_middle);
+        add_part(middle, last, at_middle, at_last);
     }
 
     void add(int first, int last) {
@@ -144,6 +149,7 @@ class OpenRow {
     const WindingTree& tree_;
     glm::ivec2 row_;
     std::vector<InsideRun>& runs_;
+    int step_ = 1;
 };
 
 // One layer of cells of an open mesh, from the crossings at its rows.
