@@ -13,7 +13,7 @@ namespace {
 using Point = std::array<std::uint32_t, 4>;
 
 // The first 2^m points of two pairs of one stream.
-std::vector<Point> draw_points(int m, gpu::uint first_pair, gpu::uint second_pair) {
+std::vector<Point> draw_group_points(int m, gpu::uint first_pair, gpu::uint second_pair) {
     std::vector<Point> points;
     for (gpu::uint i = 0; i < 1u << m; ++i) {
         const gpu::uvec2 a = gpu::sobol_pair(5, 77, i, first_pair);
@@ -57,7 +57,7 @@ int t_value(const std::vector<Point>& points, int m) {
 std::vector<int> t_values(gpu::uint first_pair, gpu::uint second_pair) {
     std::vector<int> values;
     for (int m = 1; m <= 10; ++m)
-        values.push_back(t_value(draw_points(m, first_pair, second_pair), m));
+        values.push_back(t_value(draw_group_points(m, first_pair, second_pair), m));
     return values;
 }
 

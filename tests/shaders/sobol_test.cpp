@@ -105,16 +105,16 @@ TEST(Sobol, net_check_rejects_halton_white_noise_and_one_moved_point) {
 }
 
 TEST(Sobol, each_bit_of_the_scramble_is_uniform_over_streams) {
-    constexpr std::size_t kBins = 256;
+    constexpr std::size_t kSobolBins = 256;
     constexpr std::uint32_t kStreams = 200000;
-    std::vector<std::uint64_t> seen(2 * kBins, 0);
+    std::vector<std::uint64_t> seen(2 * kSobolBins, 0);
     for (std::uint32_t stream = 0; stream < kStreams; ++stream) {
         const uvec2 p = gpu::sobol_pair(0, stream, 0, 0);
         ++seen[p.x >> 24];
-        ++seen[kBins + (p.y >> 24)];
+        ++seen[kSobolBins + (p.y >> 24)];
     }
-    const std::vector<double> expected(2 * kBins, kStreams / static_cast<double>(kBins));
-    EXPECT_LT(test::chi_square(seen, expected), test::chi_square_critical_99(2 * (kBins - 1)));
+    const std::vector<double> expected(2 * kSobolBins, kStreams / static_cast<double>(kSobolBins));
+    EXPECT_LT(test::chi_square(seen, expected), test::chi_square_critical_99(2 * (kSobolBins - 1)));
 }
 
 }  // namespace

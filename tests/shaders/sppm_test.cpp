@@ -19,7 +19,7 @@ using glm::dvec3;
 using glm::vec2;
 using glm::vec3;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kSppmPi = std::numbers::pi;
 
 TEST(PhotonRadius, follows_the_recurrence_of_the_paper) {
     for (const double alpha : {0.1, 2.0 / 3.0, 0.9, 1.0}) {
@@ -59,7 +59,7 @@ TEST(PhotonKernel, integrates_to_1_over_the_disc_and_stays_finite) {
         constexpr int kRings = 1000;
         for (int ring = 0; ring < 2 * kRings; ++ring) {
             const double distance = (ring + 0.5) / kRings * double(radius);
-            const double area = 2.0 * kPi * distance * double(radius) / kRings;
+            const double area = 2.0 * kSppmPi * distance * double(radius) / kRings;
             sum += area * double(gpu::photon_kernel(static_cast<float>(distance * distance), radius));
         }
         EXPECT_NEAR(sum, 1.0, 1e-5) << radius;
@@ -136,14 +136,14 @@ TEST(SphereEmission, near_field_is_that_of_a_lambertian_ball) {
     }
     // A point of the disc, s off the axis, receives pi L d / (d^2 + s^2)^1.5; over the disc that is pi L 2 pi
     // (1 - d / sqrt(d^2 + disc^2)).
-    const double share = 2.0 * kPi * (1.0 - distance / std::sqrt(distance * distance + disc * disc));
-    const double expected = kPhotons * kPi * share / double(gpu::sphere_emission_etendue(1.0f));
+    const double share = 2.0 * kSppmPi * (1.0 - distance / std::sqrt(distance * distance + disc * disc));
+    const double expected = kPhotons * kSppmPi * share / double(gpu::sphere_emission_etendue(1.0f));
     EXPECT_LT(std::abs(hits - expected), 4.0 * std::sqrt(expected)) << hits << ' ' << expected;
 }
 
 TEST(SphereEmission, etendue_is_pi_times_the_area) {
-    const double area = 4.0 * kPi * 7.5 * 7.5;
-    EXPECT_NEAR(double(gpu::sphere_emission_etendue(7.5f)), kPi * area, 1e-6 * kPi * area);
+    const double area = 4.0 * kSppmPi * 7.5 * 7.5;
+    EXPECT_NEAR(double(gpu::sphere_emission_etendue(7.5f)), kSppmPi * area, 1e-6 * kSppmPi * area);
 }
 
 TEST(SphereCone, height_keeps_all_bits_from_tiny_to_touching) {
@@ -189,7 +189,7 @@ double irradiance_error(double pdf_scale) {
             squares += value * value;
         }
         const double mean = sum / kDraws;
-        const double want = kPi / (double(distance) * double(distance));
+        const double want = kSppmPi / (double(distance) * double(distance));
         const double deviation = std::sqrt(std::max(0.0, squares / kDraws - mean * mean) / kDraws);
         worst = std::max(worst, std::abs(mean - want) / (deviation + 1e-6 * want));
     }

@@ -43,7 +43,7 @@ std::vector<Material> voxelized(const Mesh& mesh, int resolution = 4) {
     return used;
 }
 
-Mesh loaded(const std::string& name, const std::string& text, const std::string& library = "") {
+Mesh loaded_emission(const std::string& name, const std::string& text, const std::string& library = "") {
     const ScratchFolder folder;
     std::ofstream(folder / name, std::ios::binary) << text;
     std::ofstream(folder / "a.mtl", std::ios::binary) << library;
@@ -53,12 +53,12 @@ Mesh loaded(const std::string& name, const std::string& text, const std::string&
 Mesh square_with(const json& material) {
     File file = gltf_builder::textured_square();
     file.root["materials"][0] = material;
-    return loaded("a.gltf", file.gltf());
+    return loaded_emission("a.gltf", file.gltf());
 }
 
 Mesh obj_with(const std::string& fields) {
-    return loaded("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl m\nf 1 2 3 4\n",
-                  "newmtl m\n" + fields);
+    return loaded_emission("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl m\nf 1 2 3 4\n",
+                           "newmtl m\n" + fields);
 }
 
 // Channels below a sixteenth of the brightest are a few steps of a byte, and are held to a share of that one.
@@ -143,7 +143,7 @@ TEST(Emission, texture_of_emission_keeps_its_colours_at_their_strength) {
         {"emissiveTexture", {{"index", 0}}},
         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 20}}}}}};
     std::size_t seen[4] = {};
-    for (const Material& material : voxelized(loaded("a.gltf", file.gltf()), 32)) {
+    for (const Material& material : voxelized(loaded_emission("a.gltf", file.gltf()), 32)) {
         const glm::vec3 colours[4] = {{20, 0, 0}, {0, 10, 0}, {0, 0, 20}, {20, 10, 20}};
         for (std::size_t i = 0; i < 4; ++i)
             seen[i] += is_radiance(material.emission, colours[i]) ? 1 : 0;
@@ -154,10 +154,10 @@ TEST(Emission, texture_of_emission_keeps_its_colours_at_their_strength) {
 
 // Two squares of 4 x 4 cells side by side; where they meet, a cell is wholly of one of them.
 TEST(Emission, colours_of_emitters_and_of_others_do_not_mix) {
-    Mesh mesh = loaded("a.obj",
-                       "mtllib a.mtl\nv 0 0 0\nv 3.3 0 0\nv 3.3 4 0\nv 0 4 0\nv 8 0 0\nv 8 4 0\n"
-                       "usemtl lamp\nf 1 2 3 4\nusemtl wall\nf 2 5 6 3\n",
-                       "newmtl lamp\nKd 0 0 0\nKe 0 9 0\nnewmtl wall\nKd 1 0 0\n");
+    Mesh mesh = loaded_emission("a.obj",
+                                "mtllib a.mtl\nv 0 0 0\nv 3.3 0 0\nv 3.3 4 0\nv 0 4 0\nv 8 0 0\nv 8 4 0\n"
+                                "usemtl lamp\nf 1 2 3 4\nusemtl wall\nf 2 5 6 3\n",
+                                "newmtl lamp\nKd 0 0 0\nKe 0 9 0\nnewmtl wall\nKd 1 0 0\n");
     std::size_t emitters = 0, walls = 0;
     for (const Material& material : voxelized(mesh, 8)) {
         const bool is_emitter =

@@ -21,7 +21,7 @@ struct Outcome {
     std::vector<std::string> warnings;
 };
 
-Outcome voxelized(const std::string& name, const VoxelizeRequest& request) {
+Outcome voxelized_fault(const std::string& name, const VoxelizeRequest& request) {
     const Mesh mesh = load_mesh(shared_data() / "data/faults" / name);
     const VoxelSet set = voxelize_mesh(mesh, request);
     const ScratchFolder folder;
@@ -35,7 +35,7 @@ Outcome voxelized(const std::string& name, const VoxelizeRequest& request) {
 }
 
 Outcome at_64(const std::string& name) {
-    return voxelized(name, {.grid = {.resolution = 64}});
+    return voxelized_fault(name, {.grid = {.resolution = 64}});
 }
 
 void expect_near(glm::vec3 have, glm::vec3 wanted) {
@@ -55,9 +55,9 @@ TEST(FaultsExternal, emission_is_what_the_files_say) {
 TEST(FaultsExternal, five_instances_are_five_squares) {
     SKIP_WITHOUT_SHARED_DATA();
     VoxelizeRequest request{.grid = {.resolution = 72}, .coverage = Coverage::thin};
-    EXPECT_EQ(voxelized("g_instancing.gltf", request).voxels, 5u * 8 * 8);
+    EXPECT_EQ(voxelized_fault("g_instancing.gltf", request).voxels, 5u * 8 * 8);
     request.coverage = Coverage::conservative;
-    EXPECT_EQ(voxelized("g_instancing.gltf", request).voxels, 4u * 9 * 8 + 8u * 8);
+    EXPECT_EQ(voxelized_fault("g_instancing.gltf", request).voxels, 4u * 9 * 8 + 8u * 8);
     EXPECT_TRUE(at_64("g_instancing.gltf").warnings.empty());
 }
 
@@ -76,10 +76,10 @@ TEST(FaultsExternal, unlit_is_diffuse_and_illumination_9_is_glass) {
 TEST(FaultsExternal, overlapping_cubes_are_solid_but_by_parity) {
     SKIP_WITHOUT_SHARED_DATA();
     VoxelizeRequest request{.grid = {.metres_per_voxel = 1.0}, .is_solid = true};
-    EXPECT_EQ(voxelized("cube4.obj", request).voxels, 64u);
-    EXPECT_EQ(voxelized("cube4_two.obj", request).voxels, 96u);
+    EXPECT_EQ(voxelized_fault("cube4.obj", request).voxels, 64u);
+    EXPECT_EQ(voxelized_fault("cube4_two.obj", request).voxels, 96u);
     request.inside = InsideRule::parity;
-    EXPECT_EQ(voxelized("cube4_two.obj", request).voxels, 92u);
+    EXPECT_EQ(voxelized_fault("cube4_two.obj", request).voxels, 92u);
 }
 
 }  // namespace

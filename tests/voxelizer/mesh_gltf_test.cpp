@@ -17,7 +17,7 @@ using gltf_builder::json;
 using gltf_builder::square;
 using gltf_builder::textured_square;
 
-Mesh load(const std::string& bytes, const MeshRequest& request = {}) {
+Mesh load_built(const std::string& bytes, const MeshRequest& request = {}) {
     MeshNotes notes;
     Mesh mesh = load_gltf(std::as_bytes(std::span(bytes)), "", request, notes);
     mesh.warnings = note_lines(notes);
@@ -46,8 +46,8 @@ const std::vector<glm::ivec3> kTwoTriangles =
     in_millionths({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}});
 
 TEST(Gltf, text_and_binary_files_give_the_same_triangles) {
-    EXPECT_EQ(corners(load(square().gltf())), kTwoTriangles);
-    EXPECT_EQ(corners(load(square().glb())), kTwoTriangles);
+    EXPECT_EQ(corners(load_built(square().gltf())), kTwoTriangles);
+    EXPECT_EQ(corners(load_built(square().glb())), kTwoTriangles);
 }
 
 TEST(Gltf, indices_of_one_two_and_four_bytes_are_read) {
@@ -56,7 +56,7 @@ TEST(Gltf, indices_of_one_two_and_four_bytes_are_read) {
         const int positions = file.floats(gltf_builder::kSquare, 3);
         file.primitive({{"POSITION", positions}},
                        {{"indices", file.accessor(file.view(bytes), component, "SCALAR", 6)}});
-        return corners(load(file.glb()));
+        return corners(load_built(file.glb()));
     };
     EXPECT_EQ(with(5121, bytes_of(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3})), kTwoTriangles);
     EXPECT_EQ(with(5125, bytes_of(std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3})), kTwoTriangles);
@@ -68,7 +68,7 @@ TEST(Gltf, strips_and_fans_turn_as_lists_do) {
         File file;
         const int accessor = file.floats(positions, 3);
         file.primitive({{"POSITION", accessor}}, {{"mode", mode}});
-        return corners(load(file.glb()));
+        return corners(load_built(file.glb()));
     };
     EXPECT_EQ(with(6, gltf_builder::kSquare), kTwoTriangles);
     // Odd triangles of a strip take their last two corners in the other order.
@@ -88,9 +88,9 @@ TEST(Gltf, interleaved_vertices_are_read_by_their_stride) {
     }
     const int view = file.view(bytes_of(both), 20);
     file.primitive({{"POSITION", file.accessor(view, 5126, "VEC3", 4, {{"byteOffset", 8}})}}, {{"mode", 6}});
-    EXPECT_EQ(corners(load(file.glb())), kTwoTriangles);
+    EXPECT_EQ(corners(load_built(file.glb())), kTwoTriangles);
     file.root["accessors"][0]["byteOffset"] = 4;
-    EXPECT_NE(corners(load(file.glb())), kTwoTriangles);
+    EXPECT_NE(corners(load_built(file.glb())), kTwoTriangles);
 }
 
 // The square whose corner 3 comes from sparse values, over a view or over nothing.
@@ -110,8 +110,8 @@ File sparse_square(bool has_view) {
 }
 
 TEST(Gltf, sparse_values_replace_those_of_the_view_or_zeros) {
-    EXPECT_EQ(corners(load(sparse_square(true).glb())), kTwoTriangles);
-    EXPECT_EQ(corners(load(sparse_square(false).glb())), kTwoTriangles);
+    EXPECT_EQ(corners(load_built(sparse_square(true).glb())), kTwoTriangles);
+    EXPECT_EQ(corners(load_built(sparse_square(false).glb())), kTwoTriangles);
 }
 
 TEST(Gltf, quantised_positions_are_read) {
@@ -119,9 +119,9 @@ TEST(Gltf, quantised_positions_are_read) {
     const std::vector<std::int16_t> positions = {-1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, -1, 1, 0, 0};
     file.primitive({{"POSITION", file.accessor(file.view(bytes_of(positions), 8), 5122, "VEC3", 4)}},
                    {{"mode", 6}});
-    EXPECT_EQ(corners(load(file.glb()))[0], glm::ivec3(-1000000, 0, 0));
+    EXPECT_EQ(corners(load_built(file.glb()))[0], glm::ivec3(-1000000, 0, 0));
     file.root["accessors"][0]["normalized"] = true;
-    EXPECT_EQ(corners(load(file.glb()))[0], glm::ivec3(-31, 0, 0)) << "1 / 32767";
+    EXPECT_EQ(corners(load_built(file.glb()))[0], glm::ivec3(-31, 0, 0)) << "1 / 32767";
 }
 
 TEST(Gltf, normalised_vertex_colours_are_linear_and_opaque_without_alpha) {
@@ -130,7 +130,7 @@ TEST(Gltf, normalised_vertex_colours_are_linear_and_opaque_without_alpha) {
     const int view = file.view(bytes_of(colors), 6);
     file.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
         file.accessor(view, 5123, "VEC3", 4, {{"normalized", true}});
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     ASSERT_EQ(mesh.colors.size(), 4u);
     EXPECT_NEAR(mesh.colors[2].r, 0.2f, 1e-6f);
     EXPECT_EQ(mesh.colors[2].a, 1.0f);
@@ -142,7 +142,7 @@ TEST(Gltf, part_without_colours_beside_one_with_them_is_white) {
     const int colors = file.floats(std::vector<float>(16, 0.25f), 4);
     file.primitive({{"POSITION", other}, {"COLOR_0", colors}}, {{"mode", 6}});
     file.primitive({{"POSITION", other}}, {{"mode", 6}});
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     ASSERT_EQ(mesh.colors.size(), 12u);
     EXPECT_EQ(mesh.colors[0], glm::vec4(1.0f));
     EXPECT_EQ(mesh.colors[4], glm::vec4(0.25f));
@@ -152,7 +152,7 @@ TEST(Gltf, part_without_colours_beside_one_with_them_is_white) {
 TEST(Gltf, parts_of_one_node_share_their_vertices) {
     File file = square();
     file.root["meshes"][0]["primitives"].push_back(file.root["meshes"][0]["primitives"][0]);
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.triangles.size(), 4u);
 }
@@ -165,8 +165,8 @@ TEST(GltfNodes, matrix_and_its_parts_place_alike) {
     File matrix = square();
     // Columns: x goes to 2 y, y to -3 x, z to -4 z.
     matrix.root["nodes"] = {{{"mesh", 0}, {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, -4, 0, 1, 2, 3, 1}}}};
-    EXPECT_EQ(corners(load(parts.glb())), corners(load(matrix.glb())));
-    EXPECT_EQ(corners(load(matrix.glb()))[2], glm::ivec3(-2000000, 4000000, 3000000));
+    EXPECT_EQ(corners(load_built(parts.glb())), corners(load_built(matrix.glb())));
+    EXPECT_EQ(corners(load_built(matrix.glb()))[2], glm::ivec3(-2000000, 4000000, 3000000));
 }
 
 TEST(GltfNodes, chain_of_30000_nodes_is_walked) {
@@ -177,7 +177,7 @@ TEST(GltfNodes, chain_of_30000_nodes_is_walked) {
         nodes.push_back({{"children", {i + 1}}, {"translation", {0, 0, 1}}});
     nodes.push_back({{"mesh", 0}});
     file.root["nodes"] = nodes;
-    EXPECT_EQ(load(file.glb()).positions.at(0).z, kNodes - 1);
+    EXPECT_EQ(load_built(file.glb()).positions.at(0).z, kNodes - 1);
 }
 
 TEST(GltfNodes, chosen_scene_is_read_and_the_list_is_shown_for_a_wrong_one) {
@@ -185,12 +185,12 @@ TEST(GltfNodes, chosen_scene_is_read_and_the_list_is_shown_for_a_wrong_one) {
     file.root["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}}};
     file.root["scenes"] = {
         {{"nodes", {0}}, {"name", "Main"}}, {{"nodes", {1}}, {"name", "Side"}}, {{"nodes", {0, 1}}}};
-    EXPECT_EQ(load(file.glb()).positions.at(0).x, 0.0);
+    EXPECT_EQ(load_built(file.glb()).positions.at(0).x, 0.0);
     file.root["scene"] = 1;
-    EXPECT_EQ(load(file.glb()).positions.at(0).x, 5.0);
-    EXPECT_EQ(load(file.glb(), {.scene = 2}).triangles.size(), 4u);
+    EXPECT_EQ(load_built(file.glb()).positions.at(0).x, 5.0);
+    EXPECT_EQ(load_built(file.glb(), {.scene = 2}).triangles.size(), 4u);
     try {
-        (void)load(file.glb(), {.scene = 3});
+        (void)load_built(file.glb(), {.scene = 3});
         FAIL();
     } catch (const MeshFault& fault) {
         EXPECT_STREQ(fault.what(), "there is no scene 3; the file has 3: 0 'Main', 1 'Side', 2 ''");
@@ -201,7 +201,7 @@ TEST(GltfNodes, every_root_stands_in_a_file_without_scenes) {
     File file = square();
     file.root.erase("scenes");
     file.root["nodes"] = {{{"mesh", 0}}, {{"children", {0}}}, {{"mesh", 0}}};
-    EXPECT_EQ(load(file.glb()).triangles.size(), 4u);
+    EXPECT_EQ(load_built(file.glb()).triangles.size(), 4u);
 }
 
 TEST(GltfNodes, cameras_look_along_their_nodes) {
@@ -213,7 +213,7 @@ TEST(GltfNodes, cameras_look_along_their_nodes) {
     file.root["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}},
                           {{"camera", 0}, {"translation", {1, 2, 3}}, {"rotation", {0, h, 0, h}}},
                           {{"camera", 1}}};
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     ASSERT_EQ(mesh.cameras.size(), 1u);
     EXPECT_EQ(mesh.cameras[0].name, "eye");
     EXPECT_EQ(mesh.cameras[0].position, glm::dvec3(1, 2, 3));
@@ -227,7 +227,7 @@ TEST(GltfMaterial, texture_keeps_its_texels_wrap_modes_and_filter) {
     File file = textured_square();
     file.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
     file.root["textures"][0]["sampler"] = 0;
-    const Mesh mesh = load(file.gltf());
+    const Mesh mesh = load_built(file.gltf());
     ASSERT_EQ(mesh.textures.size(), 1u);
     const Texture& texture = mesh.textures[0];
     EXPECT_EQ(texture.size, glm::ivec2(2, 2));
@@ -244,7 +244,7 @@ TEST(GltfMaterial, texture_transform_is_translation_rotation_scale) {
     file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]
              ["KHR_texture_transform"] = {
         {"offset", {0.5, 0.25}}, {"rotation", std::acos(0.0)}, {"scale", {2, 3}}};
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     const auto& use = mesh.materials.at(0).base_color_texture;
     ASSERT_TRUE(use.has_value());
     // The extension's rotation: (u, v) goes to (u cos + v sin, v cos - u sin).
@@ -259,11 +259,11 @@ TEST(GltfMaterial, second_coordinates_are_used_where_the_transform_names_them) {
         file.floats({5, 0, 6, 0, 6, 1, 5, 1}, 2);
     json& info = file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
     info["extensions"]["KHR_texture_transform"] = {{"texCoord", 1}};
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.materials.at(0).base_color_texture->uv_set, 1u);
     EXPECT_EQ(mesh.uv1.at(0), glm::vec2(5, 0));
     info["extensions"]["KHR_texture_transform"]["texCoord"] = 2;
-    const Mesh third = load(file.glb());
+    const Mesh third = load_built(file.glb());
     EXPECT_FALSE(third.materials.at(0).base_color_texture.has_value());
     EXPECT_EQ(third.warnings.size(), 1u);
 }
@@ -272,7 +272,7 @@ TEST(GltfMaterial, mesh_without_coordinates_gets_the_material_without_texture) {
     File file = textured_square();
     const int bare = file.floats(gltf_builder::kSquare, 3);
     file.primitive({{"POSITION", bare}}, {{"mode", 6}, {"material", 0}});
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     ASSERT_EQ(mesh.materials.size(), 2u);
     EXPECT_TRUE(mesh.materials[mesh.triangles.front().material].base_color_texture.has_value());
     EXPECT_FALSE(mesh.materials[mesh.triangles.back().material].base_color_texture.has_value());
@@ -294,7 +294,7 @@ TEST(GltfMaterial, factors_and_extensions_are_read) {
            {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
            {"KHR_materials_ior", {{"ior", 1.33}}}}}}};
     file.root["meshes"][0]["primitives"][0]["material"] = 0;
-    const MeshMaterial material = load(file.glb()).materials.at(0);
+    const MeshMaterial material = load_built(file.glb()).materials.at(0);
     EXPECT_EQ(material.name, "lamp");
     EXPECT_EQ(material.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(material.alpha_mode, AlphaMode::mask);
@@ -312,7 +312,7 @@ TEST(GltfMaterial, diffuse_colour_of_specular_glossiness_is_the_base_colour) {
                                 {{"KHR_materials_pbrSpecularGlossiness",
                                   {{"diffuseFactor", {0.5, 0.25, 1, 1}}, {"glossinessFactor", 0.75}}}}}}};
     file.root["meshes"][0]["primitives"][0]["material"] = 0;
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.materials.at(0).base_color, glm::vec4(0.5f, 0.25f, 1, 1));
     EXPECT_EQ(mesh.materials.at(0).metallic, 0.0f);
     EXPECT_FLOAT_EQ(mesh.materials.at(0).roughness, 0.25f);
@@ -322,7 +322,7 @@ TEST(GltfMaterial, diffuse_colour_of_specular_glossiness_is_the_base_colour) {
 TEST(GltfMaterial, missing_image_costs_the_texture_and_is_noted) {
     File file = textured_square();
     file.root["images"] = {{{"uri", "nowhere.png"}}};
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_FALSE(mesh.materials.at(0).base_color_texture.has_value());
     ASSERT_EQ(mesh.warnings.size(), 1u);
@@ -337,7 +337,7 @@ TEST(GltfNotes, triangles_with_vertices_that_are_not_finite_are_left_out_and_cou
     }
     const int accessor = file.floats(positions, 3);
     file.primitive({{"POSITION", accessor}});
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.triangles.size(), 1u);
     ASSERT_EQ(mesh.warnings.size(), 1u);
     EXPECT_EQ(mesh.warnings[0], "a triangle is left out: a vertex is not finite (2 times)");
@@ -347,7 +347,7 @@ TEST(GltfNotes, degenerate_triangles_stay) {
     File file;
     const int accessor = file.floats({1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0, 0, 2, 0, 0}, 3);
     file.primitive({{"POSITION", accessor}});
-    EXPECT_EQ(load(file.glb()).triangles.size(), 2u);
+    EXPECT_EQ(load_built(file.glb()).triangles.size(), 2u);
 }
 
 TEST(GltfNotes, what_is_not_read_is_named) {
@@ -356,7 +356,7 @@ TEST(GltfNotes, what_is_not_read_is_named) {
     file.root["meshes"][0]["primitives"][0]["targets"] = json::array({json::object()});
     file.primitive({{"POSITION", 0}}, {{"mode", 1}});
     file.primitive(json::object());
-    const Mesh mesh = load(file.glb());
+    const Mesh mesh = load_built(file.glb());
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.warnings.size(), 4u);
 }

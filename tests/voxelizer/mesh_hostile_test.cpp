@@ -17,8 +17,8 @@ using gltf_builder::File;
 using gltf_builder::json;
 using gltf_builder::textured_square;
 
-// The refusal, or "" for a file that is read.
-std::string refusal(const std::string& bytes) {
+// The refusal_of_hostile, or "" for a file that is read.
+std::string refusal_of_hostile(const std::string& bytes) {
     MeshNotes notes;
     try {
         (void)load_gltf(std::as_bytes(std::span(bytes)), "no-such-folder", {}, notes);
@@ -29,7 +29,7 @@ std::string refusal(const std::string& bytes) {
 }
 
 struct Lie {
-    const char* words;  // of the refusal
+    const char* words;  // of the refusal_of_hostile
     std::function<void(json&)> tell;
 };
 
@@ -133,11 +133,11 @@ TEST(HostileGltf, every_lie_is_refused_by_name) {
     for (const Lie& lie : kLies) {
         const std::string text = told(lie);
         const PeakAllocation peak;
-        const std::string reason = refusal(text);
+        const std::string reason = refusal_of_hostile(text);
         EXPECT_NE(reason.find(lie.words), std::string::npos) << lie.words << "\n" << reason;
         EXPECT_LT(peak.bytes(), std::size_t{1} << 20) << lie.words;
     }
-    EXPECT_EQ(refusal(told({"", [](json&) {}})), "") << "the file without a lie is read";
+    EXPECT_EQ(refusal_of_hostile(told({"", [](json&) {}})), "") << "the file without a lie is read";
 }
 
 // A square whose last corner is sparse, with a change.
@@ -151,7 +151,7 @@ std::string sparse_refusal(const std::function<void(json&)>& tell) {
                    {"values", {{"bufferView", values}}}};
     tell(sparse);
     file.primitive({{"POSITION", file.accessor(view, 5126, "VEC3", 4, {{"sparse", sparse}})}}, {{"mode", 6}});
-    return refusal(file.glb());
+    return refusal_of_hostile(file.glb());
 }
 
 TEST(HostileGltf, sparse_blocks_that_lie_are_refused) {
@@ -176,7 +176,7 @@ TEST(HostileGltf, buffers_outside_the_folder_are_refused) {
     const auto with = [](const std::string& uri) {
         File file = gltf_builder::square();
         file.root["buffers"] = {{{"byteLength", 60}, {"uri", uri}}};
-        return refusal(file.gltf());
+        return refusal_of_hostile(file.gltf());
     };
     for (const char* uri : {"../a.bin", "a/../../b.bin", "%2e%2e/a.bin", "..%2Fa.bin"})
         EXPECT_NE(with(uri).find("leaves the folder"), std::string::npos) << uri;
@@ -195,9 +195,9 @@ TEST(HostileGltf, buffers_outside_the_folder_are_refused) {
 
 TEST(HostileGltf, every_cut_of_a_binary_file_is_refused) {
     const std::string whole = textured_square().glb();
-    EXPECT_EQ(refusal(whole), "");
+    EXPECT_EQ(refusal_of_hostile(whole), "");
     for (std::size_t size = 0; size < whole.size(); ++size)
-        EXPECT_NE(refusal(whole.substr(0, size)), "") << size;
+        EXPECT_NE(refusal_of_hostile(whole.substr(0, size)), "") << size;
 }
 
 TEST(HostileGltf, every_changed_byte_is_read_or_refused) {
@@ -206,7 +206,7 @@ TEST(HostileGltf, every_changed_byte_is_read_or_refused) {
         for (const char flip : {'\x01', '\x40', '\x80'}) {
             std::string changed = whole;
             changed[at] = static_cast<char>(changed[at] ^ flip);
-            (void)refusal(changed);
+            (void)refusal_of_hostile(changed);
         }
     }
 }
@@ -214,9 +214,9 @@ TEST(HostileGltf, every_changed_byte_is_read_or_refused) {
 TEST(HostileGltf, deep_json_is_refused_without_recursion) {
     constexpr std::size_t kDepth = 300000;
     const std::string deep = std::string(kDepth, '[') + std::string(kDepth, ']');
-    EXPECT_EQ(refusal("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep + "}"), "");
-    EXPECT_NE(refusal(deep), "");
-    EXPECT_EQ(refusal("{\"a\":1e999}"), "not valid JSON: a number is too large");
+    EXPECT_EQ(refusal_of_hostile("{\"asset\":{\"version\":\"2.0\"},\"extras\":" + deep + "}"), "");
+    EXPECT_NE(refusal_of_hostile(deep), "");
+    EXPECT_EQ(refusal_of_hostile("{\"a\":1e999}"), "not valid JSON: a number is too large");
 }
 
 TEST(HostileGltf, long_lists_of_tiny_items_take_memory_in_proportion_and_have_a_limit) {
@@ -239,12 +239,12 @@ TEST(HostileGltf, long_lists_of_tiny_items_take_memory_in_proportion_and_have_a_
         file.root[key] = std::vector<json>(20000, item);
         const std::string bytes = file.glb();
         const PeakAllocation peak;
-        (void)refusal(bytes);
+        (void)refusal_of_hostile(bytes);
         EXPECT_LT(peak.bytes(), 1024 * bytes.size()) << key;
     }
     File file = textured_square();
     file.root["materials"] = std::vector<json>(65537, json::object());
-    EXPECT_EQ(refusal(file.glb()), "materials has 65537 items; at most 65536 are read");
+    EXPECT_EQ(refusal_of_hostile(file.glb()), "materials has 65537 items; at most 65536 are read");
 }
 
 TEST(HostileGltf, image_of_a_giant_size_is_left_out_before_it_is_decoded) {

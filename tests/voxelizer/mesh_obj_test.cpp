@@ -16,16 +16,16 @@
 namespace voxilux {
 namespace {
 
-Mesh load(const std::string& text) {
+Mesh load_text(const std::string& text) {
     MeshNotes notes;
     Mesh mesh = load_obj(std::as_bytes(std::span(text)), "no-such-folder", {}, notes);
     mesh.warnings = note_lines(notes);
     return mesh;
 }
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_text(const std::string& text) {
     try {
-        (void)load(text);
+        (void)load_text(text);
         return "";
     } catch (const MeshFault& fault) {
         return fault.what();
@@ -39,7 +39,7 @@ double area(const std::vector<glm::dvec3>& p, const std::array<std::uint32_t, 3>
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST(Obj, faces_are_cut_as_fans) {
-    const Mesh mesh = load(kSquare + "f 1 2 3 4\n");
+    const Mesh mesh = load_text(kSquare + "f 1 2 3 4\n");
     ASSERT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.triangles[0].vertices, glm::uvec3(0, 1, 2));
     EXPECT_EQ(mesh.triangles[1].vertices, glm::uvec3(0, 2, 3));
@@ -48,54 +48,55 @@ TEST(Obj, faces_are_cut_as_fans) {
 }
 
 TEST(Obj, negative_indices_count_from_the_lines_before) {
-    const Mesh mesh = load(kSquare + "f -4 -3 -2\nv 9 9 9\nf -1 1 2\n");
+    const Mesh mesh = load_text(kSquare + "f -4 -3 -2\nv 9 9 9\nf -1 1 2\n");
     ASSERT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.positions[mesh.triangles[0].vertices.x], glm::dvec3(0, 0, 0));
     EXPECT_EQ(mesh.positions[mesh.triangles[1].vertices.x], glm::dvec3(9, 9, 9));
 }
 
 TEST(Obj, corners_share_a_vertex_where_place_and_coordinate_agree) {
-    const Mesh mesh = load(kSquare + "vt 0 0\nvt 1 0.25\nf 1/1 2/2 3/1\nf 1/1/7 3/1 4\nf 1/2 3//3 4\n");
+    const Mesh mesh = load_text(kSquare + "vt 0 0\nvt 1 0.25\nf 1/1 2/2 3/1\nf 1/1/7 3/1 4\nf 1/2 3//3 4\n");
     EXPECT_EQ(mesh.positions.size(), 6u) << "4 places, and 1/2 and 3 without coordinate beside 1/1 and 3/1";
     EXPECT_EQ(mesh.uv0.at(mesh.triangles[0].vertices.y), glm::vec2(1.0f, 0.75f)) << "v goes up in OBJ";
 }
 
 TEST(Obj, vertex_colours_are_srgb_and_missing_ones_white) {
-    const Mesh mesh = load("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
+    const Mesh mesh = load_text("v 0 0 0 0.5 0 1\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
     ASSERT_EQ(mesh.colors.size(), 3u);
     EXPECT_NEAR(mesh.colors[0].r, 0.21404114f, 1e-6f);
     EXPECT_EQ(mesh.colors[0].b, 1.0f);
     EXPECT_EQ(mesh.colors[1], glm::vec4(1.0f));
-    EXPECT_TRUE(load("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").colors.empty()) << "a fourth number is w";
+    EXPECT_TRUE(load_text("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\nf 1 2 3\n").colors.empty())
+        << "a fourth number is w";
 }
 
 TEST(Obj, faces_with_numbers_that_are_not_finite_are_left_out_and_counted) {
-    const Mesh mesh = load(kSquare + "v nan 0 0\nv 0 1e999 0\nf 1 2 3\nf 1 2 5 3\nf 1 6 2\n");
+    const Mesh mesh = load_text(kSquare + "v nan 0 0\nv 0 1e999 0\nf 1 2 3\nf 1 2 5 3\nf 1 6 2\n");
     EXPECT_EQ(mesh.triangles.size(), 1u);
     ASSERT_EQ(mesh.warnings.size(), 1u);
     EXPECT_EQ(mesh.warnings[0], "a triangle is left out: a vertex is not finite (3 times)");
 }
 
 TEST(Obj, comments_joined_lines_and_other_line_ends_are_read) {
-    EXPECT_EQ(
-        load("# head\r\nv 0 0 \\\r\n 0\r\nv +1 0 0 # one\r\n\tv 0 1 0\r\nf 1 \\\n2 \\\n3\n").triangles.size(),
-        1u);
-    EXPECT_EQ(load(kSquare + "f 1 2 3 \\").triangles.size(), 1u);
-    EXPECT_EQ(load(kSquare + "f 1 2 3").triangles.size(), 1u);
+    EXPECT_EQ(load_text("# head\r\nv 0 0 \\\r\n 0\r\nv +1 0 0 # one\r\n\tv 0 1 0\r\nf 1 \\\n2 \\\n3\n")
+                  .triangles.size(),
+              1u);
+    EXPECT_EQ(load_text(kSquare + "f 1 2 3 \\").triangles.size(), 1u);
+    EXPECT_EQ(load_text(kSquare + "f 1 2 3").triangles.size(), 1u);
 }
 
 TEST(Obj, lies_are_refused_with_their_line) {
-    EXPECT_EQ(refusal(kSquare + "f 1 2 5\n"), "line 5: a face names line 5 of 4");
-    EXPECT_EQ(refusal(kSquare + "f 1 2 0\n"), "line 5: a face names line 0 of 4");
-    EXPECT_EQ(refusal(kSquare + "f 1 2 -5\n"), "line 5: a face names line -5 of 4");
-    EXPECT_EQ(refusal(kSquare + "f 1/1 2 3\n"), "line 5: a face names line 1 of 0");
-    EXPECT_EQ(refusal(kSquare + "f 1 2 99999999999999999999\n"),
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 5\n"), "line 5: a face names line 5 of 4");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 0\n"), "line 5: a face names line 0 of 4");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 -5\n"), "line 5: a face names line -5 of 4");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1/1 2 3\n"), "line 5: a face names line 1 of 0");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 99999999999999999999\n"),
               "line 5: '99999999999999999999' is not an index");
-    EXPECT_EQ(refusal(kSquare + "f 1 2 x\n"), "line 5: 'x' is not an index");
-    EXPECT_EQ(refusal(kSquare + "f 1 2\n"), "line 5: a face has fewer than three corners");
-    EXPECT_EQ(refusal("v 1 2\n"), "line 1: a number is missing");
-    EXPECT_EQ(refusal("v 1 2 3e\n"), "line 1: '3e' is not a number");
-    EXPECT_EQ(refusal(kSquare + "f 1 2 -9223372036854775808\n"),
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 x\n"), "line 5: 'x' is not an index");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2\n"), "line 5: a face has fewer than three corners");
+    EXPECT_EQ(refusal_of_text("v 1 2\n"), "line 1: a number is missing");
+    EXPECT_EQ(refusal_of_text("v 1 2 3e\n"), "line 1: '3e' is not a number");
+    EXPECT_EQ(refusal_of_text(kSquare + "f 1 2 -9223372036854775808\n"),
               "line 5: a face names line -9223372036854775808 of 4");
 }
 
@@ -198,7 +199,7 @@ TEST(Obj, library_and_pictures_are_found_beside_the_file) {
     EXPECT_THROW((void)load_mesh(folder / "mesh/a.obj", {.is_strict = true}), Error);
 }
 
-std::string refusal(const std::filesystem::path& path) {
+std::string refusal_of_text(const std::filesystem::path& path) {
     try {
         (void)load_mesh(path);
         return "";
@@ -215,12 +216,13 @@ TEST(LoadMesh, refusals_name_the_file_and_the_reason) {
     write(folder / "b.obj", "v nan 0 0\nf 1 1 1\n");
     write(folder / "a.GLTF", "{");
     const std::string place = folder.path().string();
-    EXPECT_EQ(refusal(folder / "a.stl"), place + "/a.stl: not a mesh: .gltf, .glb and .obj files are read");
-    EXPECT_EQ(refusal(folder / "a.obj"), place + "/a.obj: no triangles");
-    EXPECT_EQ(refusal(folder / "b.obj"),
+    EXPECT_EQ(refusal_of_text(folder / "a.stl"),
+              place + "/a.stl: not a mesh: .gltf, .glb and .obj files are read");
+    EXPECT_EQ(refusal_of_text(folder / "a.obj"), place + "/a.obj: no triangles");
+    EXPECT_EQ(refusal_of_text(folder / "b.obj"),
               place + "/b.obj: no triangles are left: a triangle is left out: a vertex is not finite");
-    EXPECT_EQ(refusal(folder / "a.GLTF"), place + "/a.GLTF: not valid JSON at byte 2");
-    EXPECT_NE(refusal(folder / "gone.glb").find("cannot open"), std::string::npos);
+    EXPECT_EQ(refusal_of_text(folder / "a.GLTF"), place + "/a.GLTF: not valid JSON at byte 2");
+    EXPECT_NE(refusal_of_text(folder / "gone.glb").find("cannot open"), std::string::npos);
 }
 
 TEST(LoadMesh, coordinates_that_no_texture_reads_are_dropped) {

@@ -222,18 +222,18 @@ TEST(CellPiece, areas_and_moments_add_up) {
               1e-3);
 }
 
-using Cell = std::tuple<int, int, int>;
+using ColouredCell = std::tuple<int, int, int>;
 
 // The cells of a file by the scene's rule, with their palette index.
-std::map<Cell, int> cells_in(const VoxFile& file) {
-    std::map<Cell, int> cells;
+std::map<ColouredCell, int> cells_in(const VoxFile& file) {
+    std::map<ColouredCell, int> cells;
     const auto instances = vox_instances(file);
     EXPECT_TRUE(instances.ok());
     for (const VoxInstance& at : instances.value()) {
         const VoxModel& model = file.models[at.model];
         for (const VoxVoxel& v : model.voxels) {
             const glm::ivec3 c = glm::ivec3(v.x, v.y, v.z) - model.size / 2 + at.translation;
-            EXPECT_TRUE(cells.emplace(Cell{c.x, c.y, c.z}, v.index).second);
+            EXPECT_TRUE(cells.emplace(ColouredCell{c.x, c.y, c.z}, v.index).second);
         }
     }
     return cells;
@@ -264,11 +264,11 @@ TEST(VoxOutput, file_holds_the_voxels_in_tight_models_around_the_origin) {
     }
     const glm::ivec3 to_grid = set.grid.cells / 2;
     std::size_t found = 0;
-    const std::map<Cell, int> cells = cells_in(file);
+    const std::map<ColouredCell, int> cells = cells_in(file);
     for (const VoxelBlock& block : set.blocks) {
         for (const ColouredVoxel& v : block.surface) {
             const glm::ivec3 c = block.low / kModelCells * kModelCells + glm::ivec3(v.x, v.y, v.z) - to_grid;
-            found += cells.contains(Cell{c.x, c.y, c.z}) ? 1 : 0;
+            found += cells.contains(ColouredCell{c.x, c.y, c.z}) ? 1 : 0;
         }
     }
     EXPECT_EQ(found, set.surface);

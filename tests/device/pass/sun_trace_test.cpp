@@ -123,8 +123,8 @@ struct Penumbra {
 // it is above. Its centre is over the plane by elevation minus the angle to the edge. `shift` perturbs the
 // point.
 Penumbra measure_penumbra(Sequence sequence, double shift) {
-    constexpr double kRadius = 4.0;  // degrees
-    Scene scene = walled_floor(static_cast<float>(2.0 * kRadius));
+    constexpr double kSunRadius = 4.0;  // degrees
+    Scene scene = walled_floor(static_cast<float>(2.0 * kSunRadius));
     scene.settings.sequence = sequence;
     test::FrameFixture rig(scene);
     Penumbra penumbra;
@@ -137,11 +137,11 @@ Penumbra measure_penumbra(Sequence sequence, double shift) {
             if (planes.hits[i].face != 5u || before_wall <= 0.0) continue;
             const double over = radians(40.0) - std::atan(kWallTop / before_wall);
             const bool is_lit = planes.sun[i] > 0.0f;
-            if (std::abs(over) > radians(kRadius) + kEdge) {
+            if (std::abs(over) > radians(kSunRadius) + kEdge) {
                 penumbra.wrong += is_lit != (over > 0.0) ? 1 : 0;
                 continue;
             }
-            const double share = cap_share_above(radians(kRadius), std::sin(over));
+            const double share = cap_share_above(radians(kSunRadius), std::sin(over));
             ++penumbra.inside;
             difference += (is_lit ? 1.0 : 0.0) - share;
             variance += share * (1.0 - share);

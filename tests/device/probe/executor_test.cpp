@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kPoison = 0xCDCDCDCDu;
 
-std::span<const std::byte> bytes_of(const std::vector<std::uint32_t>& words) {
+std::span<const std::byte> bytes_of_words(const std::vector<std::uint32_t>& words) {
     return std::as_bytes(std::span(words));
 }
 
@@ -99,11 +99,11 @@ TEST(Executor, transfers_keep_the_order_of_the_recording) {
     Recording recording;
     recording.declare({.name = "t.a", .size_bytes = 32});
     recording.declare({.name = "t.b", .size_bytes = 32});
-    recording.upload("t.a", bytes_of(counting(8)));
-    recording.upload("t.a", bytes_of({100u}), 4);
+    recording.upload("t.a", bytes_of_words(counting(8)));
+    recording.upload("t.a", bytes_of_words({100u}), 4);
     recording.dispatch(add_constant(8, "t.a", "t.b"));
-    recording.upload("t.a",
-                     bytes_of({50u, 51u, 52u, 53u, 54u, 55u, 56u, 57u}));  // after the dispatch has read it
+    recording.upload(
+        "t.a", bytes_of_words({50u, 51u, 52u, 53u, 54u, 55u, 56u, 57u}));  // after the dispatch has read it
     recording.readback("t.b");
     recording.clear("t.b", 9);  // after it was read back
     recording.readback("t.a", 8, 12);
@@ -122,7 +122,7 @@ TEST(Executor, transfers_longer_than_the_staging_memory_arrive_whole) {
         recording.declare({.name = name, .size_bytes = 4 * count});
     recording.clear("t.a",
                     5);  // a use before the upload, and one after the readback, so that both are staged
-    recording.upload("t.a", bytes_of(counting(count)));
+    recording.upload("t.a", bytes_of_words(counting(count)));
     recording.dispatch(add_constant(count, "t.a", "t.b"));
     recording.readback("t.b");
     recording.dispatch(add_constant(count, "t.b", "t.c"));
@@ -141,7 +141,7 @@ TEST(Executor, constants_are_set_by_name) {
     recording.declare({.name = "t.in", .size_bytes = 16});
     for (const char* name : {"t.plain", "t.seven", "t.minus"})
         recording.declare({.name = name, .size_bytes = 16});
-    recording.upload("t.in", bytes_of({10u, 20u, 30u, 40u}));
+    recording.upload("t.in", bytes_of_words({10u, 20u, 30u, 40u}));
     Dispatch dispatch = add_constant(4, "t.in", "t.plain");
     recording.dispatch(dispatch);
     dispatch.bindings = {{"Out", "t.seven"}, {"In", "t.in"}};
@@ -208,8 +208,8 @@ TEST(Executor, persistent_buffers_survive_and_transient_ones_do_not_matter) {
     Recording first;
     first.declare({.name = "t.kept", .size_bytes = 16, .persistent = true});
     first.declare({.name = "t.lost", .size_bytes = 16});
-    first.upload("t.kept", bytes_of({1u, 2u, 3u, 4u}));
-    first.upload("t.lost", bytes_of({1u, 2u, 3u, 4u}));
+    first.upload("t.kept", bytes_of_words({1u, 2u, 3u, 4u}));
+    first.upload("t.lost", bytes_of_words({1u, 2u, 3u, 4u}));
     executor.run(first);
     Recording second;
     second.declare({.name = "t.kept", .size_bytes = 16, .persistent = true});
@@ -252,7 +252,7 @@ TEST(Executor, hundred_runs_of_two_dependent_dispatches_give_right_sums) {
     const std::uint32_t count = 5000;
     Recording start;
     start.declare({.name = "t.sum", .size_bytes = 4 * count, .persistent = true});
-    start.upload("t.sum", bytes_of(counting(count)));
+    start.upload("t.sum", bytes_of_words(counting(count)));
     executor.run(start);
     Recording step;
     step.declare({.name = "t.sum", .size_bytes = 4 * count, .persistent = true});

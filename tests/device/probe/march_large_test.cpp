@@ -13,7 +13,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kSeed = 20265;
+constexpr std::uint32_t kLargeSeed = 20265;
 constexpr std::size_t kBindingWords = (std::size_t{128} << 20) / 4;
 
 // A voxel in each brick of a cube of chunks, no two bricks alike: none can be stored once for both.
@@ -51,7 +51,7 @@ std::vector<gpu::Ray> rays_at_both_ends(const VoxelWorld& world) {
         for (const int side : {-1, 1})
             rays.push_back({cell - glm::ivec3(side, 0, 0), glm::vec3(0.5f),
                             glm::vec3(static_cast<float>(side), 0.25f, -0.125f), 1e6f});
-    for (const test::RayFamily& family : test::ray_families(world.size(), 100, kSeed))
+    for (const test::RayFamily& family : test::ray_families(world.size(), 100, kLargeSeed))
         rays.insert(rays.end(), family.rays.begin(), family.rays.end());
     return rays;
 }

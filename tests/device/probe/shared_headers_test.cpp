@@ -19,7 +19,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kCount = 20000;
+constexpr std::size_t kInvocations = 20000;
 constexpr std::array<std::uint32_t, 9> kEdgeWords = {
     0u, 1u, 8191u, 8192u, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFF00u, 0xFFFFFFFEu, 0xFFFFFFFFu};
 
@@ -43,7 +43,7 @@ void expect_same_bits(const std::string& shader, const std::vector<In>& inputs, 
 
 std::vector<gpu::SampleIn> sample_inputs(std::uint32_t dimensions) {
     test::TestRandom random(20);
-    std::vector<gpu::SampleIn> inputs(kCount);
+    std::vector<gpu::SampleIn> inputs(kInvocations);
     for (gpu::SampleIn& in : inputs)
         in = {draw_word(random), draw_word(random), draw_word(random), random.bits32() % dimensions};
     return inputs;
@@ -51,7 +51,7 @@ std::vector<gpu::SampleIn> sample_inputs(std::uint32_t dimensions) {
 
 TEST(SharedHeaders, hash_is_bit_equal_on_the_device) {
     test::TestRandom random(21);
-    std::vector<gpu::HashIn> inputs(kCount);
+    std::vector<gpu::HashIn> inputs(kInvocations);
     for (gpu::HashIn& in : inputs)
         in.words = {draw_word(random), draw_word(random), draw_word(random), draw_word(random)};
     expect_same_bits("hash", inputs, gpu::probe_hash);
@@ -75,7 +75,7 @@ TEST(SharedHeaders, sequence_is_bit_equal_on_the_device) {
 
 std::vector<gpu::FilmSumIn> film_inputs() {
     test::TestRandom random(22);
-    std::vector<gpu::FilmSumIn> inputs(kCount);
+    std::vector<gpu::FilmSumIn> inputs(kInvocations);
     for (gpu::FilmSumIn& in : inputs) {
         in.value = gpu::uintBitsToFloat(random.bits32());
         if (random.bits32() % 2 == 0) in.value = static_cast<float>(std::exp(random.uniform(-25.0, 15.0)));
@@ -100,8 +100,8 @@ std::vector<gpu::SamplingIn> sampling_inputs() {
     const std::array<float, 6> edges = {0.0f, 0.25f, 0.5f, 0.75f, last, 0x1p-24f};
     const std::array<glm::vec3, 5> axes = {
         glm::vec3(0, 0, 1), {0, 0, -1}, {1, 0, 0}, {-0.0f, 1, 0}, {0, -1, -0.0f}};
-    std::vector<gpu::SamplingIn> inputs(kCount);
-    for (std::size_t i = 0; i < kCount; ++i) {
+    std::vector<gpu::SamplingIn> inputs(kInvocations);
+    for (std::size_t i = 0; i < kInvocations; ++i) {
         gpu::SamplingIn& in = inputs[i];
         in.axis = i % 5 == 0 ? axes[i / 5 % axes.size()] : glm::vec3(test::random_unit(random));
         in.face = static_cast<std::uint32_t>(i % 6);
@@ -119,7 +119,7 @@ TEST(SharedHeaders, sampling_is_bit_equal_on_the_device) {
 
 std::vector<gpu::TwoFloatIn> two_float_inputs() {
     std::vector<gpu::TwoFloatIn> inputs;
-    for (const auto& [a, b] : test::two_float_cases(static_cast<int>(kCount)))
+    for (const auto& [a, b] : test::two_float_cases(static_cast<int>(kInvocations)))
         inputs.push_back({a, b});
     return inputs;
 }
@@ -158,7 +158,7 @@ TEST(SharedHeaders, two_float_sum_without_precise_is_caught_where_the_driver_rea
 }
 
 TEST(SharedHeaders, sphere_hits_on_the_device_equal_long_double_within_rounding) {
-    const std::vector<test::SphereCase> cases = test::sphere_cases(static_cast<int>(kCount));
+    const std::vector<test::SphereCase> cases = test::sphere_cases(static_cast<int>(kInvocations));
     std::vector<gpu::SphereIn> inputs;
     for (const test::SphereCase& c : cases)
         inputs.push_back({c.sphere, c.origin, c.direction, c.t_min, c.t_max});
@@ -175,7 +175,7 @@ TEST(SharedHeaders, hostile_spheres_on_the_device_never_give_nan) {
     test::TestRandom random(24);
     const auto pick = [&] { return values[random.bits32() % values.size()]; };
     const auto pick_vector = [&] { return glm::vec3(pick(), pick(), pick()); };
-    std::vector<gpu::SphereIn> inputs(kCount);
+    std::vector<gpu::SphereIn> inputs(kInvocations);
     for (gpu::SphereIn& in : inputs)
         in = {{pick_vector(), std::abs(pick()), pick_vector()}, pick_vector(), pick_vector(), 0.0f, 1e20f};
     for (const gpu::SphereOut& out : run_probe<gpu::SphereIn, gpu::SphereOut>("sphere", inputs)) {

@@ -23,13 +23,13 @@ std::int64_t fixed(double value) {
 
 using test::NoiseKind;
 
-struct Noise {
+struct NoisyFilm {
     NoiseKind kind = NoiseKind::gauss;
     int width = 32, height = 24;
     std::uint64_t n = 32;  // in each half
 };
 
-void PrintTo(const Noise& noise, std::ostream* out) {
+void PrintTo(const NoisyFilm& noise, std::ostream* out) {
     *out << test::name_of(noise.kind) << ' ' << noise.width << 'x' << noise.height << ", twice " << noise.n
          << " samples";
 }
@@ -87,7 +87,7 @@ struct Trial {
 
 // Brightness rises from left to right over a factor of 20; the upper half is quiet where the noise is
 // Gaussian.
-Trial make_trial(const Noise& noise, Random& random) {
+Trial make_trial(const NoisyFilm& noise, Random& random) {
     Trial trial{.n = {noise.n}};
     for (int y = 0; y < noise.height; ++y) {
         for (int x = 0; x < noise.width; ++x) {
@@ -119,7 +119,7 @@ double true_error(const Trial& trial) {
     return std::sqrt(sum / static_cast<double>(trial.truth.size()));
 }
 
-ErrorEstimate estimate_of(const Noise& noise, const Trial& trial) {
+ErrorEstimate estimate_of(const NoisyFilm& noise, const Trial& trial) {
     return estimate_error(noise.width, noise.height, trial.half_a(), trial.half_b(), trial.squares);
 }
 
@@ -134,7 +134,7 @@ TEST(FilmVariance, of_known_samples_is_that_of_the_book) {
 TEST(FilmVariance, is_unbiased) {
     Random random(11);
     for (const NoiseKind kind : {NoiseKind::gauss, NoiseKind::ambient_occlusion, NoiseKind::decay}) {
-        const Noise noise{.kind = kind, .width = 200, .height = 200, .n = 8};
+        const NoisyFilm noise{.kind = kind, .width = 200, .height = 200, .n = 8};
         const Trial trial = make_trial(noise, random);
         double estimated = 0.0, actual = 0.0;
         for (std::size_t i = 0; i < 200 * 200; ++i) {
@@ -179,7 +179,7 @@ TEST(FilmVariance, full_sums_stay_full_in_any_order) {
     EXPECT_EQ(backwards.sums["squares"], forwards.sums["squares"]);
 }
 
-test::IntervalCoverage coverage_of(const Noise& noise, int trials, bool with_squares = true) {
+test::IntervalCoverage coverage_of(const NoisyFilm& noise, int trials, bool with_squares = true) {
     Random random(7);
     test::IntervalCoverage result;
     for (int trial = 0; trial < trials; ++trial) {
@@ -190,21 +190,23 @@ test::IntervalCoverage coverage_of(const Noise& noise, int trials, bool with_squ
     return result;
 }
 
-class SquaresCoverage : public testing::TestWithParam<Noise> {};
+class SquaresCoverage : public testing::TestWithParam<NoisyFilm> {};
 
 TEST_P(SquaresCoverage, interval_holds_the_true_error_as_often_as_it_claims) {
     test::expect_honest(coverage_of(GetParam(), 1000));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Noise, SquaresCoverage,
-    testing::Values(Noise{}, Noise{.n = 4}, Noise{.kind = NoiseKind::ambient_occlusion, .n = 8},
-                    Noise{.kind = NoiseKind::ambient_occlusion, .n = 32}, Noise{.kind = NoiseKind::firefly},
-                    Noise{.kind = NoiseKind::decay, .n = 8}, Noise{.width = 16, .height = 12}));
+INSTANTIATE_TEST_SUITE_P(NoisyFilm, SquaresCoverage,
+                         testing::Values(NoisyFilm{}, NoisyFilm{.n = 4},
+                                         NoisyFilm{.kind = NoiseKind::ambient_occlusion, .n = 8},
+                                         NoisyFilm{.kind = NoiseKind::ambient_occlusion, .n = 32},
+                                         NoisyFilm{.kind = NoiseKind::firefly},
+                                         NoisyFilm{.kind = NoiseKind::decay, .n = 8},
+                                         NoisyFilm{.width = 16, .height = 12}));
 
 TEST(SquaresError, estimate_scatters_less_than_that_of_the_halves) {
-    const test::IntervalCoverage squares = coverage_of(Noise{}, 200);
-    const test::IntervalCoverage halves = coverage_of(Noise{}, 200, false);
+    const test::IntervalCoverage squares = coverage_of(NoisyFilm{}, 200);
+    const test::IntervalCoverage halves = coverage_of(NoisyFilm{}, 200, false);
     EXPECT_LT(squares.spread(), 0.4 * halves.spread());
     EXPECT_LT(squares.width(), halves.width());
 }
@@ -212,7 +214,7 @@ TEST(SquaresError, estimate_scatters_less_than_that_of_the_halves) {
 // Must-fail twin: samples of which each is taken four times have half the error by their squares.
 TEST(SquaresError, interval_of_dependent_samples_misses) {
     Random random(8);
-    const Noise noise;
+    const NoisyFilm noise;
     Trial trial = make_trial(noise, random);
     trial.n = {4 * noise.n};
     for (std::vector<std::int64_t>* sums : {&trial.a, &trial.b, &trial.squares}) {
@@ -224,7 +226,7 @@ TEST(SquaresError, interval_of_dependent_samples_misses) {
 
 TEST(SquaresError, films_without_independent_samples_use_the_halves) {
     Random random(9);
-    const Noise noise;
+    const NoisyFilm noise;
     const Trial trial = make_trial(noise, random);
     FilmSums film{.width = noise.width, .height = noise.height};
     film.even.assign(24, 32);

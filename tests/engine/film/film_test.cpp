@@ -100,8 +100,6 @@ ErrorEstimate estimate_of(const Noise& noise, const Trial& trial) {
     return estimate_error(noise.width, noise.height, trial.half_a(), trial.half_b());
 }
 
-}  // namespace
-
 TEST(Film, mean_of_a_million_samples_is_exact_to_the_last_bit) {
     constexpr std::uint32_t kSamples = 1u << 20;
     gpu::uvec2 words(0u);
@@ -254,3 +252,5 @@ TEST(FilmError, equal_halves_have_no_error) {
     EXPECT_EQ(estimate.estimate, 0.0);
     EXPECT_EQ(estimate.high, 0.0);
 }
+
+}  // namespace

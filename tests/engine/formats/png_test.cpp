@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Error error_of(const std::function<void()>& action) {
+Error png_error_of(const std::function<void()>& action) {
     try {
         action();
     } catch (const Error& error) {
@@ -95,7 +95,7 @@ TEST(Png, file_cut_at_any_byte_is_refused) {
     const std::vector<std::byte> bytes = read_file(folder / "a.png");
     // The last 12 bytes are the IEND chunk, which the decoder does not miss once it has every pixel.
     for (std::size_t size = 0; size + 12 < bytes.size(); ++size) {
-        const Error error = error_of([&] { (void)decode_png(std::span(bytes).first(size), "cut.png"); });
+        const Error error = png_error_of([&] { (void)decode_png(std::span(bytes).first(size), "cut.png"); });
         EXPECT_EQ(error.code(), ExitCode::input_refused) << size;
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
@@ -107,21 +107,21 @@ TEST(Png, size_beyond_the_cap_is_refused_before_decoding) {
     std::vector<std::byte> bytes = read_file(folder / "a.png");
     bytes[16] = std::byte{0x00};  // width 0x00FFFFFF
     bytes[17] = bytes[18] = bytes[19] = std::byte{0xFF};
-    const Error error = error_of([&] { (void)decode_png(bytes, "big.png"); });
+    const Error error = png_error_of([&] { (void)decode_png(bytes, "big.png"); });
     EXPECT_EQ(error.code(), ExitCode::input_refused);
     EXPECT_NE(std::string(error.what()).find("big.png"), std::string::npos);
 }
 
 TEST(Png, absent_file_and_folder_are_refused) {
     const ScratchFolder folder;
-    EXPECT_EQ(error_of([&] { (void)read_png(folder / "absent.png"); }).code(), ExitCode::input_refused);
-    EXPECT_EQ(error_of([&] { (void)read_png(folder.path()); }).code(), ExitCode::input_refused);
+    EXPECT_EQ(png_error_of([&] { (void)read_png(folder / "absent.png"); }).code(), ExitCode::input_refused);
+    EXPECT_EQ(png_error_of([&] { (void)read_png(folder.path()); }).code(), ExitCode::input_refused);
 }
 
 TEST(Png, writing_onto_a_folder_fails_and_leaves_nothing) {
     const ScratchFolder folder;
     fs::create_directory(folder / "a.png");
-    EXPECT_EQ(error_of([&] { write_png(folder / "a.png", test::constant_image(2, 2, 0)); }).code(),
+    EXPECT_EQ(png_error_of([&] { write_png(folder / "a.png", test::constant_image(2, 2, 0)); }).code(),
               ExitCode::cannot_write);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
 }

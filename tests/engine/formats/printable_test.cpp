@@ -112,7 +112,7 @@ std::string refusal_of(const std::function<void()>& action) {
     }
 }
 
-std::span<const std::byte> bytes_of(const std::string& text) {
+std::span<const std::byte> hostile_bytes(const std::string& text) {
     return std::as_bytes(std::span(text));
 }
 
@@ -121,11 +121,12 @@ TEST(HostileNames, of_chunks_attributes_and_types_of_a_vox_file) {
     for (const std::string& name : kHostile) {
         const std::string model = size_chunk(1, 1, 1) + voxels_chunk({{0, 0, 0, 1}});
         const std::string id = (name + "    ").substr(0, 4);
-        const auto refused = read_vox(bytes_of(file_text(model + transform(0, 1, -1, {{{"_r", name}}}))));
+        const auto refused =
+            read_vox(hostile_bytes(file_text(model + transform(0, 1, -1, {{{"_r", name}}}))));
         ASSERT_FALSE(refused.ok());
         EXPECT_TRUE(is_harmless(refused.reason())) << printable(refused.reason());
-        EXPECT_TRUE(is_harmless(read_vox(bytes_of(file_text(id + i32(9) + i32(9)))).reason()));
-        const auto file = read_vox(bytes_of(file_text(
+        EXPECT_TRUE(is_harmless(read_vox(hostile_bytes(file_text(id + i32(9) + i32(9)))).reason()));
+        const auto file = read_vox(hostile_bytes(file_text(
             model + chunk(id, "") + record("MATL", 1, {{"_type", name}, {"_rough", name}, {name, name}}))));
         ASSERT_TRUE(file.ok()) << file.reason();
         const auto info = summarize(file.value());
@@ -172,9 +173,9 @@ TEST(HostileNames, of_channels_of_an_exr) {
 TEST(HostileNames, of_what_calls_itself_an_image) {
     for (const std::string& name : kHostile) {
         const std::string png = std::string("\x89PNG\r\n\x1a\n") + name;
-        EXPECT_TRUE(is_harmless(refusal_of([&] { (void)decode_png(bytes_of(png), "a.png"); })));
+        EXPECT_TRUE(is_harmless(refusal_of([&] { (void)decode_png(hostile_bytes(png), "a.png"); })));
         const std::string exr = "\x76\x2f\x31\x01" + std::string("\x02\x00\x00\x00", 4) + name;
-        const std::string refusal = refusal_of([&] { (void)decode_exr(bytes_of(exr), "a.exr"); });
+        const std::string refusal = refusal_of([&] { (void)decode_exr(hostile_bytes(exr), "a.exr"); });
         EXPECT_FALSE(refusal.empty());
         EXPECT_TRUE(is_harmless(refusal)) << refusal;
     }

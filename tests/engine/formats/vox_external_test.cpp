@@ -26,8 +26,8 @@ namespace {
 using nlohmann::json;
 
 // What the engine promises for any file: see read_vox.
-constexpr std::size_t kFreeBytes = std::size_t{64} << 20;
-constexpr std::size_t kBytesPerByte = 64;
+constexpr std::size_t kFreeFileBytes = std::size_t{64} << 20;
+constexpr std::size_t kHeapPerByte = 64;
 // Seconds to read any of the malformed files, all under 3 MB, with sanitizers on a loaded machine.
 constexpr double kSecondsToRefuse = 10.0;
 
@@ -138,7 +138,7 @@ TEST(VoxExternal, shared_files_make_scenes_of_their_visible_voxels) {
         const VoxFile file = load_vox(entry.path());
         const PeakAllocation peak;
         const Scene scene = scene_from_vox(file);
-        EXPECT_LE(peak.bytes(), kFreeBytes + kBytesPerByte * std::filesystem::file_size(entry.path()));
+        EXPECT_LE(peak.bytes(), kFreeFileBytes + kHeapPerByte * std::filesystem::file_size(entry.path()));
         std::uint64_t visible = 0;
         const auto instances = vox_instances(file);
         for (const VoxInstance& instance : instances.value())
@@ -222,7 +222,7 @@ TEST(VoxExternal, malformed_files_are_refused_or_loaded_as_decided) {
         const auto start = std::chrono::steady_clock::now();
         check_malformed(row, bytes);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        EXPECT_LE(peak.bytes(), kFreeBytes + kBytesPerByte * bytes.size());
+        EXPECT_LE(peak.bytes(), kFreeFileBytes + kHeapPerByte * bytes.size());
         EXPECT_LE(taken.count(), kSecondsToRefuse);
     }
     EXPECT_TRUE(unseen.empty()) << *unseen.begin() << " has no decision";

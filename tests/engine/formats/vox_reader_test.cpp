@@ -19,7 +19,7 @@ VoxFile read_good(const std::string& chunks) {
     return file ? file.value() : VoxFile{};
 }
 
-std::string refusal(std::string_view text) {
+std::string vox_refusal(std::string_view text) {
     const auto file = read_vox(bytes_of(text));
     return file ? "loaded" : file.reason();
 }
@@ -124,7 +124,7 @@ TEST(VoxReader, warnings_are_bounded_and_the_rest_counted) {
     EXPECT_EQ(file.warnings.back(), fmt::format("and {} more warnings", 1000 - kVoxMaxWarnings));
 }
 
-struct Refused {
+struct RefusedVox {
     const char* name;
     std::string text;
     const char* reason;
@@ -132,7 +132,7 @@ struct Refused {
 
 // Offsets: the first chunk begins at byte 20, its content at 32; a chunk after SIZE begins at 44.
 const std::string kModel = size_chunk(3, 3, 3) + voxels_chunk({{0, 0, 0, 1}});  // 44 bytes
-const Refused kRefused[] = {
+const RefusedVox kRefused[] = {
     {"empty", "", "at byte 0: the file needs 4 bytes for its id but has 0 left"},
     {"wrong magic", "VOXX" + i32(150), "at byte 0: not a .vox file"},
     {"no MAIN", "VOX " + i32(150) + chunk("MAIM", ""), "at byte 8: the first chunk is not MAIN"},
@@ -192,9 +192,9 @@ const Refused kRefused[] = {
 };
 
 TEST(VoxReader, broken_rules_are_named_with_their_offset) {
-    for (const Refused& row : kRefused)
-        EXPECT_NE(refusal(row.text).find(row.reason), std::string::npos)
-            << row.name << ": " << refusal(row.text);
+    for (const RefusedVox& row : kRefused)
+        EXPECT_NE(vox_refusal(row.text).find(row.reason), std::string::npos)
+            << row.name << ": " << vox_refusal(row.text);
 }
 
 struct Repaired {

@@ -10,19 +10,19 @@ namespace {
 
 using namespace vox_builder;
 
-std::string text_of(const std::vector<std::byte>& bytes) {
+std::string text_of_file(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-VoxFile read_good(std::span<const std::byte> bytes) {
+VoxFile read_written(std::span<const std::byte> bytes) {
     auto file = read_vox(bytes);
     EXPECT_TRUE(file) << (file ? "" : file.reason());
     return file ? file.value() : VoxFile{};
 }
 
 TEST(VoxWrite, rich_file_reads_back_equal) {
-    const VoxFile file = read_good(bytes_of(rich_file_text()));
-    const VoxFile again = read_good(write_vox(file));
+    const VoxFile file = read_written(bytes_of(rich_file_text()));
+    const VoxFile again = read_written(write_vox(file));
     EXPECT_TRUE(again.nodes == file.nodes);
     EXPECT_TRUE(again.unknown == file.unknown);
     VoxFile expected = file;
@@ -33,7 +33,7 @@ TEST(VoxWrite, rich_file_reads_back_equal) {
 
 // The equality above is one that can fail, in any of the file's parts.
 TEST(VoxWrite, comparison_sees_a_change_in_each_part) {
-    const VoxFile file = read_good(bytes_of(rich_file_text()));
+    const VoxFile file = read_written(bytes_of(rich_file_text()));
     void (*const changes[])(VoxFile&) = {
         [](VoxFile& f) { f.version = 150; },
         [](VoxFile& f) { f.pack = 2; },
@@ -56,7 +56,7 @@ TEST(VoxWrite, comparison_sees_a_change_in_each_part) {
         VoxFile changed = file;
         change(changed);
         EXPECT_FALSE(changed == file);
-        VoxFile again = read_good(write_vox(changed));
+        VoxFile again = read_written(write_vox(changed));
         again.warnings = changed.warnings;
         EXPECT_TRUE(again == changed);
     }
@@ -84,15 +84,15 @@ TEST(VoxWrite, bytes_equal_the_published_layout) {
                                transform(2, 3, 0, {{{"_t", "1 2 3"}}}) + shape(3, {{0, {}}}) +
                                layer(0, {{"_name", "a"}}) + chunk("RGBA", rgba) +
                                record("MATL", 3, {{"_type", "_metal"}});
-    EXPECT_EQ(text_of(write_vox(file)), file_text(chunks, 200));
+    EXPECT_EQ(text_of_file(write_vox(file)), file_text(chunks, 200));
 }
 
 TEST(VoxWrite, default_palette_is_left_out_and_any_other_is_1024_bytes) {
     VoxFile file;
     file.models.push_back({.size = {1, 1, 1}, .voxels = {{0, 0, 0, 1}}});
-    EXPECT_EQ(text_of(write_vox(file)).find("RGBA"), std::string::npos);
+    EXPECT_EQ(text_of_file(write_vox(file)).find("RGBA"), std::string::npos);
     file.palette[3] = {9, 9, 9, 9};
-    const std::string text = text_of(write_vox(file));
+    const std::string text = text_of_file(write_vox(file));
     const std::size_t at = text.find("RGBA");
     ASSERT_NE(at, std::string::npos);
     EXPECT_EQ(text.substr(at + 4, 8), u32(1024) + u32(0));

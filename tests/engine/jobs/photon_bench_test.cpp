@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kRoundings = 1e-6;  // of some floats of order one
+constexpr double kPhotonRoundings = 1e-6;  // of some floats of order one
 
 Image grey(int width, int height, float value) {
     Image image{.width = width, .height = height};
@@ -53,8 +53,8 @@ TEST(PhotonErrors, blurred_difference_of_a_point_is_a_gaussian) {
 
 TEST(PhotonErrors, blur_keeps_what_is_equal_everywhere_up_to_the_border) {
     const Image reference = grey(9, 7, 1.0f), test = grey(9, 7, 1.5f);
-    EXPECT_NEAR(blurred_rmse(reference, test, {0, 0, 9, 7}), 0.5, kRoundings);
-    EXPECT_NEAR(blurred_rmse(reference, test, {0, 0, 1, 1}), 0.5, kRoundings);
+    EXPECT_NEAR(blurred_rmse(reference, test, {0, 0, 9, 7}), 0.5, kPhotonRoundings);
+    EXPECT_NEAR(blurred_rmse(reference, test, {0, 0, 1, 1}), 0.5, kPhotonRoundings);
 }
 
 TEST(PhotonErrors, emitters_count_for_nothing_and_other_pixels_as_relmse) {
@@ -63,8 +63,8 @@ TEST(PhotonErrors, emitters_count_for_nothing_and_other_pixels_as_relmse) {
     Image test = grey(20, 20, 1.1f);
     at(test, 0, 0) = 400.0f;
     const PhotonErrors errors = photon_errors(reference, test, std::nullopt);
-    EXPECT_NEAR(errors.relmse, 0.01 / 1.01, kRoundings);
-    EXPECT_NEAR(errors.bias[1], 0.1, kRoundings);
+    EXPECT_NEAR(errors.relmse, 0.01 / 1.01, kPhotonRoundings);
+    EXPECT_NEAR(errors.bias[1], 0.1, kPhotonRoundings);
     EXPECT_FALSE(errors.floor);
     at(test, 19, 19) = 2.0f;
     EXPECT_GT(photon_errors(reference, test, std::nullopt).relmse, errors.relmse);

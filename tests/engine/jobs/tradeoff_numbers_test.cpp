@@ -152,19 +152,19 @@ TEST(DifferenceMap, has_the_documented_colours) {
     EXPECT_EQ(difference_colour(50.0), (std::array<int, 3>{252, 253, 191}));
 }
 
-Level level_of(std::uint32_t samples, double error) {
+Level level_with_relmse(std::uint32_t samples, double error) {
     Level level{.samples = samples};
     level.error.total = error;
     return level;
 }
 
 TEST(EqualError, extends_the_last_two_levels) {
-    const std::vector<Level> levels = {level_of(4, 0.2), level_of(16, 0.1)};
+    const std::vector<Level> levels = {level_with_relmse(4, 0.2), level_with_relmse(16, 0.1)};
     EXPECT_NEAR(samples_for_error(levels, 0.05), 64.0, 1e-9);
     EXPECT_NEAR(samples_for_error(levels, 0.2), 4.0, 1e-9);
-    const std::vector<Level> biased = {level_of(4, 0.2), level_of(16, 0.2)};
+    const std::vector<Level> biased = {level_with_relmse(4, 0.2), level_with_relmse(16, 0.2)};
     EXPECT_GT(samples_for_error(biased, 0.1), 1000.0);
-    EXPECT_EQ(samples_for_error({level_of(16, 0.0)}, 0.1), 16.0);
+    EXPECT_EQ(samples_for_error({level_with_relmse(16, 0.0)}, 0.1), 16.0);
 }
 
 CachedPicture some_picture() {

@@ -34,7 +34,7 @@ glm::dvec2 reach_in_picture(const Camera& camera, const Box& box, double aspect)
 
 // Relative rounding of a position of size 2^30 next to a box of size 1 is 2^-22; nearer scenes are far
 // better.
-constexpr double kRounding = 1e-6;
+constexpr double kCameraRounding = 1e-6;
 
 double nearest_depth(const Camera& camera, const Box& box) {
     const glm::dvec3 forward = camera_basis(camera)[2];
@@ -51,9 +51,9 @@ bool expect_framed(const Camera& camera, const Box& box, double aspect) {
         return fmt::format("box ({} {} {}) to ({} {} {}), aspect {}, yaw {}, fov {}", box.lo.x, box.lo.y,
                            box.lo.z, box.hi.x, box.hi.y, box.hi.z, aspect, camera.yaw_deg, camera.fov_y_deg);
     };
-    EXPECT_LE(largest, 1.0 - kFrameMargin + kRounding) << shown();
-    if (largest > 1.0 - kFrameMargin - kRounding) return true;
-    EXPECT_NEAR(nearest_depth(camera, box), kFrameClearance, kRounding) << shown();
+    EXPECT_LE(largest, 1.0 - kFrameMargin + kCameraRounding) << shown();
+    if (largest > 1.0 - kFrameMargin - kCameraRounding) return true;
+    EXPECT_NEAR(nearest_depth(camera, box), kFrameClearance, kCameraRounding) << shown();
     return false;
 }
 
@@ -92,12 +92,12 @@ TEST(SceneCamera, tightness_check_sees_a_small_change) {
     const Box box{{0, 0, 0}, {20, 10, 8}};
     Camera camera = default_camera(box, 1.5);
     const glm::dvec2 exact = reach_in_picture(camera, box, 1.5);
-    ASSERT_NEAR(std::max(exact.x, exact.y), 1.0 - kFrameMargin, kRounding);
+    ASSERT_NEAR(std::max(exact.x, exact.y), 1.0 - kFrameMargin, kCameraRounding);
     const glm::dvec2 larger = reach_in_picture(camera, {{0, 0, 0}, {21, 10, 8}}, 1.5);
-    EXPECT_GT(std::max(larger.x, larger.y), 1.0 - kFrameMargin + 100.0 * kRounding);
+    EXPECT_GT(std::max(larger.x, larger.y), 1.0 - kFrameMargin + 100.0 * kCameraRounding);
     camera.position += 0.01 * glm::length(camera.position) * camera_basis(camera)[2];
     const glm::dvec2 nearer = reach_in_picture(camera, box, 1.5);
-    EXPECT_GT(std::max(nearer.x, nearer.y), 1.0 - kFrameMargin + 100.0 * kRounding);
+    EXPECT_GT(std::max(nearer.x, nearer.y), 1.0 - kFrameMargin + 100.0 * kCameraRounding);
 }
 
 TEST(SceneCamera, default_view_shows_front_right_and_top) {

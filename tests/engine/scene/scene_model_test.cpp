@@ -18,10 +18,10 @@
 namespace voxilux {
 namespace {
 
-using Cells = std::map<std::tuple<int, int, int>, std::string>;  // cell to material name
+using NamedCells = std::map<std::tuple<int, int, int>, std::string>;  // cell to material name
 
-Cells cells_of(const Scene& scene) {
-    Cells cells;
+NamedCells named_cells_of(const Scene& scene) {
+    NamedCells cells;
     for (const Instance& instance : scene.instances) {
         const VoxelModel& model = scene.models.at(instance.model);
         for (const Voxel& v : model.voxels) {
@@ -49,9 +49,9 @@ class SceneModel : public testing::Test {
     }
 
     // The middles of the untouched model's cells moved by `move`.
-    [[nodiscard]] Cells moved(const std::function<glm::dvec3(glm::dvec3)>& move) const {
-        Cells cells;
-        for (const auto& [cell, material] : cells_of(scene_from_vox(small_file()))) {
+    [[nodiscard]] NamedCells moved(const std::function<glm::dvec3(glm::dvec3)>& move) const {
+        NamedCells cells;
+        for (const auto& [cell, material] : named_cells_of(scene_from_vox(small_file()))) {
             const auto [x, y, z] = cell;
             const glm::dvec3 p = glm::floor(move(glm::dvec3(x, y, z) + 0.5));
             cells[{static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z)}] = material;
@@ -64,18 +64,18 @@ class SceneModel : public testing::Test {
 
 TEST_F(SceneModel, rotations_are_right_handed_quarter_turns) {
     using V = glm::dvec3;
-    EXPECT_EQ(cells_of(load("")), moved([](V p) { return p; }));
-    EXPECT_EQ(cells_of(load("rotate = \"x90\"")), moved([](V p) { return V(p.x, -p.z, p.y); }));
-    EXPECT_EQ(cells_of(load("rotate = \"y90\"")), moved([](V p) { return V(p.z, p.y, -p.x); }));
-    EXPECT_EQ(cells_of(load("rotate = \"z90\"")), moved([](V p) { return V(-p.y, p.x, p.z); }));
-    EXPECT_EQ(cells_of(load("rotate = \"z180\"")), moved([](V p) { return V(-p.x, -p.y, p.z); }));
-    EXPECT_EQ(cells_of(load("rotate = \"z270\"")), moved([](V p) { return V(p.y, -p.x, p.z); }));
-    EXPECT_NE(cells_of(load("rotate = \"z270\"")), moved([](V p) { return V(-p.y, p.x, p.z); }));
+    EXPECT_EQ(named_cells_of(load("")), moved([](V p) { return p; }));
+    EXPECT_EQ(named_cells_of(load("rotate = \"x90\"")), moved([](V p) { return V(p.x, -p.z, p.y); }));
+    EXPECT_EQ(named_cells_of(load("rotate = \"y90\"")), moved([](V p) { return V(p.z, p.y, -p.x); }));
+    EXPECT_EQ(named_cells_of(load("rotate = \"z90\"")), moved([](V p) { return V(-p.y, p.x, p.z); }));
+    EXPECT_EQ(named_cells_of(load("rotate = \"z180\"")), moved([](V p) { return V(-p.x, -p.y, p.z); }));
+    EXPECT_EQ(named_cells_of(load("rotate = \"z270\"")), moved([](V p) { return V(p.y, -p.x, p.z); }));
+    EXPECT_NE(named_cells_of(load("rotate = \"z270\"")), moved([](V p) { return V(-p.y, p.x, p.z); }));
 }
 
 TEST_F(SceneModel, rotations_then_mirrors_then_translation) {
-    const Cells cells =
-        cells_of(load("rotate = [\"x90\", \"z90\"]\nmirror = [\"x\", \"z\"]\ntranslate = [10, -20, 30]"));
+    const NamedCells cells = named_cells_of(
+        load("rotate = [\"x90\", \"z90\"]\nmirror = [\"x\", \"z\"]\ntranslate = [10, -20, 30]"));
     EXPECT_EQ(cells, moved([](glm::dvec3 p) {
                   const glm::dvec3 x90(p.x, -p.z, p.y);
                   const glm::dvec3 z90(-x90.y, x90.x, x90.z);
@@ -87,13 +87,13 @@ TEST_F(SceneModel, model_placed_twice_is_kept_once) {
     const Scene scene = load("[[model]]\nfile = \"m.vox\"\ntranslate = [50, 0, 0]\n");
     EXPECT_EQ(scene.models.size(), 1u);
     EXPECT_EQ(scene.instances.size(), 2u);
-    EXPECT_EQ(cells_of(scene).size(), 10u);
+    EXPECT_EQ(named_cells_of(scene).size(), 10u);
 }
 
 TEST_F(SceneModel, models_shapes_and_materials_stand_side_by_side) {
     const Scene scene =
         load("[material.a]\n[[shape]]\nshape = \"box\"\nfrom = [40,0,0]\nto = [42,1,1]\nmaterial = \"a\"\n");
-    const Cells cells = cells_of(scene);
+    const NamedCells cells = named_cells_of(scene);
     EXPECT_EQ(cells.size(), 7u);
     EXPECT_EQ(cells.at({41, 0, 0}), "a");
 }
@@ -118,7 +118,7 @@ TEST_F(SceneModel, vox_input_takes_overrides) {
         load_scene(folder_ / "m.vox", {.overrides = {"sun.elevation=10", "camera.preset=front"}});
     EXPECT_EQ(low.sun.elevation_deg, 10.0f);
     EXPECT_EQ(low.camera.value().yaw_deg, 90.0);
-    EXPECT_EQ(cells_of(low), cells_of(plain));
+    EXPECT_EQ(named_cells_of(low), named_cells_of(plain));
     EXPECT_THROW((void)load_scene(folder_ / "m.vox", {.overrides = {"sun.elevaton=10"}}), Error);
 }
 

@@ -12,11 +12,11 @@
 namespace voxilux {
 namespace {
 
-using Cells = std::map<std::tuple<int, int, int>, int>;
+using ShapeCells = std::map<std::tuple<int, int, int>, int>;
 
 // What the scene's instances fill, each cell once.
-Cells cells_of(const Scene& scene) {
-    Cells cells;
+ShapeCells shape_cells_of(const Scene& scene) {
+    ShapeCells cells;
     for (const Instance& instance : scene.instances) {
         const VoxelModel& model = scene.models[instance.model];
         for (const Voxel& v : model.voxels) {
@@ -28,19 +28,19 @@ Cells cells_of(const Scene& scene) {
     return cells;
 }
 
-Cells drawn(const std::vector<Shape>& shapes) {
+ShapeCells drawn(const std::vector<Shape>& shapes) {
     VoxelGrid grid;
     for (const Shape& shape : shapes)
         draw_shape(grid, shape);
     Scene scene;
     grid.append_to(scene, "test");
-    return cells_of(scene);
+    return shape_cells_of(scene);
 }
 
 // Every cell of a box in which `holds` is true.
 template <class Holds>
-Cells filtered(glm::ivec3 lo, glm::ivec3 hi, int material, const Holds& holds) {
-    Cells cells;
+ShapeCells filtered(glm::ivec3 lo, glm::ivec3 hi, int material, const Holds& holds) {
+    ShapeCells cells;
     for (int z = lo.z; z < hi.z; ++z)
         for (int y = lo.y; y < hi.y; ++y)
             for (int x = lo.x; x < hi.x; ++x)
@@ -70,7 +70,7 @@ TEST(SceneShape, boxes_equal_brute_force) {
         const auto holds = [&](glm::ivec3 c) {
             return glm::all(glm::greaterThanEqual(c, from)) && glm::all(glm::lessThan(c, to));
         };
-        const Cells solid = drawn({BoxShape{from, to, false, std::uint16_t{5}}});
+        const ShapeCells solid = drawn({BoxShape{from, to, false, std::uint16_t{5}}});
         EXPECT_EQ(solid, filtered(from - 2, to + 2, 5, holds));
         EXPECT_EQ(drawn({BoxShape{from, to, true, std::uint16_t{5}}}),
                   filtered(from - 2, to + 2, 5, shell_of(holds)));
@@ -107,7 +107,7 @@ TEST(SceneShape, later_shape_wins_and_air_carves) {
     const BoxShape block{{0, 0, 0}, {9, 9, 9}, false, std::uint16_t{1}};
     const BoxShape core{{3, 3, 3}, {6, 6, 6}, false, std::uint16_t{2}};
     const BoxShape shaft{{4, 4, 0}, {5, 5, 9}, false, std::nullopt};
-    Cells wanted = filtered({0, 0, 0}, {9, 9, 9}, 1, [](glm::ivec3 c) { return c.x != 4 || c.y != 4; });
+    ShapeCells wanted = filtered({0, 0, 0}, {9, 9, 9}, 1, [](glm::ivec3 c) { return c.x != 4 || c.y != 4; });
     for (auto& [cell, material] : wanted) {
         const auto [x, y, z] = cell;
         if (x >= 3 && x < 6 && y >= 3 && y < 6 && z >= 3 && z < 6) material = 2;
@@ -132,7 +132,7 @@ TEST(SceneShape, wide_scene_is_split_into_models) {
     const BoxShape near{{-70000, 3, -5}, {70000, 4, -4}, false, std::uint16_t{3}};
     const BoxShape low{{-kEnd, -kEnd, -kEnd}, {-kEnd + 1, -kEnd + 1, -kEnd + 1}, false, std::uint16_t{4}};
     const BoxShape high{{kEnd - 1, kEnd - 1, kEnd - 1}, {kEnd, kEnd, kEnd}, false, std::uint16_t{5}};
-    const Cells cells = drawn({near, low, high});
+    const ShapeCells cells = drawn({near, low, high});
     EXPECT_EQ(cells.size(), 140002u);
     EXPECT_EQ(cells.at({-kEnd, -kEnd, -kEnd}), 4);
     EXPECT_EQ(cells.at({kEnd - 1, kEnd - 1, kEnd - 1}), 5);
@@ -153,8 +153,9 @@ TEST(SceneShape, large_hollow_box_needs_no_volume) {
 
 TEST(SceneTerrain, columns_are_filled_to_their_height_in_layers) {
     const TerrainShape terrain{.from = {-20, -10, -3}, .to = {25, 18, 13}, .seed = 5, .feature = 9};
-    const Cells cells = drawn({GroundShape{terrain, {std::uint16_t{7}, std::nullopt, std::uint16_t{8}}}});
-    Cells wanted;
+    const ShapeCells cells =
+        drawn({GroundShape{terrain, {std::uint16_t{7}, std::nullopt, std::uint16_t{8}}}});
+    ShapeCells wanted;
     std::set<int> heights;
     for (int y = -10; y < 18; ++y) {
         for (int x = -20; x < 25; ++x) {
@@ -211,7 +212,7 @@ TEST(SceneTree, stands_on_the_ground_of_its_column) {
         "[[shape]]\nshape = \"tree\"\nbase = [-9, 4]\nheight = 12\ncrown = 4\ntrunk = \"b\"\nleaves = "
         "\"c\"\n",
         "s.toml");
-    const Cells cells = cells_of(scene);
+    const ShapeCells cells = shape_cells_of(scene);
     for (int z = 5; z < 17; ++z)
         EXPECT_EQ(cells.at({-9, 4, z}), 1) << z;
     int leaves = 0;

@@ -101,14 +101,14 @@ TEST(VoxRotation, exactly_48_bytes_below_128_are_legal) {
         EXPECT_FALSE(parse_rotation(text)) << text;
 }
 
-VoxFile read_good(const std::string& chunks) {
+VoxFile read_scene(const std::string& chunks) {
     auto file = read_vox(vox_builder::file(chunks, 200));
     EXPECT_TRUE(file) << (file ? "" : file.reason());
     return file ? file.value() : VoxFile{};
 }
 
 std::vector<VoxInstance> instances_of(const std::string& chunks, int frame = 0) {
-    const VoxFile file = read_good(chunks);
+    const VoxFile file = read_scene(chunks);
     auto instances = vox_instances(file, frame);
     EXPECT_TRUE(instances) << (instances ? "" : instances.reason());
     return instances ? instances.value() : std::vector<VoxInstance>{};
@@ -150,7 +150,7 @@ TEST(VoxInstances, hiding_comes_from_nodes_groups_and_layers_above) {
         transform(9, 10, 0, {{}}, {{"_name", "below it"}}) + transform(7, 8, 0, {{}}) +
         group(8, {11}, {{"_hidden", "1"}}) + transform(11, 10, -5, {{}}, {{"_name", "in a hidden group"}}) +
         shapes + layer(0, {}) + layer(8, {{"_hidden", "1"}});
-    const VoxFile file = read_good(chunks);
+    const VoxFile file = read_scene(chunks);
     const auto instances = vox_instances(file);
     ASSERT_TRUE(instances);
     std::vector<std::pair<std::string, bool>> found;
@@ -228,8 +228,8 @@ TEST(VoxInstances, a_hand_made_cycle_is_refused) {
 // cells.
 TEST(VoxPlacement, outer_placement_moves_every_cell_exactly) {
     const VoxFile file =
-        read_good(chiral_model(3, 4, 5) + transform(0, 1, -1, {{{"_r", "40"}, {"_t", "5 6 -7"}}}) +
-                  shape(1, {{0, {}}}));
+        read_scene(chiral_model(3, 4, 5) + transform(0, 1, -1, {{{"_r", "40"}, {"_t", "5 6 -7"}}}) +
+                   shape(1, {{0, {}}}));
     const Scene plain = scene_from_vox(file);
     for (const Signed& s : all_signed_permutations()) {
         Scene scene;
@@ -246,7 +246,7 @@ TEST(VoxPlacement, outer_placement_moves_every_cell_exactly) {
 }
 
 TEST(VoxPlacement, beyond_the_limit_is_refused) {
-    const VoxFile file = read_good(chiral_model(2, 2, 2));
+    const VoxFile file = read_scene(chiral_model(2, 2, 2));
     Scene scene;
     EXPECT_THROW(append_vox(scene, file, 0, Rotation{}, {static_cast<int>(kVoxMaxTranslation), 0, 0}), Error);
 }

@@ -14,7 +14,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kSeed = 20265;
+constexpr std::uint32_t kEditSeed = 20265;
 
 // First voxel whose cell, with its box, differs between two structures; empty when there is none. Blocks may
 // be numbered otherwise.
@@ -68,8 +68,8 @@ std::vector<VoxelEdit> random_edits(const VoxelWorld& world, int count, double c
 class EditWorld : public ::testing::TestWithParam<Traversal> {};
 
 TEST_P(EditWorld, random_edits_of_every_small_world_equal_a_rebuild) {
-    std::mt19937 dice(kSeed);
-    for (test::NamedWorld& named : test::small_worlds(kSeed)) {
+    std::mt19937 dice(kEditSeed);
+    for (test::NamedWorld& named : test::small_worlds(kEditSeed)) {
         MarchWorld built = build_march_world(named.world, GetParam());
         for (const int count : {1, 1, 7}) {
             const MarchWorld before = built;
@@ -120,7 +120,7 @@ TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
 INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 TEST(EditWorldBlocks, an_edit_inside_a_mixed_brick_adds_few_blocks) {
-    std::mt19937 dice(kSeed);
+    std::mt19937 dice(kEditSeed);
     VoxelWorld world(glm::ivec3(0), glm::ivec3(4));
     for (int i = 0; i < 20000; ++i)
         world.set(glm::ivec3(glm::uvec3(dice(), dice(), dice()) % glm::uvec3(world.size())), 1);

@@ -18,7 +18,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kSeed = 20265;
+constexpr std::uint32_t kBoxesSeed = 20265;
 
 class EmptyBoxes : public ::testing::TestWithParam<Traversal> {};
 
@@ -80,16 +80,16 @@ void expect_truth(Traversal traversal, int fillings, std::uint32_t seed) {
 }
 
 TEST_P(EmptyBoxes, are_empty_for_random_fillings) {
-    expect_truth(GetParam(), 60, kSeed);
+    expect_truth(GetParam(), 60, kBoxesSeed);
 }
 
 using EmptyBoxesNightly = EmptyBoxes;
 TEST_P(EmptyBoxesNightly, are_empty_for_thousands_of_random_fillings) {
-    expect_truth(GetParam(), 5000, kSeed + 1);
+    expect_truth(GetParam(), 5000, kBoxesSeed + 1);
 }
 
 // A cube of 1, 4 or 16 cells set to one material or cleared: a voxel, about a brick, about a chunk.
-std::vector<VoxelEdit> random_edits(glm::ivec3 size, std::mt19937& dice) {
+std::vector<VoxelEdit> random_box_edits(glm::ivec3 size, std::mt19937& dice) {
     constexpr std::array kEdges = {1, 1, 4, 4, 16};
     const int edge = kEdges[dice() % kEdges.size()];
     const bool is_aligned = dice() % 2 == 0;
@@ -103,12 +103,12 @@ std::vector<VoxelEdit> random_edits(glm::ivec3 size, std::mt19937& dice) {
 }
 
 TEST_P(EmptyBoxes, are_empty_after_random_edits) {
-    std::mt19937 dice(kSeed + 5);
+    std::mt19937 dice(kBoxesSeed + 5);
     for (int filling = 0; filling < 8; ++filling) {
         VoxelWorld world = random_filling(dice);
         MarchWorld built = build_march_world(world, GetParam());
         for (int edit = 0; edit < 8; ++edit) {
-            edit_world(world, built, random_edits(world.size(), dice));
+            edit_world(world, built, random_box_edits(world.size(), dice));
             ASSERT_EQ(test::first_lie(world, test::FilledCount(world), built), "")
                 << "filling " << filling << ", edit " << edit;
         }
@@ -117,7 +117,7 @@ TEST_P(EmptyBoxes, are_empty_after_random_edits) {
 
 // The twin: wherever a distance that is one longer would reach a voxel, writing it is noticed.
 TEST_P(EmptyBoxes, one_distance_raised_by_one_into_a_voxel_is_caught) {
-    std::mt19937 dice(kSeed + 2);
+    std::mt19937 dice(kBoxesSeed + 2);
     int raised = 0;
     for (int filling = 0; filling < 12; ++filling) {
         const VoxelWorld world = random_filling(dice);
@@ -148,7 +148,7 @@ TEST_P(EmptyBoxes, one_distance_raised_by_one_into_a_voxel_is_caught) {
 }
 
 TEST_P(EmptyBoxes, one_voxel_more_or_less_than_the_structure_has_is_caught) {
-    std::mt19937 dice(kSeed + 3);
+    std::mt19937 dice(kBoxesSeed + 3);
     for (int filling = 0; filling < 20; ++filling) {
         VoxelWorld world = random_filling(dice);
         const MarchWorld built = build_march_world(world, GetParam());
@@ -201,7 +201,7 @@ std::array<double, 2> both_means(const VoxelWorld& world, Traversal traversal) {
 // Growing cell by cell (the paper's way) is the measure. Joins may end a little shorter or longer.
 TEST(RootBoxes, are_on_average_as_long_as_boxes_grown_cell_by_cell) {
     constexpr double kShare = 0.95;
-    std::mt19937 dice(kSeed + 4);
+    std::mt19937 dice(kBoxesSeed + 4);
     for (const int one_in : {3000, 300, 60}) {
         VoxelWorld world(glm::ivec3(0), glm::ivec3(7, 6, 5));
         for (int i = 0; i < 7 * 6 * 5 * 4096 / one_in / 16; ++i)

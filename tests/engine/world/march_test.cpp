@@ -9,34 +9,36 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kSeed = 20261;
+constexpr std::uint32_t kMarchSeed = 20261;
 // Voxels. Rounding moves a crossing by at most 2^-23 of the path, 60 voxels here; the margin is far above it.
 constexpr double kMargin = 1e-3;
 
-std::string print(const gpu::Ray& ray) {
+std::string print_ray(const gpu::Ray& ray) {
     return fmt::format("cell ({}, {}, {}) fraction ({}, {}, {}) direction ({}, {}, {}) t_max {}", ray.cell.x,
                        ray.cell.y, ray.cell.z, ray.fraction.x, ray.fraction.y, ray.fraction.z,
                        ray.direction.x, ray.direction.y, ray.direction.z, ray.t_max);
 }
 
 std::vector<gpu::Ray> random_rays(glm::ivec3 size, int count) {
-    return std::move(test::ray_families(size, count, kSeed).front().rays);
+    return std::move(test::ray_families(size, count, kMarchSeed).front().rays);
 }
 
 class EveryTraversal : public ::testing::TestWithParam<Traversal> {};
 
 TEST_P(EveryTraversal, visits_the_cells_of_the_plain_walk_in_every_family_and_world) {
-    for (const test::NamedWorld& named : test::small_worlds(kSeed)) {
+    for (const test::NamedWorld& named : test::small_worlds(kMarchSeed)) {
         const MarchWorld march_world = build_march_world(named.world, GetParam());
-        for (const test::RayFamily& family : test::ray_families(march_world.size(), 1500, kSeed)) {
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), 1500, kMarchSeed)) {
             for (const gpu::Ray& ray : family.rays) {
                 const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
                 const gpu::MarchHit expected = test::walk_cells(named.world, ray);
-                ASSERT_EQ(hit.face, expected.face) << named.name << " " << family.name << " " << print(ray);
+                ASSERT_EQ(hit.face, expected.face)
+                    << named.name << " " << family.name << " " << print_ray(ray);
                 ASSERT_EQ(hit.fault, gpu::kMarchFine);
                 if (hit.face == gpu::kFaceMiss) continue;
-                ASSERT_EQ(hit.cell, expected.cell) << named.name << " " << family.name << " " << print(ray);
-                ASSERT_EQ(hit.t, expected.t) << named.name << " " << family.name << " " << print(ray);
+                ASSERT_EQ(hit.cell, expected.cell)
+                    << named.name << " " << family.name << " " << print_ray(ray);
+                ASSERT_EQ(hit.t, expected.t) << named.name << " " << family.name << " " << print_ray(ray);
                 ASSERT_EQ(hit.material, expected.material);
                 ASSERT_LE(hit.steps, expected.steps);
             }
@@ -64,23 +66,23 @@ TEST(March, world_of_a_million_voxels_on_one_axis_is_hit_at_both_ends) {
 INSTANTIATE_TEST_SUITE_P(March, EveryTraversal, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
 TEST(March, every_family_agrees_with_boxes_in_double_precision) {
-    for (const test::NamedWorld& named : test::small_worlds(kSeed + 1)) {
+    for (const test::NamedWorld& named : test::small_worlds(kMarchSeed + 1)) {
         const MarchWorld march_world = build_march_world(named.world);
         const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
         const int count = solids.size() > 2000 ? 20 : 100;
-        for (const test::RayFamily& family : test::ray_families(march_world.size(), count, kSeed)) {
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), count, kMarchSeed)) {
             for (const gpu::Ray& ray : family.rays) {
                 const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
                 const test::OracleBounds bounds = test::oracle_bounds(solids, ray, kMargin);
                 ASSERT_EQ(test::disagreement(bounds, ray, hit, kMargin), "")
-                    << named.name << " " << family.name << " " << print(ray);
+                    << named.name << " " << family.name << " " << print_ray(ray);
             }
         }
     }
 }
 
 TEST(March, oracle_rejects_a_hit_moved_by_one_cell_or_dropped) {
-    const test::NamedWorld named = std::move(test::small_worlds(kSeed)[9]);
+    const test::NamedWorld named = std::move(test::small_worlds(kMarchSeed)[9]);
     const MarchWorld march_world = build_march_world(named.world);
     const std::vector<glm::ivec3> solids = test::solid_cells(named.world);
     int hits = 0;
@@ -139,10 +141,10 @@ TEST(March, last_voxel_inside_the_radius_is_hit) {
 }
 
 TEST(March, steps_never_exceed_the_planes_of_the_world) {
-    for (const test::NamedWorld& named : test::small_worlds(kSeed + 2)) {
+    for (const test::NamedWorld& named : test::small_worlds(kMarchSeed + 2)) {
         const MarchWorld march_world = build_march_world(named.world);
         const glm::ivec3 size = march_world.size();
-        for (const test::RayFamily& family : test::ray_families(size, 200, kSeed)) {
+        for (const test::RayFamily& family : test::ray_families(size, 200, kMarchSeed)) {
             for (const gpu::Ray& ray : family.rays)
                 ASSERT_LE(gpu::march(march_world, ray, march_world.chunks_size).steps,
                           gpu::uint(size.x + size.y + size.z + 3));
@@ -153,10 +155,11 @@ TEST(March, steps_never_exceed_the_planes_of_the_world) {
 TEST(March, no_ray_leaves_a_closed_shell) {
     for (const int index :
          {5, 6}) {  // a wall of corners and a shell of faces, both closed for 6-connected walks
-        const test::NamedWorld named = std::move(test::small_worlds(kSeed)[static_cast<std::size_t>(index)]);
+        const test::NamedWorld named =
+            std::move(test::small_worlds(kMarchSeed)[static_cast<std::size_t>(index)]);
         const MarchWorld march_world = build_march_world(named.world);
         int shot = 0;
-        for (const test::RayFamily& family : test::ray_families(march_world.size(), 5000, kSeed + 3)) {
+        for (const test::RayFamily& family : test::ray_families(march_world.size(), 5000, kMarchSeed + 3)) {
             if (family.name == "short") continue;
             for (const gpu::Ray& ray : family.rays) {
                 const glm::ivec3 c = ray.cell;
@@ -170,11 +173,11 @@ TEST(March, no_ray_leaves_a_closed_shell) {
                 if (index == 5 && hit.face == gpu::kFaceMiss) {
                     // It may leave the world below the wall, never above it.
                     const glm::ivec3 last = glm::clamp(hit.cell, glm::ivec3(0), march_world.size() - 1);
-                    ASSERT_LT(last.x + last.y + last.z, 40) << print(ray);
+                    ASSERT_LT(last.x + last.y + last.z, 40) << print_ray(ray);
                     continue;
                 }
                 ++shot;
-                ASSERT_NE(hit.face, gpu::kFaceMiss) << print(ray);
+                ASSERT_NE(hit.face, gpu::kFaceMiss) << print_ray(ray);
             }
         }
         EXPECT_GT(shot, 1000);
@@ -182,7 +185,7 @@ TEST(March, no_ray_leaves_a_closed_shell) {
 }
 
 TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_neighbour) {
-    const test::NamedWorld named = std::move(test::small_worlds(kSeed)[10]);
+    const test::NamedWorld named = std::move(test::small_worlds(kMarchSeed)[10]);
     const MarchWorld march_world = build_march_world(named.world);
     int spawned = 0;
     for (const gpu::Ray& ray : random_rays(march_world.size(), 3000)) {
@@ -198,9 +201,9 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
             const gpu::MarchHit second = gpu::march(march_world, next, march_world.chunks_size);
             ++spawned;
             if (second.face == gpu::kFaceMiss) continue;
-            ASSERT_FALSE(second.cell == hit.cell) << print(next);
+            ASSERT_FALSE(second.cell == hit.cell) << print_ray(next);
             const bool is_inside = named.world.get(next.cell) != VoxelWorld::kEmpty;
-            ASSERT_EQ(second.face == gpu::kFaceInside, is_inside) << print(next);
+            ASSERT_EQ(second.face == gpu::kFaceInside, is_inside) << print_ray(next);
             ASSERT_EQ(second.cell, test::walk_cells(named.world, next).cell);
         }
     }
@@ -208,7 +211,7 @@ TEST(March, ray_that_leaves_a_face_never_hits_its_own_voxel_and_never_skips_the_
 }
 
 TEST(March, bad_directions_miss_within_the_step_limit) {
-    const test::NamedWorld named = std::move(test::small_worlds(kSeed)[7]);
+    const test::NamedWorld named = std::move(test::small_worlds(kMarchSeed)[7]);
     const MarchWorld march_world = build_march_world(named.world);
     const float inf = std::numeric_limits<float>::infinity();
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -5,24 +5,13 @@
 
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
 Words small_bench(const Words& more) {
-    Words words = {"bench", "march", "--size", "32x18", "--rounds", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-std::set<std::string> keys_of(const Json& object) {
-    std::set<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.insert(key);
-    return keys;
+    return with({"bench", "march", "--size", "32x18", "--rounds", "1"}, more);
 }
 
 TEST(Bench, march_prints_rows_with_their_keys_and_no_mismatch) {
@@ -90,10 +79,9 @@ TEST(Bench, scene_without_voxels_is_refused) {
 }
 
 Words small_ao(const Words& more) {
-    Words words = {"bench",    "ao", "--size",      "64x36", "--extent", "64",
-                   "--frames", "4",  "--reference", "16",    "--rounds", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+    return with({"bench", "ao", "--size", "64x36", "--extent", "64", "--frames", "4", "--reference", "16",
+                 "--rounds", "1"},
+                more);
 }
 
 TEST(BenchAo, prints_rows_with_their_keys_for_each_motion_and_variant) {
@@ -163,11 +151,9 @@ TEST(BenchAo, scene_without_voxels_is_refused) {
 }
 
 Words small_photons(const Words& more) {
-    Words words = {"bench",     "photons", scene_file("cornell"), "--size", "32x32",
-                   "--photons", "2000",    "--iterations",        "4",      "--rounds",
-                   "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+    return with({"bench", "photons", scene_file("cornell"), "--size", "32x32", "--photons", "2000",
+                 "--iterations", "4", "--rounds", "1"},
+                more);
 }
 
 TEST(BenchPhotons, prints_rows_with_their_keys_for_each_variant) {

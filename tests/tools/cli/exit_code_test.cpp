@@ -7,17 +7,14 @@
 #include "formats/png.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 // One voxel on 32 x 18 pixels: the cheapest render that has everything.
-Words small_render(const std::string& output, Words more = {}) {
-    Words words = {"render", scene_file("one_voxel"), "--size", "32x18", "--spp", "2", "-o", output};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+Words one_voxel_render(const std::string& output, Words more = {}) {
+    return with({"render", scene_file("one_voxel"), "--size", "32x18", "--spp", "2", "-o", output}, more);
 }
 
 // A render that no machine finishes; it says on standard error when it has begun.
@@ -29,13 +26,9 @@ Words endless_render(const std::string& output) {
             "--progress", "json"};
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream(file, std::ios::binary) << text;
-}
-
 TEST(ExitCodes, render_that_succeeds_ends_with_0) {
     const ScratchFolder scratch;
-    const Ending ending = run(small_render("a.png"), {.folder = scratch.path()});
+    const Ending ending = run(one_voxel_render("a.png"), {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), Words{"a.png"});
 }
@@ -72,7 +65,7 @@ TEST(ExitCodes, error_reached_in_time_ends_with_0) {
 
 TEST(ExitCodes, time_limit_alone_is_success) {
     const ScratchFolder scratch;
-    const Ending ending = run(small_render("a.png", {"--spp", "100000000", "--time-limit", "0.5s"}),
+    const Ending ending = run(one_voxel_render("a.png", {"--spp", "100000000", "--time-limit", "0.5s"}),
                               {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_NE(ending.out.find("time limit reached"), std::string::npos) << ending.out;
@@ -106,7 +99,7 @@ const Surroundings kNoDriver{.environment = {{"VK_ICD_FILENAMES", "/nonexistent/
 
 TEST(ExitCodes, machine_without_a_driver_ends_with_69_and_says_what_to_install) {
     const ScratchFolder scratch;
-    for (const Words& words : {small_render(scratch / "a.png"), Words{"devices"}}) {
+    for (const Words& words : {one_voxel_render(scratch / "a.png"), Words{"devices"}}) {
         const Ending ending = run(words, kNoDriver);
         EXPECT_EQ(ending.code, 69) << ending.err;
         EXPECT_NE(ending.err.find("mesa-vulkan-drivers"), std::string::npos) << ending.err;
@@ -125,12 +118,13 @@ TEST(ExitCodes, output_that_cannot_be_written_ends_with_73_before_the_work) {
     // /proc takes no new files, not even from root.
     for (const std::string& output :
          {std::string("absent/a.png"), std::string("folder.exr"), std::string("/proc/a.png")}) {
-        const Ending ending = run(small_render(output), {.folder = scratch.path()});
+        const Ending ending = run(one_voxel_render(output), {.folder = scratch.path()});
         EXPECT_EQ(ending.code, 73) << output << ": " << ending.err;
         EXPECT_NE(ending.err.find(output + ": cannot write"), std::string::npos) << ending.err;
         EXPECT_EQ(names_in(scratch.path()), Words{"folder.exr"});
     }
-    EXPECT_EQ(run(small_render("a.png", {"--json", "absent/a.json"}), {.folder = scratch.path()}).code, 73);
+    EXPECT_EQ(run(one_voxel_render("a.png", {"--json", "absent/a.json"}), {.folder = scratch.path()}).code,
+              73);
     EXPECT_EQ(names_in(scratch.path()), Words{"folder.exr"})
         << "the report is checked before the picture is made";
 }
@@ -141,9 +135,9 @@ TEST(ExitCodes, full_disk_ends_with_73_and_keeps_the_old_file) {
                                  .environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}},
                                  .largest_file = 100};
     const std::vector<std::pair<std::string, Words>> commands = {
-        {"a.exr", small_render("a.exr", {"--no-cache"})},
+        {"a.exr", one_voxel_render("a.exr", {"--no-cache"})},
         {"a.json", {"plan", scene_file("mixed"), "--json", "a.json"}},
-        {"a.png", small_render("a.png", {"--no-cache"})}};
+        {"a.png", one_voxel_render("a.png", {"--no-cache"})}};
     for (const auto& [output, words] : commands) {
         write_text(scratch / output, "old");
         const Ending ending = run(words, full_disk);
@@ -170,7 +164,7 @@ TEST(ExitCodes, link_stays_a_link_to_the_new_picture) {
     const ScratchFolder scratch;
     write_text(scratch / "real.png", "old");
     std::filesystem::create_symlink("real.png", scratch / "link.png");
-    EXPECT_EQ(run(small_render("link.png"), {.folder = scratch.path()}).code, 0);
+    EXPECT_EQ(run(one_voxel_render("link.png"), {.folder = scratch.path()}).code, 0);
     EXPECT_TRUE(std::filesystem::is_symlink(scratch / "link.png"));
     EXPECT_EQ(read_png(scratch / "real.png").width, 32);
 }

@@ -8,24 +8,17 @@
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
-
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
 
 // Of the forecast of memory, relative: what a user who plans memory can live with.
 constexpr double kMemoryTolerance = 0.1;
 // From the time limit to the end of the process.
 constexpr double kLateness_s = 2.0;
 
-Words with(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-Json json_of(const Words& words, const Surroundings& surroundings = {}) {
+Json forecast_of(const Words& words, const Surroundings& surroundings = {}) {
     const Ending ending = run(with(words, {"--json", "-"}), surroundings);
     EXPECT_EQ(ending.code, 0) << ending.err;
     return Json::parse(ending.out);
@@ -34,8 +27,8 @@ Json json_of(const Words& words, const Surroundings& surroundings = {}) {
 TEST(PlanForecast, says_what_render_then_takes) {
     const ScratchFolder scratch;
     const Words flags = {scene_file("mixed"), "--size", "64x36", "--error", "5%", "-o", scratch / "a.png"};
-    const Json plan = json_of(with({"plan"}, flags));
-    const Json report = json_of(with({"render"}, flags));
+    const Json plan = forecast_of(with({"plan"}, flags));
+    const Json report = forecast_of(with({"render"}, flags));
     EXPECT_EQ(plan["forecast"]["samples"], report["forecast"]["samples"]);
     EXPECT_EQ(plan["forecast"]["error"], 0.05);
     EXPECT_LT(plan["forecast"]["low_s"], plan["forecast"]["high_s"]);
@@ -66,7 +59,7 @@ TEST(PlanForecast, too_few_samples_allowed_are_said) {
 
 TEST(PlanForecast, effect_that_the_user_switched_off_has_its_error) {
     const Words words = {"plan", scene_file("mixed"), "--size", "32x18", "--error", "20%"};
-    for (const Json& effect : json_of(with(words, {"--effect", "sun=off"}))["effects"]) {
+    for (const Json& effect : forecast_of(with(words, {"--effect", "sun=off"}))["effects"]) {
         EXPECT_EQ(effect.contains("error_without"), effect["name"] == "sun") << effect;
         if (effect["name"] == "sun") {
             EXPECT_GT(effect["error_without"]["low"], 0.1);
@@ -89,8 +82,8 @@ TEST_P(PlanMemory, is_that_of_the_render) {
     Words flags = with({scene_file("mixed"), "--error", "40%"}, GetParam());
     for (std::string& word : flags)
         if (word.starts_with("a.")) word = scratch / word;
-    const double planned = json_of(with({"plan"}, flags))["memory_total"]["peak_rss_mib"];
-    const Json report = json_of(with({"render"}, flags));
+    const double planned = forecast_of(with({"plan"}, flags))["memory_total"]["peak_rss_mib"];
+    const Json report = forecast_of(with({"render"}, flags));
     EXPECT_NEAR(planned / report["peak_rss_mib"].get<double>(), 1.0, kMemoryTolerance);
 }
 
@@ -104,10 +97,10 @@ TEST(PlanHistory, remembers_renders_that_had_a_forecast) {
     const ScratchFolder scratch;
     const Surroundings here{.environment = {{"XDG_STATE_HOME", scratch / "state"}}};
     const Words render = {"render", scene_file("mixed"), "--size", "32x18", "-q", "-o", scratch / "a.png"};
-    EXPECT_EQ(json_of({"plan", "--history"}, here)["count"], 0);
+    EXPECT_EQ(forecast_of({"plan", "--history"}, here)["count"], 0);
     EXPECT_EQ(run(with(render, {"--error", "20%"}), here).code, 0);
     EXPECT_EQ(run(with(render, {"--spp", "2"}), here).code, 0);  // had none
-    const Json history = json_of({"plan", "--history"}, here);
+    const Json history = forecast_of({"plan", "--history"}, here);
     EXPECT_EQ(history["count"], 1);
     ASSERT_EQ(history["renders"].size(), 1u);
     const Json& past = history["renders"][0];
@@ -126,7 +119,7 @@ TEST(PlanHistory, home_that_cannot_be_written_is_no_error) {
             nowhere);
     EXPECT_EQ(ending.code, 0);
     EXPECT_EQ(ending.err, "");
-    EXPECT_EQ(json_of({"plan", "--history"}, nowhere)["count"], 0);
+    EXPECT_EQ(forecast_of({"plan", "--history"}, nowhere)["count"], 0);
 }
 
 TEST(ErrorFlag, render_that_goes_on_gives_the_picture_of_one_that_did_not_stop) {

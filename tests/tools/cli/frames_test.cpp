@@ -10,25 +10,14 @@
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
 Words small_turn(const Words& more) {
-    Words words = {"render", scene_file("turntable"), "--size", "32x18", "--spp", "2",
-                   "-D",     "ao.method=brute"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-std::set<std::string> keys_of(const Json& object) {
-    std::set<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.insert(key);
-    return keys;
+    return with({"render", scene_file("turntable"), "--size", "32x18", "--spp", "2", "-D", "ao.method=brute"},
+                more);
 }
 
 TEST(Frames, every_frame_has_its_numbered_files) {

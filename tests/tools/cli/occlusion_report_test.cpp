@@ -9,43 +9,18 @@
 #include "support/scratch_folder.h"
 #include "support/vox_builder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
-
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-std::set<std::string> keys_of(const Json& object) {
-    std::set<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.insert(key);
-    return keys;
-}
-
-using Keys = std::set<std::string>;
-
-Words small_render(const ScratchFolder& scratch, Words more = {}) {
-    Words words = {"render", scene_file("mixed"), "--size", "32x18", "--spp", "2", "-o", scratch / "a.exr"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-// Standard output as JSON, and nothing but JSON on it.
-Json json_of(const Words& words) {
-    const Ending ending = run(words);
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    EXPECT_EQ(ending.err, "");
-    return Json::parse(ending.out);
-}
 
 TEST(OcclusionReport, says_how_the_table_served) {
     const ScratchFolder scratch;
     const Json report =
         json_of(small_render(scratch, {"--json", "-", "--ao", "hash", "-D", "ao.reproject=true"}));
     const Json& occlusion = report["occlusion"];
-    EXPECT_EQ(keys_of(occlusion),
-              (Keys{"method", "reason", "slots", "live_cells", "load", "probes_per_search", "reused_share"}));
+    EXPECT_EQ(keys_of(occlusion), (std::set<std::string>{"method", "reason", "slots", "live_cells", "load",
+                                                         "probes_per_search", "reused_share"}));
     EXPECT_EQ(occlusion["method"], "hash");
     EXPECT_EQ(occlusion["slots"], 4096);
     EXPECT_EQ(occlusion["live_cells"], report["work"]["ao_claimed"]) << "nothing is given up in one frame";
@@ -115,12 +90,12 @@ TEST(OcclusionReport, render_of_moving_voxels_records_only_passes_of_its_plan) {
     Words planned = words;
     planned[0] = "plan";
     const auto labels = [](const Json& report) {
-        Keys all;
+        std::set<std::string> all;
         for (const Json& pass : report["passes"])
             all.insert(pass["label"]);
         return all;
     };
-    const Keys done = labels(json_of(words));
+    const std::set<std::string> done = labels(json_of(words));
     EXPECT_EQ(done, labels(json_of(planned)));
     EXPECT_TRUE(done.contains("ao.age")) << "voxels rest from frame 1 on";
 }

@@ -6,23 +6,13 @@
 
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-Json plan_of(const Words& more) {
-    Words words = {"plan", scene_file("cornell"), "--size", "16x16", "--json", "-"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Ending ending = run(words);
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    return Json::parse(ending.out);
-}
-
 std::string hash_of(const Words& more) {
-    return plan_of(more)["scene_hash"];
+    return plan_of("cornell", more)["scene_hash"];
 }
 
 TEST(PhotonFlags, are_the_keys_of_the_section) {
@@ -48,9 +38,9 @@ TEST(PhotonFlags, number_of_photons_sets_the_store) {
             if (row["buffer"] == "photon.rays") return row["bytes"].get<double>();
         return 0.0;
     };
-    const double one = bytes(plan_of({"--photons", "20000"}));
+    const double one = bytes(plan_of("cornell", {"--photons", "20000"}));
     EXPECT_GT(one, 0.0);
-    EXPECT_EQ(bytes(plan_of({"--photons", "40000"})), 2.0 * one);
+    EXPECT_EQ(bytes(plan_of("cornell", {"--photons", "40000"})), 2.0 * one);
 }
 
 TEST(PhotonFlags, picture_follows_them) {

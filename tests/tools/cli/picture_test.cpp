@@ -10,17 +10,14 @@
 #include "formats/png.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 // A render of voxels and spheres in which every effect but emission runs.
-Words mixed(Words more) {
-    Words words = {"render", scene_file("mixed"), "--size", "48x27", "--spp", "4", "-q"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+Words small_mixed(Words more) {
+    return with({"render", scene_file("mixed"), "--size", "48x27", "--spp", "4", "-q"}, more);
 }
 
 struct Pictures {
@@ -33,7 +30,8 @@ struct Pictures {
 Pictures render(Words more, std::map<std::string, std::string> environment = {}) {
     const ScratchFolder scratch;
     more.insert(more.end(), {"-o", "a.exr", "-o", "a.png"});
-    const Ending ending = run(mixed(more), {.folder = scratch.path(), .environment = std::move(environment)});
+    const Ending ending =
+        run(small_mixed(more), {.folder = scratch.path(), .environment = std::move(environment)});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.exr", "a.png"}));
     return {bytes_of(scratch / "a.exr"), bytes_of(scratch / "a.png")};
@@ -88,8 +86,8 @@ TEST(Reproducible, another_seed_or_sequence_changes_both_pictures) {
 
 TEST(Reproducible, without_it_the_picture_carries_times) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr"})).code, 0);
-    EXPECT_EQ(run(mixed({"--reproducible", "-o", scratch / "b.exr"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"--reproducible", "-o", scratch / "b.exr"})).code, 0);
     const Image timed = read_exr(scratch / "a.exr");
     const Image timeless = read_exr(scratch / "b.exr");
     EXPECT_TRUE(timed.attributes.contains("capDate"));
@@ -102,7 +100,7 @@ TEST(Reproducible, without_it_the_picture_carries_times) {
 
 TEST(Picture, exr_has_the_channels_that_other_programs_look_for) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr"})).code, 0);
     const Image image = read_exr(scratch / "a.exr");
     std::set<std::string> names;
     for (const auto& [name, channel] : image.channels) {
@@ -122,7 +120,8 @@ TEST(Picture, exr_has_the_channels_that_other_programs_look_for) {
 
 TEST(Picture, absent_effect_has_no_channel) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr", "--effect", "ao=off", "-D", "sun.on=false"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr", "--effect", "ao=off", "-D", "sun.on=false"})).code,
+              0);
     const Image image = read_exr(scratch / "a.exr");
     EXPECT_FALSE(image.channels.contains("ao.Y"));
     EXPECT_FALSE(image.channels.contains("sun.Y"));
@@ -131,7 +130,7 @@ TEST(Picture, absent_effect_has_no_channel) {
 
 TEST(Picture, colour_alone_is_written_when_asked_for) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr", "--effect", "aov=off"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr", "--effect", "aov=off"})).code, 0);
     EXPECT_EQ(read_exr(scratch / "a.exr").channels.size(), 5u) << "R, G, B, sampleCount.Y, error.Y";
 }
 
@@ -139,8 +138,8 @@ TEST(Picture, colour_alone_is_written_when_asked_for) {
 // camera and in its own pixel: OpenEXR, "Standard attributes", worldToCamera and worldToNDC.
 TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr", "-D", "camera.position=[20, -60, 30]", "-D",
-                         "camera.look_at=[0, 0, 4]"}))
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr", "-D", "camera.position=[20, -60, 30]", "-D",
+                               "camera.look_at=[0, 0, 4]"}))
                   .code,
               0);
     const Imf::InputFile file((scratch / "a.exr").c_str());
@@ -167,9 +166,11 @@ TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
 // Every channel of a crop is bit for bit that part of the whole picture, and the file says where it lies.
 TEST(Picture, crop_is_that_part_of_the_whole_picture) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "whole.exr"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "whole.exr"})).code, 0);
     EXPECT_EQ(
-        run(mixed({"-o", scratch / "part.exr", "-o", scratch / "part.png", "--crop", "11,7,40,22"})).code, 0);
+        run(small_mixed({"-o", scratch / "part.exr", "-o", scratch / "part.png", "--crop", "11,7,40,22"}))
+            .code,
+        0);
     const Imf::InputFile file((scratch / "part.exr").c_str());
     EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({11, 7}, {39, 21}));
     EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {47, 26}));
@@ -188,7 +189,8 @@ TEST(Picture, crop_is_that_part_of_the_whole_picture) {
 
 TEST(Picture, png_is_the_tone_mapped_exr) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.exr", "-o", scratch / "a.png", "--exposure", "-1"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr", "-o", scratch / "a.png", "--exposure", "-1"})).code,
+              0);
     const Image png = read_png(scratch / "a.png");
     const Image shown = to_display(read_exr(scratch / "a.exr"), {.exposure_ev = -1.0f}).image;
     // The EXR has been rounded to half precision on its way: one 8-bit code of difference at most.
@@ -204,7 +206,7 @@ TEST(Picture, tone_and_exposure_change_the_png) {
     const ScratchFolder scratch;
     std::set<std::string> pictures;
     for (const Words& more : {Words{}, Words{"--tone", "plain"}, Words{"--exposure", "1"}}) {
-        Words words = mixed({"-o", scratch / "a.png"});
+        Words words = small_mixed({"-o", scratch / "a.png"});
         words.insert(words.end(), more.begin(), more.end());
         EXPECT_EQ(run(words).code, 0);
         pictures.insert(bytes_of(scratch / "a.png"));
@@ -216,7 +218,7 @@ TEST(Picture, every_side_shows_another_picture) {
     const ScratchFolder scratch;
     std::set<std::string> pictures;
     for (const char* side : {"three-quarter", "front", "back", "left", "right", "top", "iso"}) {
-        EXPECT_EQ(run(mixed({"-o", scratch / "a.png", "--camera", side})).code, 0);
+        EXPECT_EQ(run(small_mixed({"-o", scratch / "a.png", "--camera", side})).code, 0);
         pictures.insert(bytes_of(scratch / "a.png"));
     }
     EXPECT_EQ(pictures.size(), 7u);
@@ -224,14 +226,14 @@ TEST(Picture, every_side_shows_another_picture) {
 
 TEST(Picture, default_camera_is_the_three_quarter_view) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.png"})).code, 0);
-    EXPECT_EQ(run(mixed({"-o", scratch / "b.png", "--camera", "three-quarter"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.png"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "b.png", "--camera", "three-quarter"})).code, 0);
     EXPECT_EQ(bytes_of(scratch / "a.png"), bytes_of(scratch / "b.png"));
 }
 
 TEST(Picture, capital_ending_is_an_ending) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"-o", scratch / "a.EXR", "-o", scratch / "a.PNG"})).code, 0);
+    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.EXR", "-o", scratch / "a.PNG"})).code, 0);
     EXPECT_EQ(read_exr(scratch / "a.EXR").width, 48);
     EXPECT_EQ(read_png(scratch / "a.PNG").width, 48);
 }

@@ -6,20 +6,10 @@
 
 #include "support/source_tree.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
-
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-Json plan_of(const std::string& scene, const Words& more) {
-    Words words = {"plan", scene_file(scene), "--size", "16x16", "--json", "-"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Ending ending = run(words);
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    return Json::parse(ending.out);
-}
 
 // Samples per pixel that the plan would take.
 std::uint64_t samples_of(const Words& more, const std::string& scene = "first_light") {

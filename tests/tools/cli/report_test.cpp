@@ -8,40 +8,16 @@
 #include "formats/png.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
-std::set<std::string> keys_of(const Json& object) {
-    std::set<std::string> keys;
-    for (const auto& [key, value] : object.items())
-        keys.insert(key);
-    return keys;
-}
-
-using Keys = std::set<std::string>;
-
-Words small_render(const ScratchFolder& scratch, Words more = {}) {
-    Words words = {"render", scene_file("mixed"), "--size", "32x18", "--spp", "2", "-o", scratch / "a.exr"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
-// Standard output as JSON, and nothing but JSON on it.
-Json json_of(const Words& words) {
-    const Ending ending = run(words);
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    EXPECT_EQ(ending.err, "");
-    return Json::parse(ending.out);
-}
-
 TEST(Report, render_has_exactly_its_keys) {
     const ScratchFolder scratch;
     const Json report = json_of(small_render(scratch, {"--json", "-", "--seed", "7"}));
-    EXPECT_EQ(keys_of(report), (Keys{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
+    EXPECT_EQ(keys_of(report),
+              (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
                                      "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
                                      "error", "forecast", "faults",
                                      // Beyond the contract:
@@ -51,20 +27,21 @@ TEST(Report, render_has_exactly_its_keys) {
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
     EXPECT_EQ(report["samples"], 2);
-    EXPECT_EQ(keys_of(report["device"]), (Keys{"name", "driver", "type"}));
-    EXPECT_EQ(keys_of(report["error"]), (Keys{"metric", "estimate", "low", "high", "confidence",
-                                              // Beyond the contract:
-                                              "rounds", "decided_by"}));
-    EXPECT_EQ(keys_of(report["forecast"]), (Keys{"low_s", "high_s"}));
-    EXPECT_EQ(keys_of(report["traversal"]), (Keys{"name", "reason"}));
+    EXPECT_EQ(keys_of(report["device"]), (std::set<std::string>{"name", "driver", "type"}));
+    EXPECT_EQ(keys_of(report["error"]),
+              (std::set<std::string>{"metric", "estimate", "low", "high", "confidence",
+                                     // Beyond the contract:
+                                     "rounds", "decided_by"}));
+    EXPECT_EQ(keys_of(report["forecast"]), (std::set<std::string>{"low_s", "high_s"}));
+    EXPECT_EQ(keys_of(report["traversal"]), (std::set<std::string>{"name", "reason"}));
     ASSERT_EQ(report["passes"].size(), 11u);
     for (const Json& pass : report["passes"])
-        EXPECT_EQ(keys_of(pass), (Keys{"label", "count", "ms", "max_ms"}));
+        EXPECT_EQ(keys_of(pass), (std::set<std::string>{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
-        EXPECT_EQ(keys_of(row), (Keys{"buffer", "bytes"}));
+        EXPECT_EQ(keys_of(row), (std::set<std::string>{"buffer", "bytes"}));
     ASSERT_EQ(report["effects"].size(), 11u);
     for (const Json& effect : report["effects"])
-        EXPECT_EQ(keys_of(effect), (Keys{"name", "on", "reason", "ms"}));
+        EXPECT_EQ(keys_of(effect), (std::set<std::string>{"name", "on", "reason", "ms"}));
 }
 
 TEST(Report, numbers_are_plausible_and_faults_are_zero) {
@@ -110,11 +87,12 @@ TEST(Report, plan_promises_what_the_render_does) {
     words[0] = "plan";
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan),
-              (Keys{"version", "command", "scene_hash", "seed", "size", "effects", "passes", "memory",
-                    "forecast", "rays", "notes", "traversal", "occlusion", "photons", "techniques"}));
+              (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
+                                     "memory", "forecast", "rays", "notes", "traversal", "occlusion",
+                                     "photons", "techniques"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
-    EXPECT_EQ(keys_of(plan["occlusion"]), (Keys{"method", "reason", "slots"}));
+    EXPECT_EQ(keys_of(plan["occlusion"]), (std::set<std::string>{"method", "reason", "slots"}));
     EXPECT_EQ(plan["scene_hash"], report["scene_hash"]);
     ASSERT_EQ(plan["passes"].size(), report["passes"].size());
     std::map<std::string, int> done;
@@ -150,7 +128,8 @@ TEST(Report, compare_has_exactly_its_keys) {
     Image image = make_image(16, 16, Words{"R", "G", "B"});
     write_png(scratch / "a.png", image);
     const Json black = json_of({"compare", scratch / "a.png", scratch / "a.png", "--json", "-"});
-    const Keys keys = {"rmse", "mae", "relmse", "smape", "flip", "psnr", "mean_ref", "mean_test", "max_abs"};
+    const std::set<std::string> keys = {"rmse", "mae",      "relmse",    "smape",  "flip",
+                                        "psnr", "mean_ref", "mean_test", "max_abs"};
     EXPECT_EQ(keys_of(black), keys);
     image.channels["R"].pixels[3] = 1.0f;
     write_png(scratch / "b.png", image);
@@ -165,7 +144,8 @@ TEST(Report, devices_have_exactly_their_keys_and_one_would_be_used) {
     const Json devices = json_of({"devices", "--json", "-"});
     int used = 0;
     for (const Json& device : devices) {
-        EXPECT_EQ(keys_of(device), (Keys{"index", "name", "driver", "type", "usable", "would_use", "lacks",
+        EXPECT_EQ(keys_of(device),
+                  (std::set<std::string>{"index", "name", "driver", "type", "usable", "would_use", "lacks",
                                          "max_binding_bytes", "max_allocation_bytes"}));
         used += device["would_use"].get<bool>() ? 1 : 0;
     }
@@ -174,9 +154,10 @@ TEST(Report, devices_have_exactly_their_keys_and_one_would_be_used) {
 
 TEST(Report, info_on_a_scene_says_what_it_makes) {
     const Json facts = json_of({"info", scene_file("mixed"), "--json", "-"});
-    EXPECT_EQ(keys_of(facts), (Keys{"scene_hash", "voxels", "instances", "models", "spheres", "materials",
-                                    "voxel_box", "fill_ratio", "sun", "sky", "emitters", "glass", "metal",
-                                    "camera", "size", "spp", "warnings"}));
+    EXPECT_EQ(keys_of(facts),
+              (std::set<std::string>{"scene_hash", "voxels", "instances", "models", "spheres", "materials",
+                                     "voxel_box", "fill_ratio", "sun", "sky", "emitters", "glass", "metal",
+                                     "camera", "size", "spp", "warnings"}));
     EXPECT_EQ(facts["voxels"], 40 * 40 * 2 + 12 * 3 * 10);
     EXPECT_EQ(facts["voxel_box"], Json({{-20, -20, -2}, {20, 20, 10}}));
     EXPECT_EQ(facts["spheres"], 3);
@@ -190,10 +171,11 @@ TEST(Report, info_on_a_picture_lists_its_channels) {
     const ScratchFolder scratch;
     EXPECT_EQ(run(small_render(scratch, {"-o", scratch / "a.png", "-q"})).code, 0);
     const Json exr = json_of({"info", scratch / "a.exr", "--json", "-"});
-    EXPECT_EQ(keys_of(exr), (Keys{"size", "channels", "attributes"}));
+    EXPECT_EQ(keys_of(exr), (std::set<std::string>{"size", "channels", "attributes"}));
     EXPECT_EQ(exr["size"], Json({32, 18}));
     for (const Json& channel : exr["channels"]) {
-        EXPECT_EQ(keys_of(channel), (Keys{"name", "type", "min", "max", "mean", "non_finite"}));
+        EXPECT_EQ(keys_of(channel),
+                  (std::set<std::string>{"name", "type", "min", "max", "mean", "non_finite"}));
         EXPECT_EQ(channel["non_finite"], 0);
         EXPECT_TRUE(channel["name"] != "sampleCount.Y" || channel["mean"] == 2.0) << channel;
     }

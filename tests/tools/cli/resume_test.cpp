@@ -11,24 +11,21 @@
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
 
-Words mixed(const Words& more) {
-    Words words = {"render", scene_file("mixed"), "--size", "64x36", "--reproducible", "-o", "a.exr"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+Words reproducible_mixed(const Words& more) {
+    return with({"render", scene_file("mixed"), "--size", "64x36", "--reproducible", "-o", "a.exr"}, more);
 }
 
 // The bytes of the picture of an uninterrupted render.
 std::string uninterrupted(const Words& more) {
     const ScratchFolder scratch;
-    Words words = mixed(more);
+    Words words = reproducible_mixed(more);
     words.push_back("-q");
     EXPECT_EQ(run(words, {.folder = scratch.path()}).code, 0);
     EXPECT_EQ(names_in(scratch.path()), Words{"a.exr"});
@@ -52,7 +49,7 @@ TEST(Resume, killed_render_ends_with_the_bytes_of_the_uninterrupted_one) {
     std::uniform_int_distribution<useconds_t> pause_us(0, 100000);
     int killed = 0;
     for (int round = 0; round < 6; ++round) {
-        Words words = mixed(settings);
+        Words words = reproducible_mixed(settings);
         words.insert(words.end(), {"--resume", "--progress", "json"});
         ChildProcess child(words, {.folder = scratch.path()});
         (void)child.wait_for_error("\"sample\"");
@@ -64,7 +61,7 @@ TEST(Resume, killed_render_ends_with_the_bytes_of_the_uninterrupted_one) {
             EXPECT_EQ(read_exr(scratch / name).width, 64) << "a checkpoint is whole, and a picture";
     }
     EXPECT_GE(killed, 3);
-    Words words = mixed(settings);
+    Words words = reproducible_mixed(settings);
     words.push_back("--resume");
     const Ending ending = run(words, {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
@@ -76,13 +73,13 @@ TEST(Resume, killed_render_ends_with_the_bytes_of_the_uninterrupted_one) {
 TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "0.3s", "-q"}), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "0.3s", "-q"}), here).code, 0);
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.exr", "a.exr.part"}));
     const Image first = read_exr(scratch / "a.exr");
     const auto samples = static_cast<int>(first.channels.at("sampleCount.Y").pixels.back());
     ASSERT_GE(samples, 1);
     const std::string spp = std::to_string(samples + 3);
-    const Ending ending = run(mixed({"--spp", spp, "--resume"}), here);
+    const Ending ending = run(reproducible_mixed({"--spp", spp, "--resume"}), here);
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(ending.err, "note: going on from " + std::to_string(samples) + " samples of a.exr.part\n");
     EXPECT_TRUE(bytes_of(scratch / "a.exr") == uninterrupted({"--spp", spp}));
@@ -132,13 +129,13 @@ TEST(Resume, interrupted_shard_goes_on_and_merges) {
         words.insert(words.end(), more.begin(), more.end());
         return words;
     };
-    EXPECT_EQ(run(mixed(with(first, {"--time-limit", "0.2s"})), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed(with(first, {"--time-limit", "0.2s"})), here).code, 0);
     const Ending early = run({"merge", "a.exr", "--partial", "-q", "-o", "early.png"}, here);
     EXPECT_TRUE(early.code == 0 || early.err.find("it ends within a sample") != std::string::npos)
         << early.err;
-    EXPECT_EQ(run(mixed(with(first, {"--resume"})), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed(with(first, {"--resume"})), here).code, 0);
     fs::rename(scratch / "a.exr", scratch / "b.exr");
-    EXPECT_EQ(run(mixed({"--spp", "100", "--shard", "2/2", "-q"}), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "100", "--shard", "2/2", "-q"}), here).code, 0);
     const Ending merged = run({"merge", "b.exr", "a.exr", "--reproducible", "-q", "-o", "m.exr"}, here);
     EXPECT_EQ(merged.code, 0) << merged.err;
     EXPECT_TRUE(bytes_of(scratch / "m.exr") == uninterrupted({"--spp", "100"}));
@@ -147,12 +144,12 @@ TEST(Resume, interrupted_shard_goes_on_and_merges) {
 TEST(Resume, checkpoint_of_other_settings_is_refused_and_stays) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "2s", "-q"}), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "2s", "-q"}), here).code, 0);
     const float samples = read_exr(scratch / "a.exr").channels.at("sampleCount.Y").pixels.back();
     ASSERT_GE(samples, 2.0f);
     const std::string before = bytes_of(scratch / "a.exr.part");
     const auto refusal = [&](const Words& more) {
-        Words words = mixed({"--resume", "--spp", "100000"});
+        Words words = reproducible_mixed({"--resume", "--spp", "100000"});
         words.insert(words.end(), more.begin(), more.end());
         const Ending ending = run(words, here);
         EXPECT_EQ(ending.code, 3) << ending.err;
@@ -170,7 +167,7 @@ TEST(Resume, checkpoint_of_other_settings_is_refused_and_stays) {
 
 TEST(Resume, without_a_checkpoint_the_render_starts_anew_and_says_so) {
     const ScratchFolder scratch;
-    const Ending ending = run(mixed({"--spp", "2", "--resume"}), {.folder = scratch.path()});
+    const Ending ending = run(reproducible_mixed({"--spp", "2", "--resume"}), {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0);
     EXPECT_EQ(ending.err, "note: there is no a.exr.part: the render starts anew\n");
     EXPECT_EQ(names_in(scratch.path()), Words{"a.exr"});
@@ -179,14 +176,16 @@ TEST(Resume, without_a_checkpoint_the_render_starts_anew_and_says_so) {
 TEST(Checkpoint, interval_of_0_leaves_none) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "0.2s", "-q", "--checkpoint", "0"}), here).code,
-              0);
+    EXPECT_EQ(
+        run(reproducible_mixed({"--spp", "100000", "--time-limit", "0.2s", "-q", "--checkpoint", "0"}), here)
+            .code,
+        0);
     EXPECT_EQ(names_in(scratch.path()), Words{"a.exr"});
 }
 
 TEST(Checkpoint, interruption_leaves_one_beside_the_picture) {
     const ScratchFolder scratch;
-    Words words = mixed({"--spp", "100000000", "--progress", "json"});
+    Words words = reproducible_mixed({"--spp", "100000000", "--progress", "json"});
     ChildProcess child(words, {.folder = scratch.path()});
     ASSERT_TRUE(child.wait_for_error("\"sample\":3"));
     child.send(SIGINT);
@@ -197,8 +196,8 @@ TEST(Checkpoint, interruption_leaves_one_beside_the_picture) {
 TEST(Checkpoint, forgotten_one_is_noted) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--spp", "100000", "--time-limit", "0.2s", "-q"}), here).code, 0);
-    EXPECT_EQ(run(mixed({"--spp", "2"}), here).err,
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "0.2s", "-q"}), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "2"}), here).err,
               "note: there is a checkpoint, a.exr.part; --resume goes on from it\n");
 }
 

@@ -8,25 +8,21 @@
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
-
 // A render of voxels and spheres with every plane that a film has.
-Words mixed(const Words& more) {
-    Words words = {"render", scene_file("mixed"), "--size", "48x27", "--spp", "7", "-q"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+Words mixed_of_7(const Words& more) {
+    return with({"render", scene_file("mixed"), "--size", "48x27", "--spp", "7", "-q"}, more);
 }
 
 // Shards 1/N to N/N as p1.exr to pN.exr.
 void render_shards(const ScratchFolder& scratch, int count, const Words& more) {
     for (int i = 1; i <= count; ++i) {
-        Words words = mixed({"--shard", std::to_string(i) + "/" + std::to_string(count), "-o",
-                             "p" + std::to_string(i) + ".exr"});
+        Words words = mixed_of_7({"--shard", std::to_string(i) + "/" + std::to_string(count), "-o",
+                                  "p" + std::to_string(i) + ".exr"});
         words.insert(words.end(), more.begin(), more.end());
         const Ending ending = run(words, {.folder = scratch.path()});
         ASSERT_EQ(ending.code, 0) << ending.err;
@@ -42,7 +38,8 @@ Ending merge(const ScratchFolder& scratch, Words parts, const Words& more) {
 TEST(Merge, any_order_gives_the_bytes_of_the_uninterrupted_render) {
     const ScratchFolder scratch;
     EXPECT_EQ(
-        run(mixed({"--reproducible", "-o", "whole.exr", "-o", "whole.png"}), {.folder = scratch.path()}).code,
+        run(mixed_of_7({"--reproducible", "-o", "whole.exr", "-o", "whole.png"}), {.folder = scratch.path()})
+            .code,
         0);
     render_shards(scratch, 3, {"--reproducible"});
     Words order = {"p1.exr", "p2.exr", "p3.exr"};
@@ -58,10 +55,10 @@ TEST(Merge, any_order_gives_the_bytes_of_the_uninterrupted_render) {
 TEST(Merge, crops_and_parts_with_times_merge_to_the_same_bytes) {
     const ScratchFolder scratch;
     const Words crop = {"--crop", "5,6,31,22"};
-    EXPECT_EQ(
-        run(mixed({"--crop", "5,6,31,22", "--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()})
-            .code,
-        0);
+    EXPECT_EQ(run(mixed_of_7({"--crop", "5,6,31,22", "--reproducible", "-o", "whole.exr"}),
+                  {.folder = scratch.path()})
+                  .code,
+              0);
     render_shards(scratch, 2, crop);
     EXPECT_EQ(merge(scratch, {"p2.exr", "p1.exr"}, {"--reproducible", "-q", "-o", "m.exr"}).code, 0);
     EXPECT_TRUE(bytes_of(scratch / "m.exr") == bytes_of(scratch / "whole.exr"));
@@ -74,7 +71,7 @@ TEST(Merge, crops_and_parts_with_times_merge_to_the_same_bytes) {
 
 TEST(Merge, another_seed_gives_other_bytes) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()}).code, 0);
+    EXPECT_EQ(run(mixed_of_7({"--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()}).code, 0);
     render_shards(scratch, 2, {"--reproducible", "--seed", "1"});
     EXPECT_EQ(merge(scratch, {"p1.exr", "p2.exr"}, {"--reproducible", "-o", "m.exr"}).code, 0);
     EXPECT_FALSE(bytes_of(scratch / "m.exr") == bytes_of(scratch / "whole.exr"));
@@ -82,7 +79,7 @@ TEST(Merge, another_seed_gives_other_bytes) {
 
 TEST(Merge, missing_part_is_named_and_partial_merges_what_is_there) {
     const ScratchFolder scratch;
-    EXPECT_EQ(run(mixed({"--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()}).code, 0);
+    EXPECT_EQ(run(mixed_of_7({"--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()}).code, 0);
     render_shards(scratch, 3, {"--reproducible"});
     const Ending refused = merge(scratch, {"p3.exr", "p1.exr"}, {"-o", "m.exr"});
     EXPECT_EQ(refused.code, 3);
@@ -114,12 +111,12 @@ TEST(Merge, what_does_not_belong_together_ends_with_3) {
     EXPECT_EQ(refusal({"p1.exr", "p1.exr"}),
               "voxilux: p1.exr: its samples of shard 1/2 are in p1.exr already\n");
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(mixed({"--shard", "2/2", "--ao-rays", "2", "-o", "rays.exr"}), here).code, 0);
+    EXPECT_EQ(run(mixed_of_7({"--shard", "2/2", "--ao-rays", "2", "-o", "rays.exr"}), here).code, 0);
     EXPECT_EQ(refusal({"p1.exr", "rays.exr"}),
               "voxilux: rays.exr: not of the same render as p1.exr: its ao_rays is 2 and not 1\n");
-    EXPECT_EQ(run(mixed({"--shard", "2/2", "-D", "sun.elevation=11", "-o", "sun.exr"}), here).code, 0);
+    EXPECT_EQ(run(mixed_of_7({"--shard", "2/2", "-D", "sun.elevation=11", "-o", "sun.exr"}), here).code, 0);
     EXPECT_NE(refusal({"p1.exr", "sun.exr"}).find("its scene_hash is "), std::string::npos);
-    EXPECT_EQ(run(mixed({"-o", "plain.exr"}), here).code, 0);
+    EXPECT_EQ(run(mixed_of_7({"-o", "plain.exr"}), here).code, 0);
     EXPECT_NE(refusal({"p1.exr", "plain.exr"})
                   .find("plain.exr: not a part of a render: it is a picture without sums"),
               std::string::npos);

@@ -6,11 +6,10 @@
 
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
-
-using Words = std::vector<std::string>;
 
 constexpr int kFewSamples = 20;
 constexpr int kManySamples = 220;

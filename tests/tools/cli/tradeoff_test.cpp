@@ -8,12 +8,11 @@
 
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
 
-using Json = nlohmann::json;
-using Words = std::vector<std::string>;
 namespace fs = std::filesystem;
 
 // The time limit is far more than the small job takes, so that a busy machine leaves nothing out. White
@@ -24,7 +23,7 @@ Words small_list(const fs::path& folder, const std::string& samples = "16") {
         folder,     "--time-limit",      "60s",    "--no-page", "-q"};
 }
 
-Json json_of(const fs::path& file) {
+Json json_in(const fs::path& file) {
     std::ifstream stream(file);
     return Json::parse(stream);
 }
@@ -44,7 +43,7 @@ struct Made {
 
     explicit Made(const std::string& samples = "16")
         : ending(run(small_list(folder / "list", samples), surroundings())) {
-        if (ending.code == 0) list = json_of(folder / "list" / "tradeoff.json");
+        if (ending.code == 0) list = json_in(folder / "list" / "tradeoff.json");
     }
     [[nodiscard]] Surroundings surroundings() const {
         return {.environment = {{"XDG_CACHE_HOME", (folder / "cache").string()}}};
@@ -182,26 +181,26 @@ TEST(TradeoffReference, is_cached_and_rebuilt_when_the_file_is_damaged) {
     const Surroundings surroundings = first.surroundings();
     const Ending again = run(small_list(first.folder / "again", "2"), surroundings);
     ASSERT_EQ(again.code, 0) << again.err;
-    EXPECT_TRUE(json_of(first.folder / "again" / "tradeoff.json")["reference"]["cached"]);
+    EXPECT_TRUE(json_in(first.folder / "again" / "tradeoff.json")["reference"]["cached"]);
     fs::resize_file(file, fs::file_size(file) / 2);
     const Ending rebuilt = run(small_list(first.folder / "rebuilt", "2"), surroundings);
     ASSERT_EQ(rebuilt.code, 0) << rebuilt.err;
-    EXPECT_FALSE(json_of(first.folder / "rebuilt" / "tradeoff.json")["reference"]["cached"]);
+    EXPECT_FALSE(json_in(first.folder / "rebuilt" / "tradeoff.json")["reference"]["cached"]);
     EXPECT_EQ(names_in(references), files);
 }
 
-struct Refused {
+struct RefusedWords {
     const char* name;
     Words words;
     int code;
     const char* says;
 };
 
-void PrintTo(const Refused& refused, std::ostream* os) {
+void PrintTo(const RefusedWords& refused, std::ostream* os) {
     *os << refused.name;
 }
 
-class TradeoffRefused : public testing::TestWithParam<Refused> {};
+class TradeoffRefused : public testing::TestWithParam<RefusedWords> {};
 
 TEST_P(TradeoffRefused, ends_with_its_code_and_says_why) {
     const ScratchFolder folder;
@@ -215,16 +214,17 @@ TEST_P(TradeoffRefused, ends_with_its_code_and_says_why) {
 INSTANTIATE_TEST_SUITE_P(
     Tradeoff, TradeoffRefused,
     testing::Values(
-        Refused{"no_input", {"tradeoff", "-o", "out"}, 2, "INPUT is required"},
-        Refused{"no_folder", {"tradeoff", scene_file("night")}, 2, "-o DIR is missing"},
-        Refused{
+        RefusedWords{"no_input", {"tradeoff", "-o", "out"}, 2, "INPUT is required"},
+        RefusedWords{"no_folder", {"tradeoff", scene_file("night")}, 2, "-o DIR is missing"},
+        RefusedWords{
             "two_repeats", {"tradeoff", scene_file("night"), "-o", "out", "--repeats", "2"}, 2, "--repeats"},
-        Refused{"time", {"tradeoff", scene_file("night"), "-o", "out", "--time-limit", "soon"}, 2, "soon"},
-        Refused{
+        RefusedWords{
+            "time", {"tradeoff", scene_file("night"), "-o", "out", "--time-limit", "soon"}, 2, "soon"},
+        RefusedWords{
             "frames", {"tradeoff", scene_file("turntable"), "-o", "out", "--frames", "1-2"}, 2, "--frames"},
-        Refused{"absent_scene", {"tradeoff", "absent.toml", "-o", "out"}, 3, "absent.toml"},
-        Refused{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
-    [](const testing::TestParamInfo<Refused>& one) { return one.param.name; });
+        RefusedWords{"absent_scene", {"tradeoff", "absent.toml", "-o", "out"}, 3, "absent.toml"},
+        RefusedWords{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
+    [](const testing::TestParamInfo<RefusedWords>& one) { return one.param.name; });
 
 TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;

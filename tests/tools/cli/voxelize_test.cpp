@@ -9,11 +9,10 @@
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
 
 namespace voxilux::test {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr const char* kTetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -46,8 +45,8 @@ bool has_numpy() {
     if (!has_numpy()) GTEST_SKIP() << VX_PYTHON " lacks numpy or Pillow"
 
 // Voxelizes a mesh of the shared data and asks the oracle.
-Json judged(const std::string& mesh, int resolution, const std::string& judge_flags = "",
-            std::vector<std::string> flags = {}) {
+Json checked(const std::string& mesh, int resolution, const std::string& checker_flags = "",
+             std::vector<std::string> flags = {}) {
     const ScratchFolder folder;
     const std::string input = (shared_data() / "data/meshes" / mesh).string();
     const std::string output = (folder / "a.vox").string();
@@ -55,9 +54,10 @@ Json judged(const std::string& mesh, int resolution, const std::string& judge_fl
                  {"voxelize", input, "-o", output, "--resolution", std::to_string(resolution)});
     const Ending ending = run(flags);
     EXPECT_EQ(ending.code, 0) << ending.err;
-    const std::string text = output_of(VX_PYTHON " '" VX_SOURCE_DIR "/tests/tools/cli/voxelize_judge.py' '" +
-                                       (shared_data() / "oracle").string() + "' '" + input + "' '" + output +
-                                       "' " + std::to_string(resolution) + " " + judge_flags);
+    const std::string text =
+        output_of(VX_PYTHON " '" VX_SOURCE_DIR "/tests/tools/cli/voxelize_checker.py' '" +
+                  (shared_data() / "oracle").string() + "' '" + input + "' '" + output + "' " +
+                  std::to_string(resolution) + " " + checker_flags);
     return text.empty() ? Json() : Json::parse(text);
 }
 
@@ -75,10 +75,10 @@ class VoxelizeExternal : public testing::TestWithParam<std::string> {};
 TEST_P(VoxelizeExternal, voxels_are_those_of_the_oracle_at_32_and_64) {
     SKIP_WITHOUT_ORACLE();
     for (const int resolution : {32, 64})
-        expect_exact(judged(GetParam(), resolution, "", {"--ignore-mask"}));
+        expect_exact(checked(GetParam(), resolution, "", {"--ignore-mask"}));
 }
 
-// The oracle takes minutes for larger ones, which are judged at night.
+// The oracle takes minutes for larger ones, which are checked at night.
 INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternal,
                          testing::Values("AlphaBlendModeTest.glb", "BoxInterleaved.glb",
                                          "BoxVertexColors.glb", "CubeImageUriSpaces/CubeImageUriSpaces.gltf",
@@ -91,12 +91,12 @@ INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternal,
 
 TEST(VoxelizeOracleExternal, thin_surface_lacks_voxels_of_the_oracle) {
     SKIP_WITHOUT_ORACLE();
-    EXPECT_GT(judged("Duck.glb", 32, "", {"--thin"})["missing"], 100);
+    EXPECT_GT(checked("Duck.glb", 32, "", {"--thin"})["missing"], 100);
 }
 
 TEST(VoxelizeOracleExternal, another_resolution_is_seen) {
     SKIP_WITHOUT_ORACLE();
-    const Json json = judged("Duck.glb", 32, "", {"--up", "-y"});
+    const Json json = checked("Duck.glb", 32, "", {"--up", "-y"});
     EXPECT_GT(json["missing"].get<int>() + json["outside"].get<int>(), 100);
 }
 
@@ -105,7 +105,7 @@ class VoxelizeExternalNightly : public testing::TestWithParam<std::string> {};
 TEST_P(VoxelizeExternalNightly, voxels_are_those_of_the_oracle_at_32_64_and_256) {
     SKIP_WITHOUT_ORACLE();
     for (const int resolution : {32, 64, 256})
-        expect_exact(judged(GetParam(), resolution));
+        expect_exact(checked(GetParam(), resolution));
 }
 
 INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternalNightly,
@@ -114,9 +114,9 @@ INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternalNightly,
 
 TEST(VoxelizeColourExternalNightly, colours_are_near_the_mean_by_area) {
     SKIP_WITHOUT_ORACLE();
-    const Json duck = judged("Duck.glb", 256, "--color");
+    const Json duck = checked("Duck.glb", 256, "--color");
     EXPECT_LE(duck["dE_p95"], 0.2);
-    const Json helmet = judged("FlightHelmet/FlightHelmet.gltf", 256, "--color");
+    const Json helmet = checked("FlightHelmet/FlightHelmet.gltf", 256, "--color");
     EXPECT_LE(helmet["dE_median"], 2.4);
     EXPECT_LE(helmet["dE_p95"], 10.3);
 }

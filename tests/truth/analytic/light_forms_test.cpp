@@ -48,7 +48,7 @@ LightPicture render(const Scene& scene, std::uint32_t iterations, int block = 1)
     return test::render_light(scene, {iterations, blocks, {}}).front();
 }
 
-double farthest(const test::PictureZ& z) {
+double farthest_of(const test::PictureZ& z) {
     return std::max({std::abs(z.of_mean.x), std::abs(z.of_mean.y), std::abs(z.of_mean.z)});
 }
 
@@ -75,7 +75,7 @@ TEST(LightForms, sphere_emitter_lights_a_floor_by_its_solid_angle) {
             return emitter_light(radius, 4.0, floor_point(scene, pixel, 0.0));
         });
         EXPECT_LT(z.rms, 1.15) << radius;
-        EXPECT_LT(farthest(z), kFarOff) << radius;
+        EXPECT_LT(farthest_of(z), kFarOff) << radius;
     }
 }
 
@@ -84,7 +84,7 @@ TEST(LightForms, emitter_a_fiftieth_too_high_is_caught) {
     const auto z = z_of(render(scene, 48), [&](glm::ivec2 pixel) {
         return emitter_light(1.0, 4.0, floor_point(scene, pixel, 0.0));
     });
-    EXPECT_GT(farthest(z), 2.0 * kFarOff);
+    EXPECT_GT(farthest_of(z), 2.0 * kFarOff);
 }
 
 // Radiance of a white floor at z = 0 under a unit cube of radiance 3 with corner (0, 0, 2), by the midpoints
@@ -117,10 +117,10 @@ TEST(LightForms, emitting_voxel_lights_a_floor_by_its_faces) {
     const LightPicture picture = render(scene, 64);
     const auto z = z_of(picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0)); });
     EXPECT_LT(z.rms, 1.15);
-    EXPECT_LT(farthest(z), kFarOff);
+    EXPECT_LT(farthest_of(z), kFarOff);
     const auto moved = z_of(
         picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.3, 0.0)); });
-    EXPECT_GT(farthest(moved), 2.0 * kFarOff) << "the twin";
+    EXPECT_GT(farthest_of(moved), 2.0 * kFarOff) << "the twin";
 }
 
 double fresnel(double cosine, double n) {
@@ -271,7 +271,7 @@ void expect_furnace(const Scene& scene, std::uint32_t iterations, double radianc
     const auto z = z_of(pictures[0], [&](glm::ivec2) { return radiance; });
     const auto whole = z_of(pictures[1], [&](glm::ivec2) { return radiance; });
     EXPECT_LT(z.rms, kMaxOfFew) << what;
-    EXPECT_LT(farthest(whole), kFarOff) << what;
+    EXPECT_LT(farthest_of(whole), kFarOff) << what;
     EXPECT_LT(std::sqrt(pictures[1].pixels[0].variance_of_mean.x), 0.02 * radiance) << what;
 }
 
@@ -314,7 +314,7 @@ TEST(LightForms, furnace_that_loses_a_fiftieth_is_caught) {
     scene.materials[0].albedo = glm::vec3(0.98f);
     const std::array blocks{16};
     const auto picture = test::render_light(scene, {64, blocks, {}}).front();
-    EXPECT_GT(farthest(z_of(picture, [](glm::ivec2) { return 1.0; })), kFarOff);
+    EXPECT_GT(farthest_of(z_of(picture, [](glm::ivec2) { return 1.0; })), kFarOff);
 }
 
 // Where all walls glow with radiance L and have the albedo a, there is L / (1 - a) everywhere.

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kSigmas = 4.0;
+constexpr double kSphereSigmas = 4.0;
 
 double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
@@ -68,7 +68,7 @@ TEST(AnalyticSphere, silhouette_has_the_area_of_the_closed_form) {
             scene.spheres[0].centre = beside_axis(scene, radius / std::sin(b), off);
             const double share = silhouette_share(b, off, scene);
             const double samples = 96.0 * 64.0 * 16.0;
-            const double bound = kSigmas * std::sqrt(share * (1.0 - share) / samples);
+            const double bound = kSphereSigmas * std::sqrt(share * (1.0 - share) / samples);
             EXPECT_NEAR(mean_albedo(scene), share, bound) << radius << " " << off;
         }
     }
@@ -79,7 +79,7 @@ TEST(AnalyticSphere, silhouette_rejects_a_radius_off_by_a_tenth) {
     scene.spheres[0].centre = beside_axis(scene, 3.0 / std::sin(0.2), 0.0);
     const double share = silhouette_share(0.2, 0.0, scene);
     EXPECT_GT(std::abs(mean_albedo(scene) - share),
-              2.0 * kSigmas * std::sqrt(share * (1.0 - share) / (96.0 * 64.0 * 16.0)));
+              2.0 * kSphereSigmas * std::sqrt(share * (1.0 - share) / (96.0 * 64.0 * 16.0)));
 }
 
 // A floor that is the top of a sphere at z = 0, seen from 6 voxels above it.

@@ -14,7 +14,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kRatePi = std::numbers::pi;
 constexpr double kAlpha = 2.0 / 3.0;
 // The published exponents are limits; over these iterations the law itself, summed up, has slopes 0.05 to
 // 0.07 beside them. What is left is the scatter of eight seeds.
@@ -52,9 +52,9 @@ Scene mirror_scene(std::uint32_t seed, double alpha) {
 double radiance_at(double x, double y) {
     const double across = x + kEmitterDistance;
     const double squared = across * across + y * y + kEmitterHeight * kEmitterHeight;
-    const double irradiance = kPi * kEmitterRadiance * kEmitterRadius * kEmitterRadius * kEmitterHeight /
+    const double irradiance = kRatePi * kEmitterRadiance * kEmitterRadius * kEmitterRadius * kEmitterHeight /
                               (squared * std::sqrt(squared));
-    return kAlbedo * irradiance / kPi;
+    return kAlbedo * irradiance / kRatePi;
 }
 
 // Mean over a disc round the middle: rings of equal area and equal angles, each taken in its middle. Fine
@@ -65,7 +65,7 @@ double radiance_of_disc(double radius) {
     for (int ring = 0; ring < kRings; ++ring) {
         const double r = radius * std::sqrt((ring + 0.5) / kRings);
         for (int k = 0; k < kAngles; ++k) {
-            const double angle = 2.0 * kPi * (k + 0.5) / kAngles;
+            const double angle = 2.0 * kRatePi * (k + 0.5) / kAngles;
             sum += radiance_at(kSeenAt + r * std::cos(angle), r * std::sin(angle));
         }
     }

@@ -1,4 +1,4 @@
-"""voxelize_judge.py ORACLES MESH VOX RES [--color]: a .vox file against the oracles of the shared data, as one line of
+"""voxelize_checker.py ORACLES MESH VOX RES [--color]: a .vox file against the oracles of the shared data, as one line of
 JSON: voxels that every right voxelizer has and that are missing, voxels outside what it may have, samples of the
 surface outside all voxels, and with --color the difference to the mean colour by area (dE76)."""
 import json
@@ -25,7 +25,7 @@ def obj_triangles(path):
     return np.array(vertices)[np.array(faces)]
 
 
-def judge(mesh, vox, resolution, wants_colour):
+def check(mesh, vox, resolution, wants_colour):
     if mesh.endswith(".obj"):
         triangles = obj_triangles(mesh)
     else:
@@ -47,4 +47,4 @@ def judge(mesh, vox, resolution, wants_colour):
 
 
 arguments = [a for a in sys.argv[2:] if a != "--color"]
-print(json.dumps(judge(arguments[0], arguments[1], int(arguments[2]), "--color" in sys.argv)))
+print(json.dumps(check(arguments[0], arguments[1], int(arguments[2]), "--color" in sys.argv)))
