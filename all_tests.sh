@@ -46,10 +46,8 @@ if [ "$*" = --nightly ]; then
     check "newer Mesa" test_newer_mesa
 else
     check "format (clang-format-14 -i mends it)" check_format
-    build asan unit_tests
-    check "unit tests under sanitizers" run_tests build/asan --label-regex unit --label-exclude nightly
-    build fuzz vox_fuzz mesh_fuzz
-    check "fuzzing" run_tests build/fuzz --label-regex fuzz
+    build sanitize unit_tests vox_fuzz mesh_fuzz
+    check "unit tests and fuzzing under sanitizers" run_tests build/sanitize --label-regex 'unit|fuzz' --label-exclude nightly
     build release
     check "all tests" run_tests build/release --label-exclude nightly
 fi

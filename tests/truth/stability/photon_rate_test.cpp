@@ -143,7 +143,7 @@ double log_slope(const std::vector<RateRow>& rows, double RateRow::*value) {
     return (count * xy - x * y) / (count * xx - x * x);
 }
 
-TEST(Row35, error_of_photons_falls_at_the_published_rates_for_two_decades) {
+TEST(Row35Nightly, error_of_photons_falls_at_the_published_rates_for_two_decades) {
     const std::vector<double> expected = expected_bias(kAlpha);
     const std::vector<RateRow> rows = measure_rates(kAlpha);
     for (const RateRow& row : rows) {
@@ -157,7 +157,7 @@ TEST(Row35, error_of_photons_falls_at_the_published_rates_for_two_decades) {
 }
 
 // The twin: with a radius that stays the bias stays, too, and the variance falls faster.
-TEST(Row35, error_at_a_radius_that_stays_falls_at_other_rates) {
+TEST(Row35Nightly, error_at_a_radius_that_stays_falls_at_other_rates) {
     const std::vector<RateRow> rows = measure_rates(1.0);
     EXPECT_NEAR(log_slope(rows, &RateRow::bias), 0.0, kSlopeTolerance);
     EXPECT_NEAR(log_slope(rows, &RateRow::variance), -1.0, kSlopeTolerance);
