@@ -145,8 +145,9 @@ class RunRecorder {
     }
 
     void record(std::size_t index, const Command& command) {
-        const auto mine = std::ranges::equal_range(hazards_, index, {}, &Hazard::command);
-        record_barrier(commands(), std::span(mine.begin(), mine.end()));
+        const auto first = std::ranges::lower_bound(hazards_, index, {}, &Hazard::command);
+        const auto last = std::ranges::upper_bound(hazards_, index, {}, &Hazard::command);
+        record_barrier(commands(), std::span(first, last));
         is_direct_now_ = is_direct_[index];
         std::visit([this](const auto& one) { record_one(one); }, command);
     }

@@ -259,7 +259,7 @@ WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const Vo
         return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
     };
     std::ranges::sort(bricks, order);
-    bricks.erase(std::ranges::unique(bricks).begin(), bricks.end());
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
     Edit edit(world, built);
     for (const glm::ivec3 brick : bricks)
         edit.touch(brick);

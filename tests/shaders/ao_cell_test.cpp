@@ -84,7 +84,7 @@ std::size_t repeats(const std::vector<AoCell>& cells, const Key& key) {
     std::vector<std::uint64_t> keys;
     std::ranges::transform(cells, std::back_inserter(keys), key);
     std::ranges::sort(keys);
-    const auto end = std::ranges::unique(keys).begin();
+    const auto end = std::unique(keys.begin(), keys.end());
     return cells.size() - static_cast<std::size_t>(end - keys.begin());
 }
 

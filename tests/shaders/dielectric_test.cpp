@@ -122,7 +122,7 @@ TEST(Dielectric, refracted_directions_obey_snell_and_are_unit) {
     }
 }
 
-// sin t = (eta sin i)^2, with eta = n_near / n_far: the twin.
+// sin t = (eta sin i)^2, with eta = n_near / n_far: negative control.
 vec3 squared_sine_direction(const DielectricCase& c) {
     const dvec3 n(c.normal);
     const dvec3 along = dvec3(c.direction) - glm::dot(dvec3(c.direction), n) * n;

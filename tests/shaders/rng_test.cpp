@@ -91,7 +91,7 @@ TEST(Rng, streams_are_uniform_in_pairs) {
         EXPECT_LT(stream_chi_square({12345u, increment}), limit) << increment;
     for (const std::uint32_t length : {1u, 5u, 130u})
         EXPECT_LT(short_streams_chi_square(length), limit) << length;
-    // The twin: with an even increment an even state loses its low bits.
+    // Negative control: with an even increment an even state loses its low bits.
     EXPECT_GT(stream_chi_square({0u, 0x80000000u}), limit);
 }
 

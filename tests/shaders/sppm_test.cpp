@@ -47,7 +47,8 @@ TEST(PhotonRadius, slope_is_the_published_one_and_never_rises) {
     EXPECT_NEAR(gpu::photon_radius(2.0, 1.0, 0xFFFFFFFFu), 2.0, 1e-6);
 }
 
-// (i + alpha) / (i + 1) begun one iteration late, the twin, is outside the tolerance of the first test.
+// (i + alpha) / (i + 1) begun one iteration late, negative control, is outside the tolerance of the first
+// test.
 TEST(PhotonRadius, index_off_by_one_is_caught) {
     const double late = gpu::photon_radius(2.0, 2.0 / 3.0, 1001) / gpu::photon_radius(2.0, 2.0 / 3.0, 1000);
     EXPECT_GT(std::abs(late - 1.0), 1e-4);
@@ -79,7 +80,7 @@ TEST(Roulette, is_unbiased_down_to_the_smallest_throughput) {
         EXPECT_EQ(survivors * 0x1p-24, double(survival)) << largest;
         EXPECT_GE(double(survival), std::min(1.0, double(largest)));
     }
-    // The twin: the throughput as it is.
+    // Negative control: the throughput as it is.
     EXPECT_NE(std::ceil(double(3e-8f) * 0x1p24) * 0x1p-24, double(3e-8f));
 }
 
@@ -175,7 +176,7 @@ TEST(SphereCone, inside_and_hostile_numbers_give_no_cone) {
 }
 
 // Irradiance of a surface that faces a ball is pi L (r / d)^2, whatever the distance; `pdf_scale` 1.02 is the
-// twin.
+// negative control.
 double irradiance_error(double pdf_scale) {
     constexpr std::uint32_t kDraws = 100000;
     double worst = 0.0;

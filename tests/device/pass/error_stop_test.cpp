@@ -74,7 +74,7 @@ TEST(ErrorStop, picture_is_that_of_its_number_of_samples) {
     const RenderOutcome whole = render_validated(scene);
     for (const char* channel : {"R", "G", "B", "sampleCount.Y"})
         EXPECT_EQ(stopped.image.channels.at(channel).pixels, whole.image.channels.at(channel).pixels);
-    scene.settings.spp += 1;  // the twin
+    scene.settings.spp += 1;  // negative control
     EXPECT_NE(stopped.image.channels.at("R").pixels, render_validated(scene).image.channels.at("R").pixels);
 }
 
@@ -135,7 +135,8 @@ TEST(ErrorPilotOnDevice, has_random_numbers_of_its_own) {
     scene.settings.spp = 4;
     const FilmSums render = render_validated(scene, options).film.value();
     EXPECT_NE(stage.film(4).sums.at("beauty_a"), render.sums.at("beauty_a"));
-    scene.settings.seed = pilot_seed(scene.settings.seed);  // the twin: a render that takes the pilot's
+    scene.settings.seed =
+        pilot_seed(scene.settings.seed);  // negative control: a render that takes the pilot's
     EXPECT_EQ(stage.film(4).sums.at("beauty_a"),
               render_validated(scene, options).film.value().sums.at("beauty_a"));
 }

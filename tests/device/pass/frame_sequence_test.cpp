@@ -99,7 +99,7 @@ TEST_P(FrameSequence, frame_is_the_picture_of_its_scene_alone) {
         EXPECT_EQ(different_channels(outcome.image, alone.image), std::vector<std::string>{}) << frame;
         for (const auto& [name, count] : outcome.statistics.faults)
             EXPECT_EQ(count, 0u) << name;
-        if (before) {  // the twin: each differs from the one before it
+        if (before) {  // negative control: each differs from the one before it
             EXPECT_NE(different_channels(outcome.image, *before), std::vector<std::string>{}) << frame;
         }
         before = outcome.image;

@@ -201,7 +201,7 @@ TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
     EXPECT_EQ(outcome.head.count, outcome.counters[gpu::kWorkPhotonsStored]);
     EXPECT_LE(outcome.head.count, near);
     EXPECT_GT(outcome.head.count, near / 2);
-    // The twin: a photon that a point takes and that is left out is missed.
+    // Negative control: a photon that a point takes and that is left out is missed.
     const auto taken = std::ranges::find_if(job.photons, [&](const gpu::PhotonIn& photon) {
         return std::ranges::any_of(job.points, [&](const gpu::Hit& point) {
             return glm::distance(photon.position, gpu::photon_position(point)) < 0.6 * job.setup.radius;

@@ -64,7 +64,7 @@ TEST(BiasEstimate, noise_alone_is_no_bias) {
     }
 }
 
-// The twin: halves that share their noise take it for bias.
+// Negative control: halves that share their noise take it for bias.
 TEST(BiasEstimate, halves_that_are_one_are_caught) {
     Film film = film_with(0.0, 0.2, 1);
     film.bias_b = film.bias_a;

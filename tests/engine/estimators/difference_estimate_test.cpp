@@ -90,7 +90,7 @@ TEST(DifferenceEstimate, interval_holds_a_bias_below_the_noise_in_nineteen_of_tw
     EXPECT_EQ(beyond, 100);
 }
 
-// The twin: a wrong truth is outside.
+// Negative control: a wrong truth is outside.
 TEST(DifferenceEstimate, interval_rejects_another_bias) {
     int held = 0;
     for (std::uint32_t seed = 0; seed < 50; ++seed) {
@@ -145,7 +145,7 @@ TEST(DifferenceEstimate, large_difference_among_fireflies_is_beyond_noise) {
     EXPECT_TRUE(pictures.estimate().is_beyond_noise());
 }
 
-// The twin: the same fireflies on both sides of no difference.
+// Negative control: the same fireflies on both sides of no difference.
 TEST(DifferenceEstimate, fireflies_alone_are_hardly_ever_beyond_noise) {
     int beyond = 0;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {

@@ -211,7 +211,7 @@ TEST(SquaresError, estimate_scatters_less_than_that_of_the_halves) {
     EXPECT_LT(squares.width(), halves.width());
 }
 
-// Must-fail twin: samples of which each is taken four times have half the error by their squares.
+// Negative control: samples of which each is taken four times have half the error by their squares.
 TEST(SquaresError, interval_of_dependent_samples_misses) {
     Random random(8);
     const NoisyFilm noise;

@@ -95,7 +95,7 @@ TEST(Flip, hdr_firefly_matches_the_authors_program) {
 }
 
 TEST(Flip,
-     one_changed_code_in_the_input_leaves_the_frozen_value) {  // must-fail twin of the comparisons above
+     one_changed_code_in_the_input_leaves_the_frozen_value) {  // negative control of the comparisons above
     Image test = test::noise_image(40, 30, 1000000);
     for (std::size_t i = 0; i < 40; ++i)
         test.channels["G"].pixels[i] = 0.0f;

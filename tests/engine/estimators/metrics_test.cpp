@@ -72,7 +72,7 @@ TEST(Metrics, equal_images_have_no_error_and_infinite_psnr) {
     EXPECT_FALSE(m.psnr.has_value());
 }
 
-TEST(Metrics, one_perturbed_value_shows_in_every_metric) {  // must-fail twin of the case above
+TEST(Metrics, one_perturbed_value_shows_in_every_metric) {  // negative control of the case above
     const Image image = test::noise_image(20, 20, 3);
     Image other = image;
     other.channels["G"].pixels[210] += 1e-3f;
@@ -154,5 +154,5 @@ TEST(CompensatedSum, tiny_terms_survive_beside_a_huge_one) {
     }
     sum.add(-1e16);
     EXPECT_EQ(sum.value(), 1000.0);
-    EXPECT_NE(plain - 1e16, 1000.0);  // the twin: a plain sum loses them
+    EXPECT_NE(plain - 1e16, 1000.0);  // negative control: a plain sum loses them
 }

@@ -117,7 +117,8 @@ TEST(Film, mean_of_a_million_samples_is_exact_to_the_last_bit) {
     std::memcpy(&sum, &words, sizeof sum);  // as the read-back does
     EXPECT_EQ(std::ldexp(static_cast<long double>(sum), -kFilmFractionBits), exact);
     EXPECT_EQ(film_mean(sum, kSamples), static_cast<float>(exact / kSamples));
-    EXPECT_NE(plain / kSamples, static_cast<float>(exact / kSamples));  // the twin: a float sum is not
+    EXPECT_NE(plain / kSamples,
+              static_cast<float>(exact / kSamples));  // negative control: a float sum is not
 }
 
 TEST(Film, mean_of_a_constant_stays_constant_past_every_counter_width) {
@@ -214,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(Noise, FilmErrorCoverage,
                                          Noise{.kind = NoiseKind::decay, .na = 8, .nb = 8},
                                          Noise{.width = 16, .height = 12}));
 
-// Must-fail twin: halves that share most of their samples look four times as good as they are.
+// Negative control: halves that share most of their samples look four times as good as they are.
 TEST(FilmError, interval_of_dependent_halves_misses) {
     Random random(8);
     const Noise noise;

@@ -88,7 +88,7 @@ TEST(Exr, every_channel_round_trips_bit_exact) {
     }
 }
 
-TEST(Exr, round_trip_of_a_perturbed_value_differs) {  // must-fail twin
+TEST(Exr, round_trip_of_a_perturbed_value_differs) {  // negative control
     const ScratchFolder folder;
     Image image = sample_image(8, 8);
     write_exr(folder / "a.exr", image);
@@ -148,7 +148,7 @@ TEST(Exr, reproducible_files_are_byte_identical_and_carry_no_date) {
     EXPECT_EQ(bytes_of(folder, image, {.reproducible = true}),
               bytes_of(folder, image, {.reproducible = true}));
     EXPECT_FALSE(read_exr(folder / "bytes.exr").attributes.contains("capDate"));
-    image.channels["Z"].pixels[5] += 1.0f;  // must-fail twin
+    image.channels["Z"].pixels[5] += 1.0f;  // negative control
     EXPECT_NE(bytes_of(folder, sample_image(33, 12), {.reproducible = true}),
               bytes_of(folder, image, {.reproducible = true}));
 }

@@ -66,7 +66,7 @@ TEST(Png, same_image_twice_gives_the_same_bytes) {
     const std::vector<char> heap_in_another_state(12345);
     write_png(folder / "b.png", image);
     EXPECT_EQ(read_file(folder / "a.png"), read_file(folder / "b.png"));
-    write_png(folder / "c.png", test::noise_image(257, 131, 10));  // must-fail twin
+    write_png(folder / "c.png", test::noise_image(257, 131, 10));  // negative control
     EXPECT_NE(read_file(folder / "a.png"), read_file(folder / "c.png"));
 }
 

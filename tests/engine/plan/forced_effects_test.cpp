@@ -75,7 +75,7 @@ void PrintTo(const Needed& needed, std::ostream* os) {
 
 class NeededEffect : public testing::TestWithParam<Needed> {};
 
-// The twin: an effect that runs is an effect that shows.
+// Negative control: an effect that runs is an effect that shows.
 TEST_P(NeededEffect, switched_off_changes_the_picture) {
     const auto [name, effect] = GetParam();
     const Scene scene = small_scene(name);

@@ -49,7 +49,7 @@ TEST(LeanRender, sun_below_the_horizon_leaves_no_command_buffer_or_pipeline) {
     }
 }
 
-// The twin: the same scene with the sun up costs one more shader, pipeline, buffer and film plane.
+// Negative control: the same scene with the sun up costs one more shader, pipeline, buffer and film plane.
 TEST(LeanRender, sun_above_the_horizon_adds_its_own_and_no_more) {
     const LeanRun night = run_lean("night");
     const LeanRun day = run_lean(
@@ -77,7 +77,7 @@ TEST(LeanRender, colour_only_output_has_no_aov) {
     EXPECT_FALSE(any_starts_with(run.buffers, "aov"));
     EXPECT_FALSE(any_starts_with(run.buffers, "film.albedo"));
     EXPECT_FALSE(any_starts_with(run.buffers, "film.depth"));
-    EXPECT_TRUE(any_starts_with(run_lean("night").buffers, "film.albedo")) << "the twin";
+    EXPECT_TRUE(any_starts_with(run_lean("night").buffers, "film.albedo")) << "negative control";
 }
 
 TEST(LeanRender, black_sky_has_no_ao) {

@@ -118,8 +118,8 @@ std::vector<std::string> found_traces(const test::RecordedRender& render,
     return found;
 }
 
-// Labels, buffers and shaders exist if and only if the effect is on: the second half is the twin of the
-// first.
+// Labels, buffers and shaders exist if and only if the effect is on: the second half is negative control of
+// the first.
 void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request) {
     const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
     const test::RecordedRender render = test::record_render(scene, prepared);

@@ -36,7 +36,7 @@ TEST(SceneComment, plan_is_what_the_file_promises) {
     }
 }
 
-// The twin: with the sun switched off the promise of a sunny scene must fail.
+// Negative control: with the sun switched off the promise of a sunny scene must fail.
 TEST(SceneComment, changed_scene_breaks_the_promise) {
     const auto path = std::filesystem::path(VX_SOURCE_DIR) / "scenes/one_voxel.toml";
     EXPECT_NE(effects_of(load_scene(path, {.overrides = {"sun.on=false"}})), promised_effects(path));

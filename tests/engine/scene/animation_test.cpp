@@ -73,7 +73,8 @@ TEST_F(AnimatedScene, vox_file_shows_each_frame_its_own_cells) {
     EXPECT_EQ(cells_of(scene), kWalk.at(0)) << "as it was loaded";
     for (const auto& [frame, cells] : kWalk)
         EXPECT_EQ(cells_of(scene_at_frame(scene, frame)), cells) << frame;
-    EXPECT_NE(cells_of(scene_at_frame(scene, 3)), kWalk.at(2)) << "the twin: a frame later is another";
+    EXPECT_NE(cells_of(scene_at_frame(scene, 3)), kWalk.at(2))
+        << "negative control: a frame later is another";
 }
 
 TEST_F(AnimatedScene, player_tells_when_voxels_change) {

@@ -46,7 +46,8 @@ TEST(CameraPath, smooth_path_gives_every_parabola_back) {
     for (const auto& frames : {std::vector<std::int64_t>{0, 7, 10, 31, 40}, {5, 6, 60}, {0, 20, 40, 60}}) {
         const auto keys = keys_on(frames, parabola);
         EXPECT_LT(distance_to(keys, CameraPath::smooth, parabola), kRounding);
-        EXPECT_GT(distance_to(keys, CameraPath::linear, parabola), 1.0) << "the twin: chords leave it";
+        EXPECT_GT(distance_to(keys, CameraPath::linear, parabola), 1.0)
+            << "negative control: chords leave it";
     }
     const Curve cubic = [](double t) { return 0.01 * t * t * t; };
     EXPECT_GT(distance_to(keys_on({0, 7, 10, 31, 40}, cubic), CameraPath::smooth, cubic), 0.1);
@@ -111,7 +112,7 @@ TEST(CameraPath, point_looked_at_stays_in_the_middle) {
     };
     for (std::int64_t frame = 0; frame <= 20; ++frame)
         EXPECT_LT(miss(frame), kRounding) << frame;
-    keys[1].look_at.reset();  // the twin: now angles are interpolated, and the target drifts
+    keys[1].look_at.reset();  // negative control: now angles are interpolated, and the target drifts
     EXPECT_GT(miss(5), 0.01);
 }
 
@@ -144,7 +145,8 @@ TEST(TurntableCamera, radius_height_and_view_stay_the_same) {
         return high - low;
     };
     EXPECT_LT(spread(axis), kRounding);
-    EXPECT_GT(spread(axis + glm::dvec2(0.01, 0.0)), 0.01) << "the twin: no circle about another centre";
+    EXPECT_GT(spread(axis + glm::dvec2(0.01, 0.0)), 0.01)
+        << "negative control: no circle about another centre";
     const glm::dvec2 arm = glm::dvec2(kRest.position) - axis;
     for (std::int64_t frame = 1; frame <= 36; ++frame) {
         const Camera camera = camera_on_turntable(table, kRest, axis, frame);
@@ -215,7 +217,7 @@ TEST(TurntableCamera, scene_fits_in_every_frame) {
         EXPECT_LE(farthest, 1.0 - kFrameMargin + kRounding);
         EXPECT_GE(farthest, 0.97 * (1.0 - kFrameMargin)) << "no farther away than needed";
     }
-    scene.camera = framing_camera(box, View::right, 16.0 / 9.0);  // the twin: that of the box at rest
+    scene.camera = framing_camera(box, View::right, 16.0 / 9.0);  // negative control: that of the box at rest
     EXPECT_GT(farthest_corner(scene, box), 1.5);
 }
 

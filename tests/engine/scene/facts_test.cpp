@@ -45,7 +45,7 @@ TEST(Facts, materials_of_hidden_models_do_not_count) {
     SceneFacts facts = measure_scene(scene);
     EXPECT_FALSE(facts.has_emitters || facts.has_glass || facts.has_metal);
     EXPECT_EQ(facts.material_count, 1u);
-    scene.instances.push_back({.model = 1});  // the twin: shown, they all do
+    scene.instances.push_back({.model = 1});  // negative control: shown, they all do
     facts = measure_scene(scene);
     EXPECT_TRUE(facts.has_emitters && facts.has_glass && facts.has_metal);
     EXPECT_EQ(facts.material_count, 4u);
@@ -56,7 +56,7 @@ TEST(Facts, sphere_material_counts) {
     scene.spheres[0].material = 2;
     EXPECT_TRUE(measure_scene(scene).has_glass);
     scene.materials[2].transmission = 0.0f;
-    EXPECT_FALSE(measure_scene(scene).has_glass) << "the twin: nothing comes through";
+    EXPECT_FALSE(measure_scene(scene).has_glass) << "negative control: nothing comes through";
 }
 
 TEST(Facts, emitter_without_power_is_none) {

@@ -87,7 +87,7 @@ TEST(SceneCamera, named_boxes_are_framed_tightly) {
             expect_tight(default_camera(box, aspect), box, aspect);
 }
 
-// The twin: a camera a hundredth nearer, or a box one voxel larger, must not pass.
+// Negative control: a camera a hundredth nearer, or a box one voxel larger, must not pass.
 TEST(SceneCamera, tightness_check_sees_a_small_change) {
     const Box box{{0, 0, 0}, {20, 10, 8}};
     Camera camera = default_camera(box, 1.5);

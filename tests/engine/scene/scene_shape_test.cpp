@@ -74,7 +74,7 @@ TEST(SceneShape, boxes_equal_brute_force) {
         EXPECT_EQ(solid, filtered(from - 2, to + 2, 5, holds));
         EXPECT_EQ(drawn({BoxShape{from, to, true, std::uint16_t{5}}}),
                   filtered(from - 2, to + 2, 5, shell_of(holds)));
-        // The twin: one cell more must be seen.
+        // Negative control: one cell more must be seen.
         EXPECT_NE(solid, filtered(from - 2, to + 2, 5, [&](glm::ivec3 c) { return holds(c) || c == to; }));
     }
 }

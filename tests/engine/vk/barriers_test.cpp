@@ -221,7 +221,7 @@ TEST(Barriers, write_after_write_by_address_waits) {
                            hazard(2, "a", read_after_write, Stage::compute, Stage::compute)}));
 }
 
-// Twin of the three above: pointers that are only read order nothing.
+// Negative control of the three above: pointers that are only read order nothing.
 TEST(Barriers, reads_by_address_need_none_among_themselves) {
     Recording recording = with_buffers({"a", "b", "c", "d"});
     recording.dispatch(gather("a", "b"));
@@ -341,7 +341,7 @@ TEST(Barriers, random_recordings_have_no_race) {
     }
 }
 
-// Must-fail twin: without one of its barriers a recording races, so the oracle sees and no barrier is idle.
+// Negative control: without one of its barriers a recording races, so the oracle sees and no barrier is idle.
 TEST(Barriers, random_recordings_race_without_any_one_barrier) {
     std::mt19937 random(8);
     int removed = 0;

@@ -159,7 +159,7 @@ TEST(Beam, saves_steps_where_boxes_cross_borders) {
     }
 }
 
-// The twin of all that find no difference.
+// Negative control of all that find no difference.
 TEST(Beam, late_starts_are_caught) {
     const MarchWorld world = build_march_world(sparse_world(), Traversal::wide);
     Comparison sum;
@@ -193,7 +193,7 @@ TEST(Beam, never_ends_in_an_empty_world_or_beside_one) {
     EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(beside, 8, 8), world.chunks_size), gpu::kUnbounded);
     const gpu::FrameParams towards = camera_at({-500.5, 24.5, 24.5}, {1, 0, 0}, 0.3f);
     EXPECT_LT(gpu::beam_start(world, gpu::tile_beam(towards, 16, 8), world.chunks_size), 525.0f)
-        << "the twin";
+        << "negative control";
 }
 
 TEST(Beam, starts_at_the_camera_inside_a_solid_or_when_it_is_too_wide) {

@@ -115,7 +115,7 @@ TEST_P(EmptyBoxes, are_empty_after_random_edits) {
     }
 }
 
-// The twin: wherever a distance that is one longer would reach a voxel, writing it is noticed.
+// Negative control: wherever a distance that is one longer would reach a voxel, writing it is noticed.
 TEST_P(EmptyBoxes, one_distance_raised_by_one_into_a_voxel_is_caught) {
     std::mt19937 dice(kBoxesSeed + 2);
     int raised = 0;

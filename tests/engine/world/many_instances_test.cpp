@@ -113,7 +113,7 @@ TEST(ManyInstances, every_voxel_lies_where_direct_flattening_puts_it) {
     EXPECT_EQ(wrong, 0u);
 }
 
-// The twin: one instance moved by a voxel.
+// Negative control: one instance moved by a voxel.
 TEST(ManyInstances, comparison_notices_one_instance_moved_by_one_voxel) {
     Scene scene = scene_of(file_of(100));
     const VoxelWorld world = build_world(scene);

@@ -59,7 +59,7 @@ TEST(SteadyMemory, of_emitters_and_photons) {
         EXPECT_LT(growth_mib({scene_file(scene), "--photons", "256"}), kSteady) << scene;
 }
 
-// The twin: a picture that is larger by as much as the samples above were more does not pass.
+// Negative control: a picture that is larger by as much as the samples above were more does not pass.
 TEST(SteadyMemory, sees_what_a_larger_picture_takes) {
     const Words scene{scene_file("first_light")};
     Words larger = scene;

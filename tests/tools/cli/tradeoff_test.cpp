@@ -86,7 +86,7 @@ void expect_structures_to_change_no_pixel(const Made& made) {
     }
 }
 
-// The twin: another sequence does change pixels.
+// Negative control: another sequence does change pixels.
 void expect_sequences_to_change_pixels(const Made& made) {
     const std::map<std::string, Json> runs = runs_of(made.list, "sequence");
     ASSERT_EQ(runs.size(), 3u);

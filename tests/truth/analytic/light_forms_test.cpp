@@ -120,7 +120,7 @@ TEST(LightForms, emitting_voxel_lights_a_floor_by_its_faces) {
     EXPECT_LT(farthest_of(z), kFarOff);
     const auto moved = z_of(
         picture, [&](glm::ivec2 p) { return cube_light(floor_point(scene, p, 0.0) + glm::dvec2(0.3, 0.0)); });
-    EXPECT_GT(farthest_of(moved), 2.0 * kFarOff) << "the twin";
+    EXPECT_GT(farthest_of(moved), 2.0 * kFarOff) << "negative control";
 }
 
 double fresnel(double cosine, double n) {
@@ -247,7 +247,7 @@ TEST(LightForms, ball_of_glass_gathers_the_sun_at_its_focus) {
     }
     EXPECT_GT(std::abs(caustic_of(1.55f, 14.0, 1.0).mean.x / ball.mean_within(1.0, 14.0) - 1.0),
               2.0 * kTolerance)
-        << "the twin";
+        << "negative control";
 }
 
 // A closed white room one wall of which is black and of radiance 1 is full of radiance 1: a furnace.

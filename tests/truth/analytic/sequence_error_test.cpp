@@ -142,7 +142,7 @@ TEST_P(ClaimOfSequence, is_the_error) {
     EXPECT_NEAR(claims_.statistics.error.estimate / true_error(), 1.0, 0.15);
 }
 
-// The twin: the claim of half the samples is not.
+// Negative control: the claim of half the samples is not.
 TEST_P(ClaimOfSequence, of_fewer_samples_is_not) {
     scene_.settings.spp = kSamples / 2;
     EXPECT_GT(test::render_validated(scene_).statistics.error.estimate / true_error(), 1.3);

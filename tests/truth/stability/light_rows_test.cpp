@@ -198,7 +198,7 @@ TEST(Row28, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
     test::expect_equal_light(render(with_ball, 64), render(block, 64), "same glass");
     with_other.spheres.push_back({glm::dvec3(4.5, 5.0, 2.0), 1.5, test::add_glass(with_other, 1.5f, 0.5f)});
     EXPECT_GT(test::light_z(render(with_other, 64), render(block, 64)).rms,
-              1.5 * test::kMaxRms);  // the twin
+              1.5 * test::kMaxRms);  // negative control
 }
 
 TEST(Row28, camera_inside_glass_agrees_with_paths) {
@@ -333,7 +333,7 @@ TEST(Row34, wide_disc_leaks_along_a_shared_floor_by_its_radius_alone) {
             leaking += is_dark ? 0 : 1;
         }
     }
-    EXPECT_GT(leaking, 100) << "the twin: light does get under the wall";
+    EXPECT_GT(leaking, 100) << "negative control: light does get under the wall";
 }
 
 // Rooms that touch at an edge alone. The camera sees walls and neither floor nor ceiling, whose planes both
@@ -360,7 +360,7 @@ TEST(Row36, roulette_changes_no_mean) {
     test::expect_equal_light(render(scene, 48), all, "roulette");
     scene.settings.photons.roulette = false;
     scene.settings.photons.depth = 2;
-    EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMaxRms) << "the twin: paths cut off";
+    EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMaxRms) << "negative control: paths cut off";
 }
 
 // Between perfect mirrors a path never ends; between good ones roulette ends it.

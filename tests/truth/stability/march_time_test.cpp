@@ -97,7 +97,7 @@ TEST_P(BadDirections, row08_are_counted_misses_and_leave_the_rays_beside_them_al
 INSTANTIATE_TEST_SUITE_P(HardCase, BadDirections, ::testing::ValuesIn(all_traversals()),
                          test::traversal_name);
 
-// The twin: rays that go ten times as far through a world without boxes take more than is allowed.
+// Negative control: rays that go ten times as far through a world without boxes take more than is allowed.
 TEST(BadDirectionsChecker, sees_rays_that_take_longer_than_is_allowed) {
     const VoxelWorld world(glm::ivec3(0), glm::ivec3(64, 1, 1));
     MarchWorld march_world = build_unexpanded_world(world, all_traversals().back());

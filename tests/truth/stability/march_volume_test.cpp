@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Rays, MarchVolume, ::testing::ValuesIn(all_traversals()
 INSTANTIATE_TEST_SUITE_P(Rays, MarchVolumeNightly, ::testing::ValuesIn(all_traversals()),
                          test::traversal_name);
 
-// The twins: a world with one voxel too many, and shells with one voxel missing.
+// Negative controls: a world with one voxel too many, and shells with one voxel missing.
 TEST(MarchVolumeChecker, notices_one_voxel_that_the_structure_has_not) {
     VoxelWorld world = test::world_named("random_0.001");
     const MarchWorld built = build_march_world(world);

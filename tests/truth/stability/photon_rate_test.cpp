@@ -156,7 +156,7 @@ TEST(Row35Nightly, error_of_photons_falls_at_the_published_rates_for_two_decades
     RecordProperty("variance_slope", std::to_string(log_slope(rows, &RateRow::variance)));
 }
 
-// The twin: with a radius that stays the bias stays, too, and the variance falls faster.
+// Negative control: with a radius that stays the bias stays, too, and the variance falls faster.
 TEST(Row35Nightly, error_at_a_radius_that_stays_falls_at_other_rates) {
     const std::vector<RateRow> rows = measure_rates(1.0);
     EXPECT_NEAR(log_slope(rows, &RateRow::bias), 0.0, kSlopeTolerance);
