@@ -15,11 +15,6 @@ inline constexpr double kSmapeEpsilon = 0.01;  // radiance; the same for SMAPE
 inline constexpr double kTrimmedShare = 0.001;  // share of the worst pixels that trimmed relMSE leaves out
 inline constexpr double kPsnrPeak = 1.0;        // radiance of display white
 
-// Pixels x0 <= x < x1, y0 <= y < y1; row 0 is the top one.
-struct PixelBox {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
 // Which pixels are compared: those of the box where the mask is not black.
 struct Selection {
     std::optional<PixelBox> box;

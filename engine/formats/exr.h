@@ -54,9 +54,9 @@ struct WriteReport {
 // channel. The file appears whole or not at all. Throws Error(cannot_write) with the reason.
 WriteReport write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
 
-// The first part of an EXR: all channels as float over the display window, zero outside the data window;
-// string attributes. The sums of a part are left out. Throws Error(input_refused) for whatever cannot be
-// read, deep and subsampled data included.
+// The first part of an EXR: all channels as float over the display window, zero outside the data window,
+// which Image::stored tells; string attributes. The sums of a part are left out. Throws Error(input_refused)
+// for whatever cannot be read, deep and subsampled data included.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
 
 // The first part of an EXR as it was written: the data window alone, UINT channels as whole numbers. Throws

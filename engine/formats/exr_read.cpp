@@ -61,6 +61,21 @@ void check_side(const Window& window, std::string_view which) {
     }
 }
 
+// The part of the display window that the data window covers; none where that is all of it.
+std::optional<PixelBox> stored_pixels(const Imf::Header& header) {
+    const Window data = window_of(header.dataWindow());
+    const Window display = window_of(header.displayWindow());
+    const auto inside = [](std::int64_t at, std::int64_t end) {
+        return static_cast<int>(std::clamp<std::int64_t>(at, 0, end));
+    };
+    const PixelBox box{.x0 = inside(data.x - display.x, display.width),
+                       .y0 = inside(data.y - display.y, display.height),
+                       .x1 = inside(data.x - display.x + data.width, display.width),
+                       .y1 = inside(data.y - display.y + data.height, display.height)};
+    const bool is_all = box.x0 == 0 && box.y0 == 0 && box.x1 == display.width && box.y1 == display.height;
+    return is_all ? std::nullopt : std::optional(box);
+}
+
 void check_header(const Imf::Header& header, std::size_t file_bytes) {
     if (header.hasType() && Imf::isDeepData(header.type()))
         throw std::runtime_error("deep data is not supported, flatten it first");
@@ -166,6 +181,7 @@ Image decode(std::span<const std::byte> bytes, const std::string& name, Area are
         check_header(header, bytes.size());
         const Window window = window_of(area == Area::data ? header.dataWindow() : header.displayWindow());
         Image image{.width = static_cast<int>(window.width), .height = static_cast<int>(window.height)};
+        if (area == Area::frame) image.stored = stored_pixels(header);
         Imf::InputPart part(file, 0);
         read_attributes(part.header(), image);
         read_channels(part, area, image);

@@ -13,6 +13,11 @@
 
 namespace voxilux {
 
+// Pixels x0 <= x < x1, y0 <= y < y1; row 0 is the top one.
+struct PixelBox {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 // Planes of one size, row 0 at the top. Channel names follow OpenEXR: bare R G B A for the beauty, Z for
 // depth, layer.R for the rest. Colours are linear Rec.709.
 struct Image {
@@ -25,6 +30,7 @@ struct Image {
 
     int width = 0;
     int height = 0;
+    std::optional<PixelBox> stored;  // the pixels that the file has, where it lacks some; the others are 0
     std::map<std::string, Channel> channels;
     std::map<std::string, std::vector<std::uint32_t>> words;  // planes of whole numbers, [height][width]
     std::map<std::string, std::string> attributes;            // text attributes of the EXR header

@@ -158,6 +158,10 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
         read_tree(root, file, options, scene);
         return scene;
     }
+    if (extension == ".glb" || extension == ".gltf" || extension == ".obj")
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{0}: a mesh, not voxels; convert it with 'voxilux voxelize {0} -o FILE.vox'",
+                                file.string()));
     if (extension != ".toml")
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: unknown kind of scene; give a .vox or a .toml file", file.string()));

@@ -111,10 +111,26 @@ SortedJson attribute_json(const std::string& text) {
     return parsed.is_object() ? parsed : SortedJson(printable(text));
 }
 
+// What `render` would say of the file: its warnings, and what is shown as something simpler.
+std::vector<std::string> render_warnings(const std::filesystem::path& path) {
+    try {
+        const Scene scene = load_scene(path);
+        std::vector<std::string> warnings = scene.warnings;
+        const std::vector<std::string> simplified = measure_scene(scene).simplified;
+        warnings.insert(warnings.end(), simplified.begin(), simplified.end());
+        return warnings;
+    } catch (const Error& refusal) {
+        return {fmt::format("render refuses this file: {}", refusal.what())};
+    }
+}
+
 FileFacts vox_facts(const std::filesystem::path& path) {
-    const auto info = summarize(load_vox(path));
-    if (!info) throw Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), info.reason()));
-    return {describe(info.value()), to_json(info.value())};
+    auto summary = summarize(load_vox(path));
+    if (!summary)
+        throw Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), summary.reason()));
+    VoxInfo info = std::move(summary).value();
+    info.warnings = render_warnings(path);
+    return {describe(info), to_json(info)};
 }
 
 FileFacts scene_facts(const std::filesystem::path& path) {

@@ -49,7 +49,7 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
     const bool is_inside =
         glm::all(glm::greaterThanEqual(first, glm::ivec2(0))) && glm::all(glm::lessThanEqual(end, size));
     if (!is_inside || !glm::all(glm::lessThan(first, end))) {
-        throw Error(ExitCode::input_refused,
+        throw Error(ExitCode::usage,
                     fmt::format("the crop {},{},{},{} is empty or leaves the picture of {}x{}", first.x,
                                 first.y, end.x, end.y, size.x, size.y));
     }
@@ -108,6 +108,7 @@ void count_rays(RenderPlan& plan) {
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     if (plan.has(Effect::sky) && (facts.has_glass || facts.has_metal))
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
+    plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
 }
 
 }  // namespace

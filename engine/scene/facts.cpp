@@ -1,10 +1,13 @@
 #include "scene/facts.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "scene/lobe_weights.h"
 
 namespace voxilux {
@@ -27,9 +30,56 @@ std::vector<bool> used_by_voxels(const Scene& scene) {
     return used;
 }
 
+// What a kind of material is shown as, where that is not what its file describes.
+std::string_view simplification(const Material& material) {
+    const bool is_rough = material.roughness > 0.0f;
+    switch (material.surface) {
+        case Surface::media:
+            return "a medium is shown as an opaque diffuse surface";
+        case Surface::metal:
+            return is_rough ? "rough metal is shown as a mix of a mirror and a diffuse surface" : "";
+        case Surface::glass:
+            return is_rough ? "rough glass is shown clear" : "";
+        case Surface::blend:
+            return "a blend is shown as a mix of a mirror, clear glass and a diffuse surface";
+        case Surface::diffuse:
+        case Surface::emit:
+            break;
+    }
+    return "";
+}
+
+// One sentence a kind, with the first of its materials.
+class Simplifications {
+  public:
+    void add(const Material& material) {
+        const std::string_view words = simplification(material);
+        if (words.empty()) return;
+        Kind& kind = kinds_[words];
+        if (kind.count++ == 0) kind.first = material.name;
+    }
+
+    [[nodiscard]] std::vector<std::string> sentences() const {
+        std::vector<std::string> result;
+        for (const auto& [words, kind] : kinds_) {
+            const std::string more = kind.count > 1 ? fmt::format(" and {} more", kind.count - 1) : "";
+            result.push_back(fmt::format("{} ({}{})", words, quoted_name(kind.first), more));
+        }
+        return result;
+    }
+
+  private:
+    struct Kind {
+        std::string first;
+        std::size_t count = 0;
+    };
+    std::map<std::string_view, Kind> kinds_;
+};
+
 void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& facts) {
     for (const Sphere& sphere : scene.spheres)
         used.at(sphere.material) = true;
+    Simplifications simplifications;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
         const Material& material = scene.materials[m];
@@ -38,7 +88,9 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
         const LobeWeights shares = lobe_weights(material);
         facts.has_glass |= shares.glass > 0.0f;
         facts.has_metal |= shares.mirror > 0.0f;
+        simplifications.add(material);
     }
+    facts.simplified = simplifications.sentences();
 }
 
 double cell_count(const Box& box) {
@@ -96,6 +148,8 @@ std::string describe(const SceneFacts& facts) {
     line("emitters", yes_no(facts.has_emitters));
     line("glass", yes_no(facts.has_glass));
     line("metal", yes_no(facts.has_metal));
+    for (const std::string& sentence : facts.simplified)
+        line("note", sentence);
     return text;
 }
 

@@ -30,6 +30,9 @@ struct SceneFacts {
     bool has_glass = false;     // a used material that lets light through
     bool has_metal = false;     // a used material with a polished share
 
+    // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.
+    std::vector<std::string> simplified;
+
     bool operator==(const SceneFacts&) const = default;
 };
 

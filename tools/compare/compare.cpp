@@ -85,6 +85,7 @@ void add_compare_flags(Flags& flags, CompareOptions& options) {
     flags.add_parsed("--box", "X0,Y0,X1,Y1", options.box, parse_pixel_box,
                      "compare columns X0 to X1-1 and rows Y0 to Y1-1 only");
     flags.add("--diff", "FILE", options.diff, "write a picture of the difference, .exr or .png");
+    flags.add_switch("--strict", options.strict, "refuse images of different crop windows");
     for (const std::string key : {"rmse", "relmse", "flip", "mae", "abs"}) {
         const auto take = [&options, key](double limit) {
             if (!(limit >= 0.0))
@@ -99,6 +100,13 @@ void add_compare_flags(Flags& flags, CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
     const ImageComparison comparison = compare(options);
+    if (const auto& box = comparison.common) {
+        const std::string words =
+            fmt::format("an image lacks pixels: compared in the window {},{},{},{} of both", box->x0, box->y0,
+                        box->x1, box->y1);
+        if (options.strict) throw Error(ExitCode::input_refused, words + " (--strict)");
+        fmt::print(stderr, "voxilux: note: {}\n", words);
+    }
     if (options.json != "-") print_facts(comparison);
     write_json(options.json, json_of(comparison));
     if (comparison.metrics.non_finite > 0) {

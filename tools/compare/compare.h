@@ -17,6 +17,7 @@ struct CompareOptions {
     std::string mask;  // image whose black pixels are left out
     std::optional<PixelBox> box;
     std::map<std::string, double> max;  // limits by metric: rmse, relmse, flip, mae, abs
+    bool strict = false;                // different crop windows are refused
     std::string diff;                   // picture of the difference, .exr or .png
 };
 

@@ -51,6 +51,22 @@ TEST(Facts, materials_of_hidden_models_do_not_count) {
     EXPECT_EQ(facts.material_count, 4u);
 }
 
+TEST(Facts, materials_that_are_shown_as_something_simpler_are_named_once_a_kind) {
+    Scene scene = small_scene();
+    EXPECT_TRUE(measure_scene(scene).simplified.empty()) << "the coin is hidden";
+    scene.instances.push_back({.model = 1});
+    const std::vector<std::string> rough = {
+        "rough metal is shown as a mix of a mirror and a diffuse surface ('coin')"};
+    EXPECT_EQ(measure_scene(scene).simplified, rough);
+    scene.materials[1].surface = scene.materials[2].surface = Surface::media;
+    EXPECT_EQ(measure_scene(scene).simplified,
+              (std::vector<std::string>{"a medium is shown as an opaque diffuse surface ('lamp' and 1 more)",
+                                        rough.front()}));
+    scene.materials[3].roughness = 0.0f;
+    scene.materials[1].surface = scene.materials[2].surface = Surface::diffuse;
+    EXPECT_TRUE(measure_scene(scene).simplified.empty());
+}
+
 TEST(Facts, sphere_material_counts) {
     Scene scene = small_scene();
     scene.spheres[0].material = 2;

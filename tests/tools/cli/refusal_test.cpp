@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"size_without_value", one_voxel_with({"--size"}), "--size"},
         Refused{"size_not_a_size", one_voxel_with({"--size", "640"}), "--size: '640' is not WIDTHxHEIGHT"},
         Refused{"size_of_nothing", one_voxel_with({"--size", "0x9"}), "--size: '0x9' is not WIDTHxHEIGHT"},
+        Refused{"crop_outside", one_voxel_with({"--crop", "0,0,641,9"}), "leaves the picture of 640x360"},
         Refused{"crop_not_a_window", one_voxel_with({"--crop", "1,2,3"}),
                 "--crop: '1,2,3' is not X0,Y0,X1,Y1"},
         Refused{"spp_not_a_number", one_voxel_with({"--spp", "many"}), "--spp"},
@@ -269,7 +270,6 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"unknown_key", one_voxel_with({"-D", "sun.elevaton=3"}), "did you mean 'elevation'?"},
         Refused{"picture_of_nothing", one_voxel_with({"-D", "render.size=[0, 9]"}), "size"},
         Refused{"too_many_pixels", one_voxel_with({"--size", "65536x65536"}), "over 2^32 pixels"},
-        Refused{"crop_outside", one_voxel_with({"--crop", "0,0,641,9"}), "leaves the picture of 640x360"},
         Refused{"info_broken_vox", {"info", "broken.vox"}, "broken.vox"},
         Refused{"info_broken_exr", {"info", "broken.exr"}, "broken.exr"},
         Refused{"info_broken_png", {"info", "broken.png"}, "broken.png"},
@@ -278,6 +278,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"bench_ao_absent", {"bench", "ao", "no.vox"}, "no.vox"},
         Refused{"compare_broken", {"compare", "broken.exr", "broken.png"}, "broken.exr"}),
     name_of_refused);
+
+TEST(InputRefusedOf, a_mesh_points_to_the_voxelizer) {
+    const Ending ending = run({"render", "duck.glb", "-o", "a.png"});
+    EXPECT_EQ(ending.code, 3);
+    EXPECT_NE(ending.err.find("voxilux voxelize duck.glb -o FILE.vox"), std::string::npos) << ending.err;
+}
 
 TEST(InputRefusedOf, pictures_of_two_sizes_cannot_be_compared) {
     const ScratchFolder scratch;
