@@ -3,7 +3,6 @@
 #include "passes/ao/ao.h"
 #include "passes/film/aov.h"
 #include "passes/film/film_add.h"
-#include "passes/film/shade.h"
 #include "passes/light/direct.h"
 #include "passes/light/sun.h"
 #include "passes/photons/photons.h"
@@ -68,6 +67,8 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
     params.first_row = picture_row + tile.first_row;
     params.row_count = tile.row_count;
     params.film_tile_first_row = picture_row + tile.film_tile_first_row;
+    params.first_element =
+        params.column_count * (tile.first_row - tile.film_tile_first_row) % gpu::kGroupPixels;
     number_sample(plan, sample, params);
     record_frame_upload(params, rec);
 
@@ -75,38 +76,20 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
                              ? record_primary_march(plan, tile, record_primary_beam(plan, tile, rec), rec)
                              : constant_miss(rec);
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, tile, voxels, rec) : voxels;
-    const SpecularPlanes seen = plan.has(Effect::specular)
-                                    ? record_specular_trace(plan, tile, hits, rec)
-                                    : SpecularPlanes{hits, constant_value(1.0f, rec, 3)};
+    const SpecularPlanes seen = plan.has(Effect::specular) ? record_specular_trace(plan, tile, hits, rec)
+                                                           : SpecularPlanes{hits, constant_value(1.0f, rec)};
     const Plane ao = plan.has(Effect::ao)
                          ? record_ao(plan, tile, seen.hits, ao_step(plan, params, number), rec)
                          : constant_value(1.0f, rec);
     const Plane sun =
         plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, tile, seen.hits, rec)
-                                                  : constant_value(0.0f, rec, 3);
+                                                  : constant_value(0.0f, rec);
     const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
-    const ShadeInputs inputs{.hits = seen.hits,
-                             .ao = ao,
-                             .sun = sun,
-                             .direct = direct,
-                             .photons = photons.light,
-                             .weights = seen.weights};
-    const Plane color = record_shade_resolve(plan, tile, inputs, rec);
-    record_film_add(plan, tile, {sample % 2 == 0 ? "beauty_a" : "beauty_b", 3}, color, rec);
-    if (plan.sums_squares) record_film_square(plan, tile, {"squares", 3}, color, rec);
-    if (plan.sums_bias) {
-        const Plane bias = record_photon_bias(plan, tile, seen, photons, rec);
-        record_film_add(plan, tile, {sample % 2 == 0 ? "bias_a" : "bias_b", 3}, bias, rec);
-    }
-
-    if (!plan.has(Effect::aov)) return;
-    const SurfacePlanes surface = record_aov_surface(plan, tile, hits, rec);
-    record_film_add(plan, tile, {"albedo", 3}, surface.albedo, rec);
-    record_film_add(plan, tile, {"normal", 3}, surface.normal, rec);
-    if (plan.has(Effect::ao)) record_film_add(plan, tile, {"ao", 1}, ao, rec);
-    if (plan.has(Effect::sun)) record_film_add(plan, tile, {"sun", 1}, sun, rec);
-    if (sample == number.first) record_aov_position(plan, tile, hits, rec);
+    const FilmInputs inputs{
+        .first_hits = hits, .seen = seen, .ao = ao, .sun = sun, .direct = direct, .photons = photons};
+    record_film_add(plan, tile, inputs, sample, number.keeps_color, rec);
+    if (plan.has(Effect::aov) && sample == number.first) record_aov_position(plan, tile, hits, rec);
 }
 
 }  // namespace voxilux

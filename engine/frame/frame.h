@@ -19,6 +19,7 @@ struct SampleNumber {
     std::uint32_t sample = 0;  // of the frame
     FrameState state;          // what earlier frames and samples left behind
     std::uint32_t first = 0;   // the sample that gives the film its positions and depths
+    bool keeps_color = false;  // of the camera rays, in the plane "film.color"
 };
 
 // One sample of every pixel of a tile, from camera rays to the film.

@@ -25,17 +25,16 @@ std::string use_constant(const std::string& name, std::uint64_t size_bytes, std:
 }  // namespace
 
 std::string placeholder_buffer(Recording& recording) {
-    return use_constant("constant.placeholder", sizeof(std::uint32_t), 0, recording);
+    return use_constant("constant.placeholder", sizeof(gpu::SurfaceMaterial), 0, recording);
 }
 
 Plane constant_miss(Recording& recording) {
     return {use_constant("constant.miss", sizeof(gpu::Hit), 0xFFFFFFFFu, recording), 0};
 }
 
-Plane constant_value(float value, Recording& recording, std::uint32_t components) {
-    const std::string name = components == 1 ? fmt::format("constant.{}", value)
-                                             : fmt::format("constant.{}x{}", value, components);
-    return {use_constant(name, components * sizeof(float), std::bit_cast<std::uint32_t>(value), recording),
+Plane constant_value(float value, Recording& recording) {
+    return {use_constant(fmt::format("constant.{}", value), sizeof(gpu::vec4),
+                         std::bit_cast<std::uint32_t>(value), recording),
             0};
 }
 

@@ -9,21 +9,29 @@
 #include "plan/film_planes.h"
 #include "plan/render_plan.h"
 #include "record/recording.h"
+#include "shared/gpu_types.h"
 
 namespace voxilux {
 
-// A per-pixel quantity of the current tile. An effect that is off yields a constant: one element, stride 0,
-// so that whoever reads it never changes.
+// A per-pixel quantity of the current tile. An effect that is off yields a constant: equal elements, stride
+// 0, so that whoever reads it never changes.
 struct Plane {
     std::string buffer;
     std::uint32_t stride = 1;
 };
 
+// Elements of a plane of so many pixels: whole groups.
+constexpr std::uint64_t plane_elements(std::uint64_t pixels) {
+    return (pixels + gpu::kGroupPixels - 1) / gpu::kGroupPixels * gpu::kGroupPixels;
+}
+
 // Declares a plane of the current tile: one element for each pixel. Its size is that of the largest tile.
 template <class T>
 std::string declare_plane(const RenderPlan& plan, std::string name, Recording& recording,
                           Lifetime lifetime = Lifetime::transient) {
-    return declare<T>(recording, std::move(name), plan.tile_pixels(), lifetime);
+    // A tile that is not the first of its film tile may begin within a group.
+    const std::uint64_t before = plan.tile_rows < plan.film_tile_rows ? gpu::kGroupPixels - 1 : 0;
+    return declare<T>(recording, std::move(name), plane_elements(before + plan.tile_pixels()), lifetime);
 }
 
 // A plane of the film in a film tile: sums, or the positions and depths of one sample.
@@ -31,7 +39,7 @@ template <class T>
 std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint32_t film_tile,
                        Recording& recording) {
     return declare<T>(recording, film_buffer(plane.name, film_tile),
-                      plan.film_tile_pixels() * plane.components, Lifetime::persistent);
+                      plane_elements(plan.film_tile_pixels()) * plane.components, Lifetime::persistent);
 }
 
 // The parameters of the tile, and what its passes count.
@@ -41,8 +49,8 @@ std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint
 // One hit that is a miss, for a frame that marches nothing.
 [[nodiscard]] Plane constant_miss(Recording& recording);
 
-// One float, or as many equal ones.
-[[nodiscard]] Plane constant_value(float value, Recording& recording, std::uint32_t components = 1);
+// A texel of equal floats, for planes of floats and of vectors.
+[[nodiscard]] Plane constant_value(float value, Recording& recording);
 
 // The run of rows of the picture that a recording renders.
 struct DispatchTile {
@@ -69,7 +77,7 @@ struct DispatchTile {
 // Those of them that say which spheres there are.
 [[nodiscard]] std::vector<Constant> sphere_constants(const RenderPlan& plan);
 
-// A buffer of one word that no shader uses, for blocks that a variant of a shader leaves alone.
+// A small buffer that no shader uses, for blocks that a variant of a shader leaves alone.
 [[nodiscard]] std::string placeholder_buffer(Recording& recording);
 
 // The materials and the spheres, or the placeholder when the plan has none.

@@ -16,8 +16,8 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
         const Material& material = scene.materials[i];
         const LobeWeights shares = plan.has(Effect::specular) ? lobe_weights(material) : LobeWeights{};
         materials[i] = {.albedo = material.albedo,
-                        .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
                         .mirror = shares.mirror,
+                        .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
                         .glass = shares.glass,
                         .ior = material.ior};
     }

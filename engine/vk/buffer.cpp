@@ -33,9 +33,10 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed,
 }
 
 constexpr VkBufferUsageFlags kUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-    VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+    VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
 // Gives the buffer memory of the type, mapped when it is cached memory of the host.
 void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t type, Buffer& buffer) {
@@ -61,6 +62,22 @@ void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t ty
     set_debug_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, to_bits(memory), buffer.name);
 }
 
+constexpr std::uint64_t kTexelBytes = 16;
+
+void add_texels(const DeviceState& device, Buffer& buffer) {
+    const std::uint64_t texels = buffer.bytes / kTexelBytes;
+    if (texels == 0 || texels > device.properties.limits.maxTexelBufferElements) return;
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = buffer.handle.get(),
+                                      .format = VK_FORMAT_R32G32B32A32_UINT,
+                                      .range = texels * kTexelBytes};
+    VkBufferView view = VK_NULL_HANDLE;
+    vk_check(vkCreateBufferView(device.handle, &info, nullptr, &view),
+             fmt::format("view the texels of buffer '{}'", buffer.name));
+    buffer.texels = {device.handle, view};
+    set_debug_name(device, VK_OBJECT_TYPE_BUFFER_VIEW, to_bits(view), buffer.name);
+}
+
 Buffer create(const DeviceState& device, const std::string& name, std::uint64_t bytes,
               std::span<const VkMemoryPropertyFlags> wishes) {
     const std::string what = fmt::format("buffer '{}' ({} bytes)", name, bytes);
@@ -81,6 +98,7 @@ Buffer create(const DeviceState& device, const std::string& name, std::uint64_t 
     vkGetBufferMemoryRequirements(device.handle, handle, &needs);
     add_memory(device, needs.size, choose_type(device, needs.memoryTypeBits, wishes, name), buffer);
     set_debug_name(device, VK_OBJECT_TYPE_BUFFER, to_bits(handle), name);
+    add_texels(device, buffer);
     return buffer;
 }
 

@@ -16,6 +16,7 @@ struct Buffer {
     std::uint64_t bytes = 0;
     UniqueMemory memory;
     UniqueBuffer handle;
+    UniqueBufferView texels;  // all of it, four words a texel; none where the device has no room for that
     std::byte* mapped = nullptr;
     std::uint64_t address = 0;
 };

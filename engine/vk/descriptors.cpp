@@ -13,8 +13,9 @@ namespace {
 void grow(const DeviceState& device, Descriptors& descriptors) {
     descriptors.pool.reset();
     const std::uint32_t count = std::max(1u, descriptors.max_buffers);
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count}}};
+    const std::array<VkDescriptorPoolSize, 3> sizes{{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
+                                                     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, count},
+                                                     {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, count}}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = descriptors.max_sets,
                                           .poolSizeCount = sizes.size(),
@@ -35,6 +36,16 @@ VkDescriptorBufferInfo buffer_info(const DeviceState& device, const std::string&
                         shader, buffer.name, buffer.bytes, block, limit));
     }
     return {.buffer = buffer.handle.get(), .offset = 0, .range = buffer.bytes};
+}
+
+VkBufferView texels_of(const std::string& shader, const std::string& block, const Buffer& buffer) {
+    if (!buffer.texels) {
+        throw InternalError(
+            fmt::format("internal error: shader '{}': buffer '{}' of {} bytes for texels '{}' has too few of "
+                        "them, or more than the device takes",
+                        shader, buffer.name, buffer.bytes, block));
+    }
+    return buffer.texels.get();
 }
 
 }  // namespace
@@ -71,16 +82,25 @@ VkDescriptorSet create_set(const DeviceState& device, const Descriptors& descrip
     const std::vector<BufferBlock>& blocks = dispatch.program->info.blocks;
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(blocks.size());  // the writes point into it
+    std::vector<VkBufferView> views;
+    views.reserve(blocks.size());
     std::vector<VkWriteDescriptorSet> writes;
     for (const BufferBlock& block : blocks) {
         const auto bound = std::ranges::find(dispatch.dispatch->bindings, block.name, &Binding::block);
-        infos.push_back(buffer_info(device, dispatch.program->name, block.name, buffers.at(bound->buffer)));
-        writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                          .dstSet = set,
-                          .dstBinding = block.binding,
-                          .descriptorCount = 1,
-                          .descriptorType = descriptor_type(block),
-                          .pBufferInfo = &infos.back()});
+        const Buffer& buffer = buffers.at(bound->buffer);
+        VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstSet = set,
+                                   .dstBinding = block.binding,
+                                   .descriptorCount = 1,
+                                   .descriptorType = descriptor_type(block)};
+        if (block.kind == BlockKind::texels) {
+            write.pTexelBufferView =
+                &views.emplace_back(texels_of(dispatch.program->name, block.name, buffer));
+        } else {
+            write.pBufferInfo =
+                &infos.emplace_back(buffer_info(device, dispatch.program->name, block.name, buffer));
+        }
+        writes.push_back(write);
     }
     vkUpdateDescriptorSets(device.handle, checked_cast<std::uint32_t>(writes.size(), "bindings"),
                            writes.data(), 0, nullptr);

@@ -39,6 +39,7 @@ class UniqueHandle {
 };
 
 using UniqueBuffer = UniqueHandle<VkBuffer, vkDestroyBuffer>;
+using UniqueBufferView = UniqueHandle<VkBufferView, vkDestroyBufferView>;
 using UniqueMemory = UniqueHandle<VkDeviceMemory, vkFreeMemory>;
 using UniqueShaderModule = UniqueHandle<VkShaderModule, vkDestroyShaderModule>;
 using UniqueSetLayout = UniqueHandle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;

@@ -92,7 +92,15 @@ void check_addresses(const Program& program, const Dispatch& dispatch) {
 }  // namespace
 
 VkDescriptorType descriptor_type(const BufferBlock& block) {
-    return block.is_uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    switch (block.kind) {
+        case BlockKind::uniform:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BlockKind::texels:
+            return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+        case BlockKind::storage:
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 Program create_program(const DeviceState& device, const EmbeddedShader& shader) {

@@ -30,7 +30,7 @@ enum class StorageClass : std::uint32_t {
 [[nodiscard]] bool is_descriptor(StorageClass storage);
 
 struct Type {
-    enum Kind { scalar, vector, matrix, array, runtime_array, structure, pointer, other };
+    enum Kind { scalar, vector, matrix, array, runtime_array, structure, pointer, texels, other };
     Kind kind = other;
     std::uint32_t width_bits = 0;                // of a scalar
     std::uint32_t element = 0;                   // type id of the component, column, element or pointee

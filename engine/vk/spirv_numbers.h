@@ -20,6 +20,7 @@ enum Op : std::uint32_t {
     op_type_float = 22,
     op_type_vector = 23,
     op_type_matrix = 24,
+    op_type_image = 25,
     op_type_array = 28,
     op_type_runtime_array = 29,
     op_type_struct = 30,
@@ -60,6 +61,9 @@ enum DecorationNumber : std::uint32_t {
     decoration_offset = 35,
 };
 
+inline constexpr std::uint32_t kDimBuffer = 5;
+inline constexpr std::uint32_t kImageIsStorage = 2;
+inline constexpr std::uint32_t kFormatRgba32ui = 30;
 inline constexpr std::uint32_t kModelGlCompute = 5;
 inline constexpr std::uint32_t kModeLocalSize = 17;
 inline constexpr std::uint32_t kModeLocalSizeId = 38;

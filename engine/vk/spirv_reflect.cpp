@@ -37,6 +37,7 @@ std::uint32_t size_of_type(const Module& module, std::uint32_t type_id, std::uin
         case Type::pointer:
             return kAddressBytes;
         case Type::runtime_array:
+        case Type::texels:
         case Type::other:
             return 0;
     }
@@ -132,11 +133,25 @@ BufferBlock block_of(const Module& module, std::uint32_t variable_id, const spir
     if (variable.storage == spirv::StorageClass::uniform) {
         if (!module.is_block(struct_id))
             spirv::fail("a uniform block is not one (a storage buffer of SPIR-V 1.2?)");
-        block.is_uniform = true;
+        block.kind = BlockKind::uniform;
         block.writable = false;
     }
     if (block.name.empty()) spirv::fail("a block has no name");
     return block;
+}
+
+// A storage texel buffer, by the name of its variable.
+BufferBlock texels_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
+    if (module.type(pointee(module, variable)).kind != Type::texels)
+        spirv::fail("a resource is not a buffer");
+    const spirv::VariableFacts facts = module.variable_facts(variable_id);
+    if (!facts.binding) spirv::fail("a buffer has no binding");
+    return {.name = module.name(variable_id),
+            .set = facts.set.value_or(0),
+            .binding = *facts.binding,
+            .readable = !facts.non_readable,
+            .writable = !facts.non_writable,
+            .kind = BlockKind::texels};
 }
 
 void check_blocks(const std::vector<BufferBlock>& blocks) {
@@ -193,6 +208,8 @@ void add_variables(const Module& module, ProgramInfo& info) {
             info.push_members = members_of(module, struct_id);
             info.push_bytes = end_of_struct(module, struct_id, 0);
             add_addresses(module, struct_id, info);
+        } else if (variable.storage == spirv::StorageClass::uniform_constant) {
+            info.blocks.push_back(texels_of(module, id, variable));
         } else if (spirv::is_descriptor(variable.storage)) {
             spirv::fail("a resource is not a buffer");
         }

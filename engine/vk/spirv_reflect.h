@@ -10,6 +10,10 @@
 
 namespace voxilux {
 
+// How a shader sees a buffer: as a block of storage, as a uniform block (small, and the same words for all
+// invocations), or as texels of four words (a storage texel buffer).
+enum class BlockKind { storage, uniform, texels };
+
 // A buffer of a shader. `name` is the block's name: "Hits" of `readonly buffer Hits { Hit hits[]; };`.
 struct BufferBlock {
     std::string name;
@@ -17,7 +21,7 @@ struct BufferBlock {
     std::uint32_t binding = 0;
     bool readable = true;
     bool writable = true;
-    bool is_uniform = false;  // a uniform block: small, and the same words for all invocations
+    BlockKind kind = BlockKind::storage;
 };
 
 // A pointer in the push struct to a buffer that the shader reaches by address. Pointers are the first

@@ -29,7 +29,7 @@ Pixel this_pixel() {
     uint column = gl_GlobalInvocationID.x;
     pixel.x = frame.first_column + column;
     pixel.y = frame.first_row + row;
-    pixel.index = row * frame.column_count + column;
+    pixel.index = frame.first_element + row * frame.column_count + column;
     pixel.inside = column < frame.column_count && row < frame.row_count;
     return pixel;
 }

@@ -6,6 +6,7 @@
 #include "lib/constants.glsl"
 #include "shared/gpu_types.h"
 #include "shared/limits.h"
+#include "shared/sampling.h"
 
 VX_SPECIALIZED(uint, sphere_count, 0u);
 VX_SPECIALIZED(uint, glass_spheres, 0u);  // the first so many spheres have glass
@@ -26,6 +27,32 @@ SphereRecord held_spheres[kFewSpheres];
 void load_spheres() {
     for (uint i = 0u; i < kFewSpheres; ++i)
         held_spheres[i] = sphere_table[i];
+}
+
+const uint kNoSphere = 0xFFFFFFFFu;
+
+bool is_surface(Hit hit) {
+    return hit.face <= kFaceSphereInside;
+}
+
+bool is_on_sphere(Hit hit) {
+    return sphere_count != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
+}
+
+// The sphere that a ray off a hit starts on.
+uint own_sphere(Hit hit) {
+    return is_on_sphere(hit) ? hit.sphere : kNoSphere;
+}
+
+// Unit, on the side that was hit.
+vec3 surface_normal(Hit hit) {
+    if (is_on_sphere(hit)) {
+        Sphere shape = spheres[hit.sphere].shape;
+        vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
+        vec3 outward = normalize(shape.normal + shape.curvature * from_anchor);
+        return hit.face == kFaceSphereInside ? -outward : outward;
+    }
+    return face_normal(hit.face);
 }
 
 #endif

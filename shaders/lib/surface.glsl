@@ -12,35 +12,9 @@
 
 VX_SPECIALIZED(uint, has_voxels, 1u);
 
-const uint kNoSphere = 0xFFFFFFFFu;
-
 // Position relative to the world's corner, voxels.
 vec3 local_position(ivec3 cell, vec3 fraction) {
     return vec3(cell) + fraction;
-}
-
-bool is_surface(Hit hit) {
-    return hit.face <= kFaceSphereInside;
-}
-
-bool is_on_sphere(Hit hit) {
-    return sphere_count != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
-}
-
-// The sphere that a ray off a hit starts on.
-uint own_sphere(Hit hit) {
-    return is_on_sphere(hit) ? hit.sphere : kNoSphere;
-}
-
-// Unit, on the side that was hit.
-vec3 surface_normal(Hit hit) {
-    if (is_on_sphere(hit)) {
-        Sphere shape = spheres[hit.sphere].shape;
-        vec3 from_anchor = (vec3(hit.cell) - shape.anchor) + hit.fraction;
-        vec3 outward = normalize(shape.normal + shape.curvature * from_anchor);
-        return hit.face == kFaceSphereInside ? -outward : outward;
-    }
-    return face_normal(hit.face);
 }
 
 // Makes the world and the spheres ready for rays. At the start of main(), while all invocations are active.

@@ -2,30 +2,108 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Adds one value per invocation to an exact sum.
+// Shades the camera rays of a sample and adds what they saw to the exact sums of the film. Sums that the plan lacks are left
+// alone.
+
+#include "lib/address.glsl"
 
 #include "lib/invocation.glsl"
 
 #include "lib/counters_access.glsl"
-#include "shared/film_sum.h"
-#include "shared/gpu_types.h"
+#include "lib/film_group.glsl"
+#include "lib/film_sums.glsl"
 
-layout(scalar) readonly buffer Values {
-    float values[];
-};
-layout(scalar) buffer Sums {
-    uvec2 sums[];
-};
+VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
+VX_SPECIALIZED(uint, sums_squares, 1u);
+VX_SPECIALIZED(uint, sums_bias, 1u);
+VX_SPECIALIZED(uint, sums_surface, 1u);
+VX_SPECIALIZED(uint, sums_ao, 1u);
+VX_SPECIALIZED(uint, sums_sun, 1u);
+VX_SPECIALIZED(uint, keeps_color, 1u);
+
+layout(rgba32ui) readonly uniform uimageBuffer FirstHits;  // before mirrors and glass
+layout(rgba32ui) readonly uniform uimageBuffer NarrowPhotons;
+VX_SUMS(Beauty);
+VX_SUMS(Squares);
+VX_SUMS(Bias);
+VX_SUMS(Albedo);
+VX_SUMS(Normal);
+VX_SUMS(AoSums);
+VX_SUMS(SunSums);
+layout(rgba32ui) writeonly uniform uimageBuffer Color;
 layout(push_constant, scalar) uniform Push {
     FilmAddPush push;
 };
 
+void add_beauty(uint at, uint film_group, Group group) {
+    vec3 color[kGroupPixels];
+    uint hits = 0u;
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        color[k] = group.inside[k] ? radiance(group, k) : vec3(0.0);
+        hits += is_surface(group.hits[k]) ? 1u : 0u;
+    }
+    count(kWorkHits, hits);
+    VX_ADD_VECTORS(Beauty, film_group, add_pair, color);
+    if (sums_squares != 0u) {
+        VX_ADD_VECTORS(Squares, film_group, add_squares, color);
+    }
+    if (keeps_color != 0u) {
+        VX_STORE_VECTORS(Color, at, color);
+    }
+}
+
+// How far the light of photons is off because discs smooth it, as radiance. To first order the error of a disc is
+// proportional to its area, and the narrow one has half of it: so it is twice the difference. Noisy, and its mean is not.
+// Source: Hachisuka, Jarosz and Jensen 2010, "A Progressive Error Estimation Framework for Photon Density Estimation", for
+// the idea; the second radius stands for their derivatives of the kernel.
+void add_bias(uint film_group, Group group, vec3 narrow_light[kGroupPixels]) {
+    vec3 off[kGroupPixels];
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        vec3 reflected = group.weights[k] * group.albedo[k] * kInversePi;
+        vec3 bias = 2.0 * reflected * (group.photons[k] - narrow_light[k]);
+        off[k] = is_surface(group.hits[k]) ? bias : vec3(0.0);
+    }
+    VX_ADD_VECTORS(Bias, film_group, add_pair, off);
+}
+
+// Albedo and normal of what camera rays meet first; zero for misses.
+void add_surface(uint film_group, Group group) {
+    vec3 albedo[kGroupPixels];
+    vec3 normal[kGroupPixels];
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        bool has_normal = is_surface(group.hits[k]) && group.hits[k].face != kFaceInside;
+        albedo[k] = is_surface(group.hits[k]) ? group.albedo[k] : vec3(0.0);
+        normal[k] = has_normal ? surface_normal(group.hits[k]) : vec3(0.0);
+    }
+    VX_ADD_VECTORS(Albedo, film_group, add_pair, albedo);
+    VX_ADD_VECTORS(Normal, film_group, add_pair, normal);
+}
+
 void main() {
-    uint i = linear_id();
-    if (i >= push.count) return;
-    FilmFixed added = film_fixed(values[i * push.values_stride]);
-    uint at = push.first_sum + i;
-    sums[at] = film_add(sums[at], added.sum);
-    count(kFaultFilmClamped, (added.flags & kFilmClamped) != 0u ? 1u : 0u);
-    count(kFaultFilmNonFinite, (added.flags & kFilmNonFinite) != 0u ? 1u : 0u);
+    uint at = linear_id();
+    uint skipped = push.first_pixel % kGroupPixels;
+    if (kGroupPixels * at >= skipped + push.pixel_count) return;
+    uint film_group = push.first_pixel / kGroupPixels + at;
+    Group group = load_group(at, skipped, skipped + push.pixel_count);
+    add_beauty(at, film_group, group);
+    if (sums_bias != 0u) {
+        vec3 narrow_light[kGroupPixels] = VX_GROUP_VECTORS(NarrowPhotons, at, 1u);
+        add_bias(film_group, group, narrow_light);
+    }
+    bvec4 inside = bvec4(group.inside[0], group.inside[1], group.inside[2], group.inside[3]);
+    if (sums_ao != 0u) {
+        VX_ADD_FLOATS(AoSums, film_group, add_pair, mix(vec4(0.0), group.ao, inside));
+    }
+    if (sums_sun != 0u) {
+        VX_ADD_FLOATS(SunSums, film_group, add_pair, mix(vec4(0.0), group.sun, inside));
+    }
+    if (sums_surface != 0u) {
+        if (has_specular != 0u) {
+            Hit first_hits[kGroupPixels] = VX_GROUP_HITS(FirstHits, at, 1u);
+            set_hits(group, first_hits);
+        }
+        add_surface(film_group, group);
+    }
+    count(kFaultFilmClamped, clamped);
+    count(kFaultFilmNonFinite, non_finite);
 }

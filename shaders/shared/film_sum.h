@@ -36,28 +36,13 @@ VX_FN bool film_add_overflows(uvec2 a, uvec2 b) {
     return (((a.y ^ sum.y) & (b.y ^ sum.y)) >> 31u) != 0u;
 }
 
-// mantissa 2^shift rounded to the nearest integer, ties to even. mantissa < 2^24, shift <= 39.
-VX_FN uvec2 film_shift(uint mantissa, int shift) {
-    if (shift >= 32) return uvec2(0u, mantissa << uint(shift - 32));
-    if (shift >= 0) {
-        uint high = shift == 0 ? 0u : mantissa >> uint(32 - shift);
-        return uvec2(mantissa << uint(shift), high);
-    }
-    if (shift < -24) return uvec2(0u, 0u);
-    uint drop = uint(-shift);
-    uint kept = mantissa >> drop;
-    uint rest = mantissa - (kept << drop);
-    uint half_unit = 1u << (drop - 1u);
-    bool up = rest > half_unit || (rest == half_unit && (kept & 1u) == 1u);
-    return uvec2(kept + (up ? 1u : 0u), 0u);
-}
-
-// A float of 0 and above, by its bits, as fixed point. Below 2^39.
+// A float of 0 and above, by its bits, as fixed point; below 2^39. Both parts of it and their products with
+// powers of two are exact, and a part that is rounded is below 2^8, so it cannot carry.
 VX_FN uvec2 film_magnitude(uint bits) {
-    uint exponent = bits >> 23u;
-    if (exponent == 0u) return uvec2(0u, 0u);  // zero and denormals, below 2^-126
-    uint mantissa = (bits & 0x007FFFFFu) | 0x00800000u;
-    return film_shift(mantissa, int(exponent) - 150 + kFilmFractionBits);
+    float value = uintBitsToFloat(bits);
+    float high = floor(value * 0.00390625f);  // in units of 2^8
+    VX_PRECISE float low = value - high * 256.0f;
+    return uvec2(uint(roundEven(low * float(1u << uint(kFilmFractionBits)))), uint(high));
 }
 
 // A sample as fixed point. Finite values round to the nearest 2^-24, ties to even; magnitudes above

@@ -31,6 +31,12 @@ struct Hit {
     uint sphere;    // index into Spheres when face is kFaceSphere or kFaceSphereInside
 };
 
+VX_CONST(uint, kHitWords, 10u);
+
+// Pixels that the film takes together, so that their sums, hits, vectors and floats are whole texels of four
+// words. Planes have whole groups.
+VX_CONST(uint, kGroupPixels, 4u);
+
 // Camera rays start a beam tile at a time (beam.h): one float for each one of a tile, row by row.
 VX_CONST(uint, kBeamPixels, 8u);  // edge of a beam tile
 
@@ -43,11 +49,15 @@ VX_FN uint beam_count(uint pixels) {
 // glass, and the rest a diffuse surface. All three multiply by the albedo.
 struct SurfaceMaterial {
     vec3 albedo;    // linear, [0,1]
-    vec3 emission;  // radiance; where it is not 0 both shares are
     float mirror;   // share, [0,1]
+    vec3 emission;  // radiance; where it is not 0 both shares are
     float glass;    // share; mirror + glass <= 1
     float ior;      // of the glass
+    uint pad_0;     // three texels of four words
+    uint pad_1;
+    uint pad_2;
 };
+VX_CONST(uint, kMaterialTexels, 3u);
 
 // An emitter, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
 struct LightRecord {
@@ -78,6 +88,7 @@ struct FrameParams {
     uint first_column;  // of the picture, image column
     uint column_count;
     uint film_tile_first_row;  // of the film tile that the tile is in, image row
+    uint first_element;  // of the tile's planes that is a pixel: groups of pixels are those of the film tile
     uint sample_index;
     uint seed;
     float ao_radius;  // voxels
@@ -109,6 +120,7 @@ struct PhotonStart {
 VX_CONST(uint, kStartWords, 7u);
 
 #ifdef __cplusplus
+static_assert(sizeof(Hit) == 4 * kHitWords && sizeof(SurfaceMaterial) == 16 * kMaterialTexels);
 static_assert(sizeof(PhotonStart) == 8 * kStartWords);
 #endif
 
@@ -150,11 +162,10 @@ struct WorldGrowPush {
     int bound;  // longest distance of this round
 };
 
-// Push constants of film_add.
+// Push constants of film_add: pixels of the tile, numbered in its film tile.
 struct FilmAddPush {
-    uint count;          // values to add
-    uint values_stride;  // 0 repeats the first value
-    uint first_sum;      // where the values' sums begin
+    uint first_pixel;
+    uint pixel_count;
 };
 
 // Push constants of display_resolve, for one film tile.

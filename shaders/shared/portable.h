@@ -59,6 +59,9 @@ inline float uintBitsToFloat(uint bits) {
     std::memcpy(&x, &bits, sizeof x);
     return x;
 }
+inline float roundEven(float x) {
+    return std::nearbyint(x);
+}
 inline uint bitfieldReverse(uint v) {
     v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
     v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);

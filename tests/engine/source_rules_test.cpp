@@ -19,7 +19,6 @@ using test::SourceFile;
 // Blocks that shaders both read and write, and why.
 const std::map<std::string, std::string> kReadAndWritten = {
     {"Counters", "atomic counters"},
-    {"Sums", "film_add adds to what is there; each sum belongs to one invocation"},
     {"Keys", "slots are claimed by atomics in one pass and emptied in another"},
     {"Samples",
      "each sample takes its number by an atomic, and the pass that empties slots reads what was in them"},
@@ -39,12 +38,12 @@ const std::map<std::string, std::string> kReadAndWritten = {
 };
 
 std::vector<std::string> undeclared_access(const SourceFile& file) {
-    const Pattern block(R"(layout\(.*\)(.*)\bbuffer[ \t]+([A-Za-z_0-9]+))");
+    const Pattern block(R"(layout\([^)]*\)(.*)\b(buffer|uimageBuffer)[ \t]+([A-Za-z_0-9]+))");
     const Pattern access(R"(\b(readonly|writeonly)\b)");
     std::vector<std::string> faults;
     for (const std::string& line : test::lines_of(file.text)) {
         const std::vector<std::string> found = block.find(line);
-        if (!found.empty() && access.find(found[1]).empty() && !kReadAndWritten.contains(found[2]))
+        if (!found.empty() && access.find(found[1]).empty() && !kReadAndWritten.contains(found[3]))
             faults.push_back(file.path + ": " + line);
     }
     return faults;

@@ -40,14 +40,21 @@ class FrameFixture {
     // Renders the sample in tiles of `rows` rows into the film.
     void render_tile(std::uint32_t sample, std::uint32_t rows);
 
+    // Adds a sample of these radiances, one a pixel, to the film, and returns what was counted.
+    std::array<gpu::uint, gpu::kCounterCount> add_radiance(std::uint32_t sample,
+                                                           const std::vector<glm::vec3>& radiance);
+
     // The exact sums of a film plane, interleaved components.
     [[nodiscard]] std::vector<std::int64_t> film_sums(const std::string& plane);
+    void set_film_sums(const std::string& plane, const std::vector<std::int64_t>& sums);
 
     [[nodiscard]] const RenderPlan& plan() const { return prepared_.plan; }
     [[nodiscard]] const MarchWorld& march_world() const { return prepared_.march_world; }
     [[nodiscard]] const gpu::FrameParams& params() const { return params_; }
 
   private:
+    [[nodiscard]] std::string film_buffer_of(const std::string& plane, Recording& recording) const;
+
     Executor& executor_;
     PreparedScene prepared_;
     gpu::FrameParams params_;

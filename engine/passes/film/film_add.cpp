@@ -1,45 +1,88 @@
 #include "passes/film/film_add.h"
 
-#include "base/checked_cast.h"
+#include <algorithm>
+
 #include "shared/gpu_types.h"
 
 namespace voxilux {
 namespace {
 
-gpu::FilmAddPush sums_of_tile(const RenderPlan& plan, const DispatchTile& tile, const FilmPlane& film,
-                              const Plane& values) {
-    const auto width = static_cast<std::uint32_t>(plan.settings.size.x);
-    const std::uint32_t row_values = width * film.components;
-    return {.count = row_values * tile.row_count,
-            .values_stride = values.stride,
-            .first_sum = row_values * (tile.first_row - tile.film_tile_first_row)};
+// The sums of a plane, or the placeholder where the plan has none.
+void bind_sums(const RenderPlan& plan, const DispatchTile& tile, const std::string& block,
+               const std::string& name, Dispatch& dispatch, Recording& recording) {
+    const std::vector<FilmPlane> planes = film_planes(plan);
+    const auto plane = std::ranges::find(planes, name, &FilmPlane::name);
+    const std::string sums = plane == planes.end()
+                                 ? placeholder_buffer(recording)
+                                 : film_plane<std::int64_t>(plan, *plane, tile.film_tile, recording);
+    dispatch.bindings.push_back({block, sums});
+    dispatch.bindings.push_back({block + "Words", sums});
+}
+
+std::uint32_t tile_width(const RenderPlan& plan) {
+    return static_cast<std::uint32_t>(plan.settings.size.x);
+}
+
+gpu::FilmAddPush pixels_of(const RenderPlan& plan, const DispatchTile& tile) {
+    return {.first_pixel = tile_width(plan) * (tile.first_row - tile.film_tile_first_row),
+            .pixel_count = tile_width(plan) * tile.row_count};
+}
+
+std::vector<Constant> film_constants(const RenderPlan& plan, const FilmInputs& inputs, bool keeps_color) {
+    const bool has_aov = plan.has(Effect::aov);
+    return {{"hits_stride", inputs.seen.hits.stride},
+            {"weights_stride", inputs.seen.weights.stride},
+            {"ao_stride", inputs.ao.stride},
+            {"sun_stride", inputs.sun.stride},
+            {"direct_stride", inputs.direct.stride},
+            {"photons_stride", inputs.photons.light.stride},
+            {"sphere_count", plan.has(Effect::spheres) ? 1u : 0u},  // any, or none: not one shader for each
+            {"has_emission", plan.has(Effect::emission) ? 1u : 0u},
+            {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
+            {"sums_squares", plan.sums_squares ? 1u : 0u},
+            {"sums_bias", plan.sums_bias ? 1u : 0u},
+            {"sums_surface", has_aov ? 1u : 0u},
+            {"sums_ao", has_aov && plan.has(Effect::ao) ? 1u : 0u},
+            {"sums_sun", has_aov && plan.has(Effect::sun) ? 1u : 0u},
+            {"keeps_color", keeps_color ? 1u : 0u}};
 }
 
 }  // namespace
 
-void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmPlane& film,
-                     const Plane& values, Recording& recording) {
-    const gpu::FilmAddPush push = sums_of_tile(plan, tile, film, values);
-    recording.dispatch(
-        {.label = "film.add",
-         .shader = "film_add",
-         .extent = {push.count, 1, 1},
-         .bindings = {{"Counters", tally_buffer(recording)},
-                      {"Values", values.buffer},
-                      {"Sums", film_plane<std::int64_t>(plan, film, tile.film_tile, recording)}},
-         .push = to_bytes(push)});
-}
-
-void record_film_square(const RenderPlan& plan, const DispatchTile& tile, const FilmPlane& film,
-                        const Plane& values, Recording& recording) {
-    const gpu::FilmAddPush push = sums_of_tile(plan, tile, film, values);
-    recording.dispatch(
-        {.label = "film.square",
-         .shader = "film_square",
-         .extent = {push.count, 1, 1},
-         .bindings = {{"Values", values.buffer},
-                      {"Sums", film_plane<std::int64_t>(plan, film, tile.film_tile, recording)}},
-         .push = to_bytes(push)});
+void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmInputs& inputs,
+                     std::uint32_t sample, bool keeps_color, Recording& recording) {
+    const gpu::FilmAddPush push = pixels_of(plan, tile);
+    const std::uint64_t pixels = push.first_pixel % gpu::kGroupPixels + push.pixel_count;
+    Dispatch dispatch{
+        .label = "film.add",
+        .shader = "film_add",
+        .extent = {static_cast<std::uint32_t>(plane_elements(pixels) / gpu::kGroupPixels), 1, 1},
+        .bindings = {{"Frame", frame_buffer(recording)},
+                     {"Counters", tally_buffer(recording)},
+                     {"Spheres", spheres_buffer(plan, recording)},
+                     {"Materials", materials_buffer(plan, recording)},
+                     {"FirstHits", inputs.first_hits.buffer},
+                     {"Hits", inputs.seen.hits.buffer},
+                     {"Weights", inputs.seen.weights.buffer},
+                     {"Ao", inputs.ao.buffer},
+                     {"Sun", inputs.sun.buffer},
+                     {"Direct", inputs.direct.buffer},
+                     {"Photons", inputs.photons.light.buffer},
+                     {"NarrowPhotons", inputs.photons.narrow.buffer},
+                     {"Color", keeps_color ? declare_plane<gpu::vec3>(plan, "film.color", recording)
+                                           : placeholder_buffer(recording)}},
+        .constants = film_constants(plan, inputs, keeps_color),
+        .push = to_bytes(push)};
+    const std::string half = sample % 2 == 0 ? "_a" : "_b";
+    for (const auto& [block, name] : {std::pair<const char*, std::string>{"Beauty", "beauty" + half},
+                                      {"Squares", "squares"},
+                                      {"Bias", "bias" + half},
+                                      {"Albedo", "albedo"},
+                                      {"Normal", "normal"},
+                                      {"AoSums", "ao"},
+                                      {"SunSums", "sun"}})
+        bind_sums(plan, tile, block, name, dispatch, recording);
+    recording.dispatch(std::move(dispatch));
 }
 
 }  // namespace voxilux

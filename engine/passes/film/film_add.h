@@ -1,16 +1,24 @@
 #pragma once
 
+#include "passes/photons/photon.h"
 #include "passes/plane.h"
-#include "plan/film_planes.h"
+#include "passes/specular/specular.h"
 
 namespace voxilux {
 
-// Adds a plane of the tile to the exact sums of a film plane.
-void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmPlane& film,
-                     const Plane& values, Recording& recording);
+// What a sample found, as the film takes it; each plane may be a constant.
+struct FilmInputs {
+    Plane first_hits;  // of camera rays, before mirrors and glass
+    SpecularPlanes seen;
+    Plane ao;
+    Plane sun;
+    Plane direct;          // irradiance / pi, of emitters
+    PhotonPlanes photons;  // irradiance, of photons
+};
 
-// Adds the squares of a plane of the tile. Sums that are full stay as they are.
-void record_film_square(const RenderPlan& plan, const DispatchTile& tile, const FilmPlane& film,
-                        const Plane& values, Recording& recording);
+// Shades the camera rays of sample number `sample` and adds what they saw to every exact sum of the plan's
+// film. `keeps_color`: radiance in the plane "film.color", too.
+void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmInputs& inputs,
+                     std::uint32_t sample, bool keeps_color, Recording& recording);
 
 }  // namespace voxilux

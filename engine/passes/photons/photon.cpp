@@ -194,22 +194,4 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
     return planes;
 }
 
-Plane record_photon_bias(const RenderPlan& plan, const DispatchTile& tile, const SpecularPlanes& seen,
-                         const PhotonPlanes& photons, Recording& recording) {
-    const Plane bias{declare_plane<gpu::vec3>(plan, "photon.bias", recording)};
-    recording.dispatch(
-        {.label = "photon.bias",
-         .shader = "photon_bias",
-         .extent = pixel_extent(plan, tile),
-         .bindings = {{"Frame", frame_buffer(recording)},
-                      {"Materials", materials_buffer(plan, recording)},
-                      {"Hits", seen.hits.buffer},
-                      {"Weights", seen.weights.buffer},
-                      {"Light", photons.light.buffer},
-                      {"NarrowLight", photons.narrow.buffer},
-                      {"Bias", bias.buffer}},
-         .constants = {{"hits_stride", seen.hits.stride}, {"weights_stride", seen.weights.stride}}});
-    return bias;
-}
-
 }  // namespace voxilux

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "passes/plane.h"
-#include "passes/specular/specular.h"
 #include "shared/photon_types.h"
 
 namespace voxilux {
@@ -53,10 +52,5 @@ enum class PhotonRadii { common, own };
 [[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
                                                const DispatchTile& tile, const Plane& hits,
                                                Recording& recording);
-
-// How far the radiance of each pixel is off because discs smooth the light of photons.
-[[nodiscard]] Plane record_photon_bias(const RenderPlan& plan, const DispatchTile& tile,
-                                       const SpecularPlanes& seen, const PhotonPlanes& photons,
-                                       Recording& recording);
 
 }  // namespace voxilux

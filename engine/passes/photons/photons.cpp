@@ -7,7 +7,7 @@ namespace voxilux {
 
 PhotonPlanes record_photons(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                             std::uint32_t iteration, Recording& recording) {
-    if (!plan.photons.runs()) return {constant_value(0.0f, recording, 3), constant_value(0.0f, recording, 3)};
+    if (!plan.photons.runs()) return {constant_value(0.0f, recording), constant_value(0.0f, recording)};
     const PhotonSettings& settings = plan.settings.photons;
     const double radius = settings.classic
                               ? plan.photons.radius

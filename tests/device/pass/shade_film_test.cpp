@@ -1,9 +1,10 @@
-// The passes shade.resolve, aov.* and film.add: radiance in closed form, and sums that lose nothing.
+// The pass film.add: radiance in closed form, and sums that lose nothing.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numbers>
 
 #include "film/film.h"
@@ -11,6 +12,7 @@
 #include "shared/film_sum.h"
 #include "shared/sampling.h"
 #include "support/frame_fixture.h"
+#include "support/statistics.h"
 #include "support/test_scenes.h"
 
 namespace voxilux {
@@ -28,6 +30,13 @@ Scene plane_scene() {
     return scene;
 }
 
+// A sky, which the radiances of add_radiance() replace.
+Scene values_scene(glm::ivec2 size) {
+    Scene scene = test::white_scene();
+    scene.settings.size = size;
+    return scene;
+}
+
 std::int64_t fixed(float value) {
     const gpu::FilmFixed converted = gpu::film_fixed(value);
     EXPECT_EQ(converted.flags, 0u);
@@ -40,7 +49,7 @@ std::int64_t square(float value) {
     return std::llrint(std::ldexp(static_cast<double>(product), gpu::kFilmFractionBits));
 }
 
-TEST(ShadeResolve, plane_under_a_constant_sky_is_albedo_times_radiance_exactly) {
+TEST(FilmRadiance, plane_under_a_constant_sky_is_albedo_times_radiance_exactly) {
     Scene scene = plane_scene();
     const glm::vec3 albedo(0.1f, 0.37f, 0.83f);
     scene.sky.radiance = glm::vec3(0.9f, 1.1f, 2.3f);
@@ -56,7 +65,7 @@ TEST(ShadeResolve, plane_under_a_constant_sky_is_albedo_times_radiance_exactly) 
     EXPECT_EQ(planes.counters[gpu::kWorkHits], static_cast<gpu::uint>(on_plane));
 }
 
-TEST(ShadeResolve, plane_under_sky_and_hard_sun_is_the_closed_form) {
+TEST(FilmRadiance, plane_under_sky_and_hard_sun_is_the_closed_form) {
     Scene scene = plane_scene();
     scene.sun = {.azimuth_deg = 70.0f, .elevation_deg = 35.0f, .angular_diameter_deg = 0.0f};
     scene.materials[0].albedo = glm::vec3(0.1f, 0.37f, 0.83f);
@@ -71,7 +80,7 @@ TEST(ShadeResolve, plane_under_sky_and_hard_sun_is_the_closed_form) {
 }
 
 // Convex things in a white furnace: albedo 1, sky 1, nothing occluded, so they vanish, exactly.
-TEST(ShadeResolve, convex_things_vanish_in_a_white_furnace) {
+TEST(FilmRadiance, convex_things_vanish_in_a_white_furnace) {
     std::vector<Scene> scenes(4, test::white_scene());
     test::add_box(scenes[0], {0, 0, 0}, {1, 1, 1});
     test::add_box(scenes[1], {-5, -3, 0}, {4, 6, 9});
@@ -92,7 +101,7 @@ TEST(ShadeResolve, convex_things_vanish_in_a_white_furnace) {
     }
 }
 
-TEST(ShadeResolve, emission_is_added_to_what_is_reflected) {
+TEST(FilmRadiance, emission_is_added_to_what_is_reflected) {
     Scene scene = plane_scene();
     scene.materials[0].albedo = glm::vec3(0.5f);
     scene.materials[0].emission = glm::vec3(3.0f, 0.25f, 17.0f);
@@ -103,7 +112,7 @@ TEST(ShadeResolve, emission_is_added_to_what_is_reflected) {
     }
 }
 
-TEST(ShadeResolve, inside_of_a_solid_shows_its_emission_only) {
+TEST(FilmRadiance, inside_of_a_solid_shows_its_emission_only) {
     Scene scene = plane_scene();
     scene.sun.on = true;
     scene.materials[0].emission = glm::vec3(0.0f, 0.5f, 0.0f);
@@ -144,36 +153,77 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
 }
 
 TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
-    const std::vector<float> values = {1.5f, std::nanf(""), INFINITY, -INFINITY, 1e9f, -1e9f, 0.0f, -2.0f};
-    const std::vector<std::int64_t> want = {
-        fixed(1.5f), 0, 0, 0, fixed(gpu::kFilmMaxValue), -fixed(gpu::kFilmMaxValue), 0, -fixed(2.0f)};
-    Recording recording;
-    recording.declare({.name = "t.values", .size_bytes = values.size() * sizeof(float)});
-    recording.declare({.name = "t.sums", .size_bytes = values.size() * sizeof(std::int64_t)});
-    recording.declare({.name = "t.tally", .size_bytes = gpu::kCounterCount * sizeof(gpu::uint)});
-    recording.upload("t.values", std::as_bytes(std::span(values)));
-    recording.clear("t.sums");
-    recording.clear("t.tally");
-    const gpu::FilmAddPush push{static_cast<gpu::uint>(values.size()), 1, 0};
-    recording.dispatch({.label = "film.add",
-                        .shader = "film_add",
-                        .extent = {push.count, 1, 1},
-                        .bindings = {{"Counters", "t.tally"}, {"Values", "t.values"}, {"Sums", "t.sums"}},
-                        .push = to_bytes(push)});
-    recording.readback("t.sums");
-    recording.readback("t.tally");
-    const RunResult result = test_executor().run(recording);
-    std::vector<std::int64_t> sums(values.size());
-    std::memcpy(sums.data(), result.readbacks.at("t.sums").data(), sums.size() * sizeof(std::int64_t));
-    std::array<gpu::uint, gpu::kCounterCount> counters{};
-    std::memcpy(counters.data(), result.readbacks.at("t.tally").data(), sizeof(counters));
-    EXPECT_EQ(sums, want);
+    const std::vector<float> values = {1.5f, std::nanf(""), INFINITY, -INFINITY, 1e9f, -1e9f,
+                                       0.0f, -2.0f,         0.25f,    3e38f,     7.0f, -0x1p-24f};
+    const std::int64_t most = fixed(gpu::kFilmMaxValue);
+    const std::vector<std::int64_t> want = {fixed(1.5f),  0,    0,           0, most, -most, 0, -fixed(2.0f),
+                                            fixed(0.25f), most, fixed(7.0f), -1};
+    test::FrameFixture rig(values_scene({2, 2}));
+    std::vector<glm::vec3> radiance(4);
+    std::memcpy(radiance.data(), values.data(), values.size() * sizeof(float));
+    const auto counters = rig.add_radiance(0, radiance);
+    EXPECT_EQ(rig.film_sums("beauty_a"), want);
     EXPECT_EQ(counters[gpu::kFaultFilmNonFinite], 3u);
-    EXPECT_EQ(counters[gpu::kFaultFilmClamped], 2u);
+    EXPECT_EQ(counters[gpu::kFaultFilmClamped], 3u);
+}
+
+// Both halves and the squares of values of any size against 128-bit sums, in an image that ends within a
+// group.
+TEST(FilmAdd, sums_of_any_values_are_those_of_128_bit_integers) {
+    constexpr std::size_t kValues = 3 * 7 * 5;
+    test::FrameFixture rig(values_scene({7, 5}));
+    test::TestRandom random(21);
+    std::vector<__int128> halves[2] = {std::vector<__int128>(kValues), std::vector<__int128>(kValues)};
+    std::vector<__int128> squares(kValues);
+    for (std::uint32_t sample = 0; sample < 6; ++sample) {
+        std::vector<float> values(kValues);
+        for (std::size_t i = 0; i < kValues; ++i) {
+            const double sign = i % 3 == 0 ? -1.0 : 1.0;
+            values[i] = static_cast<float>(sign * std::exp2(random.uniform(-30.0, 18.9)));
+            halves[sample % 2][i] += std::llrint(std::ldexp(static_cast<double>(values[i]), 24));
+            squares[i] += square(values[i]);
+        }
+        std::vector<glm::vec3> radiance(kValues / 3);
+        std::memcpy(radiance.data(), values.data(), kValues * sizeof(float));
+        const auto counters = rig.add_radiance(sample, radiance);
+        EXPECT_EQ(counters[gpu::kFaultFilmClamped] + counters[gpu::kFaultFilmNonFinite], 0u);
+    }
+    const auto differences = [](const std::vector<std::int64_t>& sums, const std::vector<__int128>& want,
+                                std::int64_t off) {
+        std::size_t count = sums.size() == want.size() ? 0 : kValues;
+        for (std::size_t i = 0; i < std::min(sums.size(), want.size()); ++i)
+            count += std::min<__int128>(want[i], INT64_MAX) == sums[i] + off ? 0 : 1;
+        return count;
+    };
+    EXPECT_EQ(differences(rig.film_sums("beauty_a"), halves[0], 0), 0u);
+    EXPECT_EQ(differences(rig.film_sums("beauty_b"), halves[1], 0), 0u);
+    EXPECT_EQ(differences(rig.film_sums("squares"), squares, 0), 0u);
+    EXPECT_EQ(differences(rig.film_sums("beauty_a"), halves[0], 1), kValues) << "the negative control";
+}
+
+// Tiles that begin and end within a group of pixels.
+TEST(FilmAdd, tiles_of_odd_widths_change_no_sum) {
+    Scene scene = plane_scene();
+    scene.sun.on = true;
+    scene.spheres.push_back({glm::dvec3(0.5, 0.25, 3.125), 3.0, 0});
+    scene.settings.size = {7, 11};
+    test::FrameFixture whole(scene);
+    for (std::uint32_t sample = 0; sample < 2; ++sample)
+        (void)whole.render(sample);
+    std::map<std::string, std::vector<std::int64_t>> want;
+    for (const FilmPlane& plane : film_planes(whole.plan()))
+        want[plane.name] = whole.film_sums(plane.name);
+    for (const std::uint32_t rows : {1u, 2u, 3u, 5u}) {
+        test::FrameFixture rig(scene);
+        for (std::uint32_t sample = 0; sample < 2; ++sample)
+            rig.render_tile(sample, rows);
+        for (const auto& [name, sums] : want)
+            EXPECT_EQ(rig.film_sums(name), sums) << name << " in tiles of " << rows << " rows";
+    }
 }
 
 // Surface AOVs are means over samples; position and depth are those of the first.
-TEST(Aov, albedo_and_normal_follow_the_hits) {
+TEST(FilmSurface, albedo_and_normal_follow_the_hits) {
     Scene scene = plane_scene();
     scene.materials.push_back({.name = "red", .albedo = glm::vec3(0.75f, 0.5f, 0.25f)});
     test::add_box(scene, {-4, -4, 0}, {4, 4, 5}, 1);

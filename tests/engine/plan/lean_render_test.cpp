@@ -40,9 +40,8 @@ using Names = std::set<std::string>;
 TEST(LeanRender, sun_below_the_horizon_leaves_no_command_buffer_or_pipeline) {
     for (const char* scene : {"night", "overcast"}) {
         const LeanRun run = run_lean(scene);
-        EXPECT_EQ(run.shaders,
-                  (Names{"world_grow", "primary_beam", "primary_march", "ao_trace", "shade_resolve",
-                         "film_add", "film_square", "aov_surface", "aov_position"}));
+        EXPECT_EQ(run.shaders, (Names{"world_grow", "primary_beam", "primary_march", "ao_trace", "film_add",
+                                      "aov_position"}));
         EXPECT_EQ(run.pipelines, run.shaders.size()) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "sun")) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "film.sun")) << scene;
@@ -63,8 +62,8 @@ TEST(LeanRender, sun_above_the_horizon_adds_its_own_and_no_more) {
 
 TEST(LeanRender, empty_scene_has_no_march_and_no_world) {
     const LeanRun run = run_lean("empty", PlanRequest{});
-    EXPECT_EQ(run.shaders, (Names{"shade_resolve", "film_add"}));
-    EXPECT_EQ(run.pipelines, 2u);
+    EXPECT_EQ(run.shaders, (Names{"film_add"}));
+    EXPECT_EQ(run.pipelines, 1u);
     EXPECT_FALSE(any_starts_with(run.buffers, "world"));
     EXPECT_FALSE(any_starts_with(run.buffers, "primary"));
     EXPECT_FALSE(any_starts_with(run.buffers, "sphere"));

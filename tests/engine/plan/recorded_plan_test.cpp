@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(scenes, RecordedPlan, testing::ValuesIn(test::scene_nam
 TEST(RecordedPlanOf, empty_scene_records_shading_alone) {
     const Scene scene = test::repository_scene("empty", {"render.spp=1"});
     const auto render = test::record_render(scene, prepare_scene(scene, PlanRequest{}, DeviceLimits{}));
-    EXPECT_EQ(render.shaders, (std::set<std::string>{"shade_resolve", "film_add"}));
+    EXPECT_EQ(render.shaders, (std::set<std::string>{"film_add"}));
     EXPECT_FALSE(render.buffers.contains("materials"));
 }
 

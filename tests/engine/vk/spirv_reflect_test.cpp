@@ -45,10 +45,10 @@ struct Assembler {
 };
 
 constexpr std::uint32_t kName = 5, kMemberName = 6, kEntryPoint = 15, kExecutionMode = 16, kTypeInt = 21,
-                        kTypeRuntimeArray = 29, kTypeStruct = 30, kTypePointer = 32, kConstant = 43,
-                        kForwardPointer = 39, kSpecConstant = 50, kSpecComposite = 51, kVariable = 59,
-                        kLoad = 61, kDecorate = 71, kMemberDecorate = 72;
-constexpr std::uint32_t kStorageBuffer = 12, kPushConstant = 9, kPhysical = 5349;
+                        kTypeImage = 25, kTypeRuntimeArray = 29, kTypeStruct = 30, kTypePointer = 32,
+                        kConstant = 43, kForwardPointer = 39, kSpecConstant = 50, kSpecComposite = 51,
+                        kVariable = 59, kLoad = 61, kDecorate = 71, kMemberDecorate = 72;
+constexpr std::uint32_t kStorageBuffer = 12, kPushConstant = 9, kPhysical = 5349, kUniformConstant = 0;
 
 constexpr std::uint32_t kPhysicalAddresses = 5347;  // capability
 
@@ -236,6 +236,36 @@ TEST(Reflect, compiled_probes_show_what_they_reach_by_address) {
     ASSERT_EQ(scatter.addresses.size(), 1u);
     EXPECT_TRUE(!scatter.addresses[0].readable && scatter.addresses[0].writable);
     EXPECT_TRUE(reflect(probe("add_constant").spirv).addresses.empty());
+}
+
+TEST(Reflect, texel_buffers_go_by_the_names_of_their_variables) {
+    const auto film = std::ranges::find(pass_shaders(), "film_add", &EmbeddedShader::name);
+    ASSERT_NE(film, pass_shaders().end());
+    const ProgramInfo info = reflect(film->spirv);
+    const BufferBlock* read = info.find_block("Ao");
+    const BufferBlock* summed = info.find_block("BeautyWords");
+    const BufferBlock* written = info.find_block("Color");
+    ASSERT_TRUE(read != nullptr && summed != nullptr && written != nullptr);
+    EXPECT_TRUE(read->kind == BlockKind::texels && read->readable && !read->writable);
+    EXPECT_TRUE(summed->kind == BlockKind::storage && !summed->readable && summed->writable);
+    EXPECT_TRUE(written->kind == BlockKind::texels && !written->readable && written->writable);
+    EXPECT_EQ(info.find_block("Counters")->kind, BlockKind::storage);
+    EXPECT_EQ(info.find_block("Frame")->kind, BlockKind::uniform);
+}
+
+// Of images reflection knows storage texel buffers of four words: dimension, kind and format in the type.
+TEST(Reflect, images_that_are_no_texel_buffers_are_refused) {
+    const auto module_with = [](std::uint32_t dimension, std::uint32_t sampled, std::uint32_t format) {
+        Assembler module = small_module();
+        module.op(kName, {61}, "Texels").op(kDecorate, {61, 33, 7});
+        module.op(kTypeImage, {62, 11, dimension, 0, 0, 0, sampled, format});
+        module.op(kTypePointer, {63, kUniformConstant, 62}).op(kVariable, {63, 61, kUniformConstant});
+        return with_use(module.op(kLoad, {62, 64, 61}));
+    };
+    EXPECT_EQ(reflect(module_with(5, 2, 30)).find_block("Texels")->binding, 7u);
+    EXPECT_THROW((void)reflect(module_with(1, 2, 30)), InternalError) << "a picture";
+    EXPECT_THROW((void)reflect(module_with(5, 1, 30)), InternalError) << "sampled";
+    EXPECT_THROW((void)reflect(module_with(5, 2, 1)), InternalError) << "floats";
 }
 
 TEST(Reflect, broken_modules_are_refused) {

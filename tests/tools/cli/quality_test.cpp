@@ -15,7 +15,7 @@ namespace {
 std::uint64_t samples_of(const Words& more, const std::string& scene = "first_light") {
     const Json plan = plan_of(scene, more);
     for (const Json& pass : plan["passes"])
-        if (pass["label"] == "shade.resolve") return pass["count"];
+        if (pass["label"] == "film.add") return pass["count"];
     return 0;
 }
 

@@ -1,0 +1,90 @@
+// What a sample found at the pixels of a group, and the radiance that follows. Radiance is emission, and off Lambertian
+// surfaces the constant sky through the ambient occlusion, the sun, the emitters, and what photons brought. An effect that
+// is off is a constant of stride 0.
+#ifndef VX_FILM_GROUP_GLSL
+#define VX_FILM_GROUP_GLSL
+
+#include "lib/constants.glsl"
+#include "lib/frame_access.glsl"
+#include "lib/spheres.glsl"
+#include "lib/texel_planes.glsl"
+#include "shared/limits.h"
+
+VX_SPECIALIZED(uint, hits_stride, 1u);
+VX_SPECIALIZED(uint, ao_stride, 1u);
+VX_SPECIALIZED(uint, sun_stride, 1u);
+VX_SPECIALIZED(uint, direct_stride, 1u);
+VX_SPECIALIZED(uint, photons_stride, 1u);
+VX_SPECIALIZED(uint, weights_stride, 1u);
+VX_SPECIALIZED(uint, has_emission, 1u);
+
+layout(rgba32ui) readonly uniform uimageBuffer Materials;
+layout(rgba32ui) readonly uniform uimageBuffer Hits;
+layout(rgba32ui) readonly uniform uimageBuffer Ao;
+layout(rgba32ui) readonly uniform uimageBuffer Sun;
+layout(rgba32ui) readonly uniform uimageBuffer Direct;
+layout(rgba32ui) readonly uniform uimageBuffer Photons;
+layout(rgba32ui) readonly uniform uimageBuffer Weights;
+
+const uint kMaterialAlbedo = 0u;  // texels of a material
+const uint kMaterialEmission = 1u;
+
+// Of no meaning for a miss.
+vec3 material_vector(Hit hit, uint texel) {
+    uint material = is_surface(hit) ? hit.material : 0u;
+    return uintBitsToFloat(VX_TEXEL(Materials, kMaterialTexels * material + texel).xyz);
+}
+
+// What the film takes of the pixels of a group. Those outside the tile have nothing to add.
+struct Group {
+    bool inside[kGroupPixels];
+    Hit hits[kGroupPixels];
+    vec3 albedo[kGroupPixels];
+    vec3 weights[kGroupPixels];
+    vec3 photons[kGroupPixels];
+    vec4 ao;
+    vec4 sun;
+    vec3 direct[kGroupPixels];
+};
+
+// Takes the hits, and what they hit. Pixels outside are misses.
+void set_hits(inout Group group, Hit hits[kGroupPixels]) {
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        if (!group.inside[k]) hits[k].face = kFaceMiss;
+        group.albedo[k] = material_vector(hits[k], kMaterialAlbedo);
+    }
+    group.hits = hits;
+}
+
+// Group `at` of the tile; the pixels of the tile are those from `first` to before `end`, numbered in its planes.
+Group load_group(uint at, uint first, uint end) {
+    Group group;
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        uint pixel = kGroupPixels * at + k;
+        group.inside[k] = pixel >= first && pixel < end;
+    }
+    Hit hits[kGroupPixels] = VX_GROUP_HITS(Hits, at, hits_stride);
+    set_hits(group, hits);
+    group.ao = VX_GROUP_FLOATS(Ao, at, ao_stride);
+    group.sun = VX_GROUP_FLOATS(Sun, at, sun_stride);
+    group.direct = VX_GROUP_VECTORS(Direct, at, direct_stride);
+    group.photons = VX_GROUP_VECTORS(Photons, at, photons_stride);
+    group.weights = VX_GROUP_VECTORS(Weights, at, weights_stride);
+    return group;
+}
+
+vec3 radiance(Group group, uint k) {
+    Hit hit = group.hits[k];
+    vec3 radiance = frame.sky_radiance;
+    if (is_surface(hit)) {
+        vec3 ambient = frame.sky_radiance * group.ao[k];
+        vec3 sunlight = frame.sun_irradiance * (group.sun[k] * kInversePi);
+        vec3 emitter_light = group.direct[k] + kInversePi * group.photons[k];
+        vec3 emission = has_emission != 0u ? material_vector(hit, kMaterialEmission) : vec3(0.0);
+        if (hit.face == kFaceSphereInside) emission = vec3(0.0);
+        radiance = emission + group.albedo[k] * (ambient + sunlight + emitter_light);
+    }
+    return radiance * group.weights[k];
+}
+
+#endif
