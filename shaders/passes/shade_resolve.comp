@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Radiance of each camera ray: emission, and off Lambertian surfaces the constant sky through the ambient occlusion, the
-// sun, the emitters, and what photons brought. An effect that is off is a constant of stride 0.
+// Radiance of each camera ray: emission, and off Lambertian surfaces the light of the sky (a constant one through the
+// ambient occlusion), the sun, the emitters, and what photons brought. An effect that is off is a constant of stride 0.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -15,6 +15,7 @@
 
 VX_SPECIALIZED(uint, hits_stride, 1u);
 VX_SPECIALIZED(uint, ao_stride, 1u);
+VX_SPECIALIZED(uint, sky_stride, 0u);  // 0: the sky is constant
 VX_SPECIALIZED(uint, sun_stride, 1u);
 VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
@@ -28,6 +29,9 @@ layout(scalar) readonly buffer Materials {
 };
 layout(scalar) readonly buffer Ao {
     float ao[];
+};
+layout(scalar) readonly buffer SkyLight {
+    vec3 sky_light[];
 };
 layout(scalar) readonly buffer Sun {
     float sun[];
@@ -50,10 +54,10 @@ void main() {
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index * hits_stride];
     bool is_hit = hit.face <= kFaceSphereInside;
-    vec3 radiance = frame.sky_radiance;
+    vec3 radiance = sky_stride == 0u ? frame.sky_radiance : sky_light[pixel.index];
     if (is_hit) {
         SurfaceMaterial material = materials[hit.material];
-        vec3 ambient = frame.sky_radiance * ao[pixel.index * ao_stride];
+        vec3 ambient = sky_stride == 0u ? frame.sky_radiance * ao[pixel.index * ao_stride] : radiance;
         vec3 sunlight = frame.sun_irradiance * (sun[pixel.index * sun_stride] * kInversePi);
         vec3 emitter_light = direct[pixel.index * direct_stride] + kInversePi * photons[pixel.index * photons_stride];
         vec3 emission = hit.face == kFaceSphereInside ? vec3(0.0) : material.emission;

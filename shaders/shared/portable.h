@@ -37,11 +37,13 @@ using glm::clamp;
 using glm::cross;
 using glm::distance;
 using glm::dot;
+using glm::exp;
 using glm::floor;
 using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
+using glm::pow;
 using std::acos;
 using std::cos;
 using std::isinf;
@@ -58,6 +60,9 @@ inline float uintBitsToFloat(uint bits) {
     float x;
     std::memcpy(&x, &bits, sizeof x);
     return x;
+}
+inline float atan(float y, float x) {
+    return std::atan2(y, x);
 }
 inline uint bitfieldReverse(uint v) {
     v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);

@@ -8,6 +8,7 @@ namespace voxilux {
 struct ShadeInputs {
     Plane hits;
     Plane ao;
+    Plane sky;  // of an atmosphere: what misses see, and what hits receive over pi; else a constant
     Plane sun;
     Plane direct;   // irradiance / pi, of emitters
     Plane photons;  // irradiance, of photons
