@@ -3,10 +3,10 @@
 #define VX_SKY_BUILD_GLSL
 
 layout(scalar) readonly buffer Scatter {
-    float scatter[];
+    uint scatter[];
 };
 
-float load_scatter(uint i) {
+uint load_scatter(uint i) {
     return scatter[i];
 }
 

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
     SkyScatterPush push;
 };
 layout(scalar) writeonly buffer NextScatter {
-    vec3 next_scatter[];
+    uint next_scatter[];
 };
 
 void main() {
@@ -20,6 +20,6 @@ void main() {
     if (i >= kScatterTexels) return;
     SkyHarmonics texel = scatter_texel(push.air, scatter_height(i / kScatterCosines),
                                        scatter_cosine(i % kScatterCosines), push.is_first != 0u);
-    for (uint k = 0u; k < kSkyHarmonics; ++k)
-        next_scatter[kSkyHarmonics * i + k] = texel.c[k];
+    for (uint word = 0u; word < kTexelWords; ++word)
+        next_scatter[kTexelWords * i + word] = scatter_word(texel, word);
 }

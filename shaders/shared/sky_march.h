@@ -25,6 +25,8 @@ VX_CONST(float, kScatterMiddle, -0.06f);
 VX_CONST(float, kScatterWidth, 0.25f);
 VX_CONST(float, kScatterFirst, -0.489795918f);  // (-0.3 - middle) / (|-0.3 - middle| + width)
 VX_CONST(float, kScatterLast, 0.809160305f);    // of cosine 1
+// The sun's cosine, at or below which there is no light: that of the first column.
+VX_CONST(float, kScatterDark, -0.2999f);
 // Nodes of a stretch of a ray: 6 Gauss points times the panels.
 VX_CONST(uint, kGaussNodes, 6u);
 VX_CONST_LIST(float, kGaussNode, 6) = {0.0337652429f, 0.1693953068f, 0.3806904070f,
@@ -73,13 +75,22 @@ VX_FN float scatter_cosine(uint column) {
     return min(kScatterMiddle + kScatterWidth * u / (1.0f - abs(u)), 1.0f);
 }
 
-VX_FN vec3 scatter_word(VX_SKY_PARAM uint texel, uint harmonic) {
-    const uint first = 3u * (texel * kSkyHarmonics + harmonic);
-    return vec3(load_scatter(VX_SKY_ARG first), load_scatter(VX_SKY_ARG first + 1u),
-                load_scatter(VX_SKY_ARG first + 2u));
+// Two harmonics of a texel are three words of half floats.
+VX_FN SkyHarmonics scatter_entry(VX_SKY_PARAM uint texel, float weight) {
+    SkyHarmonics entry;
+    for (uint pair = 0u; pair < kSkyHarmonics / 2u; ++pair) {
+        const uint first = 3u * (texel * (kSkyHarmonics / 2u) + pair);
+        const vec2 a = unpackHalf2x16(load_scatter(VX_SKY_ARG first));
+        const vec2 b = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 1u));
+        const vec2 c = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 2u));
+        entry.c[2u * pair] = weight * vec3(a.x, a.y, b.x);
+        entry.c[2u * pair + 1u] = weight * vec3(b.y, c.x, c.y);
+    }
+    return entry;
 }
 
-// What arrives at a height when the sun is at a cosine, as the factors of the harmonics.
+// What arrives at a height when the sun is at a cosine, as the factors of the harmonics. Linear on the
+// triangles of the table: most of the time of a march are loads, and a triangle has three corners.
 VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
     const float row = sqrt(clamp(h / kAirTop, 0.0f, 1.0f)) * float(kScatterHeights - 1u);
     const float away = sun - kScatterMiddle;
@@ -89,14 +100,16 @@ VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
     const uint j = min(uint(column), kScatterCosines - 2u);
     const float v = row - float(i);
     const float w = column - float(j);
+    const bool is_low = v + w <= 1.0f;
     const uint texel = i * kScatterCosines + j;
-    SkyHarmonics found;
-    for (uint k = 0u; k < kSkyHarmonics; ++k) {
-        const vec3 low = mix(scatter_word(VX_SKY_ARG texel, k), scatter_word(VX_SKY_ARG texel + 1u, k), w);
-        const vec3 high = mix(scatter_word(VX_SKY_ARG texel + kScatterCosines, k),
-                              scatter_word(VX_SKY_ARG texel + kScatterCosines + 1u, k), w);
-        found.c[k] = mix(low, high, v);
-    }
+    const float unit = 1.0f / kScatterScale;
+    SkyHarmonics found =
+        scatter_entry(VX_SKY_ARG is_low ? texel : texel + kScatterCosines + 1u, unit * abs(1.0f - v - w));
+    const SkyHarmonics next = scatter_entry(VX_SKY_ARG texel + 1u, unit * (is_low ? w : 1.0f - v));
+    const SkyHarmonics above =
+        scatter_entry(VX_SKY_ARG texel + kScatterCosines, unit * (is_low ? v : 1.0f - w));
+    for (uint k = 0u; k < kSkyHarmonics; ++k)
+        found.c[k] += next.c[k] + above.c[k];
     return found;
 }
 
@@ -117,10 +130,10 @@ VX_FN vec3 diffuse_irradiance(SkyHarmonics light) {
 }
 
 // Radiance of the ground where the sun has this cosine.
-VX_FN vec3 ground_radiance(VX_SKY_PARAM Air air, float sun) {
-    const vec3 direct = max(sun, 0.0f) * transmittance_out(air, 0.0f, sun);
-    return (air.ground_albedo * kInversePi) *
-           (direct + diffuse_irradiance(scatter_lookup(VX_SKY_ARG 0.0f, sun)));
+VX_FN vec3 ground_radiance(VX_SKY_PARAM Air air, float sun, bool has_table) {
+    vec3 irradiance = max(sun, 0.0f) * transmittance_out(air, 0.0f, sun);
+    if (has_table) irradiance += diffuse_irradiance(scatter_lookup(VX_SKY_ARG 0.0f, sun));
+    return (air.ground_albedo * kInversePi) * irradiance;
 }
 
 // Where a ray is cut, in rising order: at its lowest point and where it enters and leaves the planet's
@@ -145,8 +158,8 @@ VX_FN vec3 air_cuts(AirRay ray, float end) {
     return vec3(min(turn, into), max(min(turn, out_of), into), max(turn, out_of));
 }
 
-// The march. `panels` sets the number of nodes.
-VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels) {
+// The march. `panels` sets the number of nodes. Without a table only the sun lights air and ground.
+VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels, bool has_table) {
     const float h = ray.height;
     const float r = kGroundRadius + h;
     const bool is_ground = hits_ground(h, ray.cosine);
@@ -192,6 +205,7 @@ VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels) {
             light.rayleigh += sunlight * rayleigh;
             light.mie += sunlight * aerosol;
             light.scatters += reaches * (rayleigh + vec3(aerosol));
+            if (!has_table) continue;
             const float horizontal = sqrt(max(1.0f - sun * sun, 1e-8f));
             light.multiple += reaches * scattered_light(scatter_lookup(VX_SKY_ARG height, sun), cosine,
                                                         (ray.sun_angle - cosine * sun) / horizontal,
@@ -203,7 +217,7 @@ VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels) {
         const float steep = clamp(-(r * ray.cosine + end) / kGroundRadius, 0.0f, 1.0f);
         const float sun = clamp((r * ray.sun + end * ray.sun_angle) / kGroundRadius, -1.0f, 1.0f);
         light.ground = air_transmittance(air, max(columns_up(0.0f, steep) - start_columns, vec3(0.0f))) *
-                       ground_radiance(VX_SKY_ARG air, sun);
+                       ground_radiance(VX_SKY_ARG air, sun, has_table);
     }
     light.multiple = max(light.multiple, vec3(0.0f));
     return light;

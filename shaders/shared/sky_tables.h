@@ -37,12 +37,13 @@ VX_FN ScatterRay scatter_ray(float horizon, uint number) {
 }
 
 // The texel at a height and a cosine of the sun: what arrives there by way of the table as it is. In the
-// first round the table is empty, and the light scattered once stands for all orders by the geometric series
+// first round there is none, and the light scattered once stands for all orders by the geometric series
 // of Hillaire 2020 (equation 10).
 VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool is_first) {
     SkyHarmonics sum;
     for (uint k = 0u; k < kSkyHarmonics; ++k)
         sum.c[k] = vec3(0.0f);
+    if (sun <= kScatterDark) return sum;
     vec3 scatters = vec3(0.0f);
     const float horizontal = sqrt(max(1.0f - sun * sun, 0.0f));
     const float horizon = horizon_elevation(h);
@@ -53,7 +54,7 @@ VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool 
         ray.cosine = way.cosine;
         ray.sun = sun;
         ray.sun_angle = clamp(way.cosine * sun + way.across * horizontal, -1.0f, 1.0f);
-        const AirLight light = march_air(VX_SKY_ARG air, ray, 1u);
+        const AirLight light = march_air(VX_SKY_ARG air, ray, 1u, !is_first);
         const vec3 radiance = light.rayleigh * rayleigh_phase(ray.sun_angle) +
                               light.mie * mie_phase(air.mie_g, ray.sun_angle) + light.multiple + light.ground;
         const vec3 part = way.weight * radiance;
@@ -78,13 +79,19 @@ VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool 
     return sum;
 }
 
+// A word of a texel as the table keeps it.
+VX_FN uint scatter_word(SkyHarmonics texel, uint word) {
+    const uint first = 2u * word;  // of the texel's 18 numbers
+    const uint second = first + 1u;
+    const float a = texel.c[first / 3u][first % 3u];
+    const float b = texel.c[second / 3u][second % 3u];
+    return packHalf2x16(kScatterScale * vec2(a, b));
+}
+
 struct ViewTexel {
     vec3 light;  // but for what aerosol scattered once
     vec3 mie;    // that, over its phase function
 };
-
-// Panels of the march: order 1 of every direction of our oracle is within 1 %.
-VX_CONST(uint, kViewPanels, 4u);
 
 VX_FN ViewTexel view_texel(VX_SKY_PARAM SkyParams sky, uint row, uint column) {
     const float elevation = view_elevation(sky, row);
@@ -99,7 +106,7 @@ VX_FN ViewTexel view_texel(VX_SKY_PARAM SkyParams sky, uint row, uint column) {
     texel.light = texel.mie = vec3(0.0f);
     const float way = distance_to_air(ray.height, ray.cosine);
     if (way < 0.0f) return texel;
-    const AirLight light = march_air(VX_SKY_ARG sky.air, ray_after(ray, way), kViewPanels);
+    const AirLight light = march_air(VX_SKY_ARG sky.air, ray_after(ray, way), kViewPanels, true);
     texel.light = light.rayleigh * rayleigh_phase(ray.sun_angle) + light.multiple + light.ground;
     texel.mie = light.mie;
     return texel;

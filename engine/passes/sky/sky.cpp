@@ -22,8 +22,8 @@ std::string faces_buffer(Recording& recording) {
 
 // Rounds read one buffer and write the other. The name of the last one written.
 std::string record_sky_scatter(const gpu::Air& air, Recording& recording) {
-    std::string read = declare<float>(recording, "sky.scatter", gpu::kScatterWords);
-    std::string write = declare<float>(recording, "sky.next_scatter", gpu::kScatterWords);
+    std::string read = declare<gpu::uint>(recording, "sky.scatter", gpu::kScatterWords);
+    std::string write = declare<gpu::uint>(recording, "sky.next_scatter", gpu::kScatterWords);
     recording.clear(read);
     for (gpu::uint round = 0; round <= gpu::kScatterRounds; ++round) {
         recording.dispatch({.label = "sky.scatter",
