@@ -146,8 +146,7 @@ void visit_settings(Sun& sun, auto&& visit) {
     visit({"azimuth", kTurn, "degrees counter-clockwise from +x, seen from above"}, azimuth_deg);
     visit({"elevation", kPitch, "degrees above the horizon"}, elevation_deg);
     visit({"angular_diameter", below(0, 180), "degrees; 0 gives hard shadows"}, angular_diameter_deg);
-    visit({"irradiance", kLight, "on a surface that faces the sun; above an atmosphere, where there is one"},
-          irradiance);
+    visit({"irradiance", kLight, "on a surface that faces the sun, above any air"}, irradiance);
     visit({"on", {}, "whether it shines"}, on);
 }
 

@@ -13,6 +13,9 @@ namespace voxilux::gpu {
 inline uint load_scatter(const std::vector<std::uint32_t>& scatter, uint i) {
     return scatter[i];
 }
+inline float load_share(const std::vector<float>& shares, uint i) {
+    return shares[i];
+}
 inline vec3 load_view(const std::vector<vec3>& view, uint i) {
     return view[i];
 }
@@ -23,12 +26,17 @@ inline vec3 load_view(const std::vector<vec3>& view, uint i) {
 #define VX_SKY_ARG scatter,
 #define VX_VIEW_PARAM const std::vector<::voxilux::gpu::vec3>&view,
 #define VX_VIEW_ARG view,
+#define VX_SAMPLE_PARAM const std::vector<float>&shares,
+#define VX_SAMPLE_ARG shares,
 #include "shared/sky_lookup.h"
+#include "shared/sky_sample.h"
 #include "shared/sky_tables.h"
 #undef VX_SKY_PARAM
 #undef VX_SKY_ARG
 #undef VX_VIEW_PARAM
 #undef VX_VIEW_ARG
+#undef VX_SAMPLE_PARAM
+#undef VX_SAMPLE_ARG
 
 namespace voxilux::test {
 
@@ -60,6 +68,34 @@ inline std::vector<glm::vec3> view_table(const ScatterTable& scatter, const gpu:
         view.push_back(texel.mie);
     }
     return view;
+}
+
+// The distributions of sky.columns and sky.rows.
+inline std::vector<float> sky_shares(const std::vector<glm::vec3>& view, const gpu::SkyParams& sky) {
+    std::vector<float> shares(gpu::kSkyShares);
+    const auto sum_up = [&](std::size_t first, const auto& weight) {
+        float total = 0.0f, sum = 0.0f;
+        for (gpu::uint i = 0; i < gpu::kSkyBins; ++i)
+            total += weight(i);
+        for (gpu::uint i = 0; i < gpu::kSkyBins; ++i) {
+            sum += weight(i);
+            shares[first + i] = gpu::summed_share(sum, total, i);
+        }
+        return total;
+    };
+    for (gpu::uint face = 0; face < gpu::kFaceCount; ++face) {
+        const std::size_t first = std::size_t{face} * gpu::kFaceShares;
+        std::vector<float> totals(gpu::kSkyBins);
+        for (gpu::uint row = 0; row < gpu::kSkyBins; ++row) {
+            totals[row] = sum_up(first + gpu::kSkyBins * (1 + row), [&](gpu::uint column) {
+                const glm::vec3 light =
+                    gpu::sky_radiance(view, sky, gpu::bin_direction(row, column, glm::vec2(0.5f)));
+                return gpu::bin_weight(face, row, column, light.x + light.y + light.z);
+            });
+        }
+        (void)sum_up(first, [&](gpu::uint row) { return totals[row]; });
+    }
+    return shares;
 }
 
 // The march of a direction, per unit of the sun's irradiance: elevation and azimuth from the sun in degrees.

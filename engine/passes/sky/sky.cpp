@@ -2,6 +2,7 @@
 
 #include "scene/atmosphere.h"
 #include "shared/sampling.h"
+#include "shared/sky_bins.h"
 
 namespace voxilux {
 namespace {
@@ -36,6 +37,41 @@ std::string record_sky_scatter(const gpu::Air& air, Recording& recording) {
     return read;
 }
 
+std::string shares_buffer(Recording& recording) {
+    return declare<float>(recording, "sky.shares", gpu::kSkyShares, Lifetime::persistent);
+}
+
+// The distributions from which sky.trace draws directions.
+void record_sky_shares(const RenderPlan& plan, Recording& recording) {
+    const std::string bins = declare<float>(recording, "sky.bins", gpu::kSkyBins * gpu::kSkyBins);
+    const std::string rows = declare<float>(recording, "sky.rows", gpu::kFaceCount * gpu::kSkyBins);
+    const std::string shares = shares_buffer(recording);
+    recording.dispatch({.label = "sky.bins",
+                        .shader = "sky_bins",
+                        .extent = {gpu::kSkyBins * gpu::kSkyBins, 1, 1},
+                        .bindings = {{"Sky", params_buffer(recording)},
+                                     {"SkyView", view_buffer(plan, recording)},
+                                     {"SkyBins", bins}}});
+    recording.dispatch({.label = "sky.columns",
+                        .shader = "sky_columns",
+                        .extent = {gpu::kFaceCount * gpu::kSkyBins, 1, 1},
+                        .bindings = {{"SkyBins", bins}, {"SkyRows", rows}, {"SkyShares", shares}}});
+    recording.dispatch({.label = "sky.rows",
+                        .shader = "sky_rows",
+                        .extent = {gpu::kFaceCount, 1, 1},
+                        .bindings = {{"SkyRows", rows}, {"SkyShares", shares}}});
+}
+
+// The light of all of the sky, for occlusion that is known.
+void record_sky_faces(const RenderPlan& plan, Recording& recording) {
+    recording.dispatch({.label = "sky.faces",
+                        .shader = "sky_faces",
+                        .extent = {gpu::kFaceCount, 1, 1},
+                        .bindings = {{"Sky", params_buffer(recording)},
+                                     {"SkyView", view_buffer(plan, recording)},
+                                     {"SkyFaces", faces_buffer(recording)}}});
+}
+
 Constant direction_constant(const RenderPlan& plan) {
     return {"misses_have_direction", plan.has(Effect::specular) ? 1u : 0u};
 }
@@ -53,12 +89,9 @@ void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& rec
                         .extent = {gpu::view_texels(plan.sky_resolution), 1, 1},
                         .bindings = {{"Scatter", scatter}, {"SkyView", view_buffer(plan, recording)}},
                         .push = to_bytes(sky)});
-    recording.dispatch({.label = "sky.faces",
-                        .shader = "sky_faces",
-                        .extent = {gpu::kFaceCount, 1, 1},
-                        .bindings = {{"Sky", params_buffer(recording)},
-                                     {"SkyView", view_buffer(plan, recording)},
-                                     {"SkyFaces", faces_buffer(recording)}}});
+    // Both, because variants of a plan without occlusion or with cells are rendered on what it has built.
+    record_sky_shares(plan, recording);
+    record_sky_faces(plan, recording);
 }
 
 bool traces_sky(const RenderPlan& plan) {
@@ -78,6 +111,7 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Sky", params_buffer(recording)},
                                    {"SkyView", view_buffer(plan, recording)},
+                                   {"SkyShares", shares_buffer(recording)},
                                    {"Hits", hits.buffer},
                                    {"Ao", planes.ao.buffer},
                                    {"SkyLight", planes.light.buffer}},

@@ -6,7 +6,8 @@
 namespace voxilux {
 
 // Builds what an atmosphere looks like from the scene, for all frames under this sun: its parameters, the
-// table of its radiance, and the irradiance of the six faces. Nothing where the plan has none.
+// table of its radiance, the distributions from which rays towards it are drawn, and the irradiance of the
+// six faces. Nothing where the plan has none.
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording);
 
 // Whether rays find the light of the atmosphere together with its occlusion. Otherwise occlusion comes first.
