@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"frames_no_range", with({"--frames", "1..3"}), "--frames: '1..3' is not FIRST-LAST"},
         Refused{"frames_of_a_still", with({"--frames", "1-3"}), "--frames: the scene is still"},
         Refused{"frame_and_frames", with({"--frame", "1", "--frames", "1-3"}), "--frame"},
-        Refused{"exposure", with({"--exposure", "nan"}), "--exposure: nan is not a number of stops"},
+        Refused{"exposure", with({"--exposure", "nan"}), "--exposure: nan is not a number of stops, nor auto"},
         Refused{"tone", with({"--tone", "warm"}), "--tone: 'warm' is not filmic or plain"},
         Refused{"group_size", with({"--group-size", "8"}), "--group-size: '8' is not"},
         Refused{"device", with({"--device", "no such"}), "--device no such: no such device; there are: 0: "},
