@@ -209,9 +209,12 @@ ProgressMode parse_progress(std::string_view name) {
     return parse_word("--progress", name, kNames, "auto, never or json");
 }
 
-float checked_exposure(float ev) {
-    if (!std::isfinite(ev)) refuse(fmt::format("--exposure: {} is not a number of stops", ev));
-    return ev;
+std::optional<float> parse_exposure(std::string_view text) {
+    if (text == "auto") return {};
+    const auto number = leading_number(text);
+    if (number && number->second.empty() && std::isfinite(static_cast<float>(number->first)))
+        return static_cast<float>(number->first);
+    refuse(fmt::format("--exposure: {} is not a number of stops, nor auto", text));
 }
 
 std::int64_t checked_range(std::string_view flag, std::int64_t value, std::int64_t low, std::int64_t high) {

@@ -52,7 +52,7 @@ namespace voxilux {
                                          std::int64_t high);
 
 // A number of stops.
-[[nodiscard]] float checked_exposure(float ev);
+[[nodiscard]] std::optional<float> parse_exposure(std::string_view text);  // none: automatic
 
 // filmic or plain; auto, never or json.
 [[nodiscard]] ToneMap parse_tone(std::string_view name);

@@ -42,13 +42,29 @@ float tone_map(float linear, ToneMap curve) {
     return curve == ToneMap::filmic ? filmic(linear) : std::min(linear, 1.0f);
 }
 
+float automatic_exposure_ev(const Image& image) {
+    constexpr double kMiddleGrey = 0.18;
+    const auto planes = colour_planes(image);
+    VX_ASSERT(planes.has_value());
+    double stops = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < (*planes)[0].size(); ++i) {
+        const double light =
+            luminance(std::array<double, 3>{(*planes)[0][i], (*planes)[1][i], (*planes)[2][i]});
+        if (!(light > 0.0) || std::isinf(light)) continue;
+        stops += std::log2(light);
+        count += 1.0;
+    }
+    return count > 0.0 ? static_cast<float>(std::log2(kMiddleGrey) - stops / count) : 0.0f;
+}
+
 DisplayImage to_display(const Image& image, const ToneMapOptions& options) {
     const auto planes = colour_planes(image);
     VX_ASSERT(planes.has_value());
     const std::array<std::string, 3> names = {"R", "G", "B"};
     DisplayImage display{.image = make_image(image.width, image.height, names)};
     display.image.display_referred = true;
-    const float scale = std::min(std::exp2(options.exposure_ev), std::numeric_limits<float>::max());
+    const float ev = options.exposure_ev ? *options.exposure_ev : automatic_exposure_ev(image);
+    const float scale = std::min(std::exp2(ev), std::numeric_limits<float>::max());
     const std::array<float, 256> decoded = decoded_srgb_codes();
     const std::array<float, 3> magenta = {1.0f, 0.0f, 1.0f};
     for (std::size_t c = 0; c < names.size(); ++c) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "formats/image.h"
 
@@ -10,8 +11,9 @@ enum class ToneMap : std::uint8_t { plain, filmic };
 
 struct ToneMapOptions {
     ToneMap curve = ToneMap::filmic;
-    float exposure_ev = 0.0f;  // stops: colours are multiplied by 2^exposure_ev
-    bool debug_nan = false;    // a pixel with a NaN becomes magenta instead of black
+    std::optional<float> exposure_ev =
+        0.0f;                // stops: colours are multiplied by 2^exposure_ev; none: automatic
+    bool debug_nan = false;  // a pixel with a NaN becomes magenta instead of black
 };
 
 // An image for the screen, and how many values had no place on it.
@@ -26,6 +28,11 @@ struct DisplayImage {
 // rational fit of the ACES reference by K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016), with its
 // pre-exposure of 0.6.
 [[nodiscard]] float tone_map(float linear, ToneMap curve);
+
+// The exposure in stops that shows the geometric mean of the luminances of an image as middle grey, 0.18
+// (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", section 3). Pixels that are
+// black or not finite do not count; without others it is 0. Needs R G B or Y (asserted).
+[[nodiscard]] float automatic_exposure_ev(const Image& image);
 
 // Exposes, tone maps and rounds to 8-bit sRGB codes; the result holds their decoded values, so write_png
 // stores just these codes. Needs R G B or Y (asserted).

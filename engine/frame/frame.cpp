@@ -8,6 +8,7 @@
 #include "passes/photons/photons.h"
 #include "passes/primary/primary.h"
 #include "passes/primary/sphere.h"
+#include "passes/sky/sky.h"
 #include "passes/specular/specular.h"
 #include "passes/upload.h"
 #include "plan/film_planes.h"
@@ -58,6 +59,16 @@ AoStep ao_step(const RenderPlan& plan, const gpu::FrameParams& params, const Sam
                       is_sweep_frame(plan, state.frames_done, state.live_cells)};
 }
 
+// A constant sky is a constant light and its occlusion.
+SkyPlanes record_sky(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const AoStep& step,
+                     Recording& rec) {
+    if (traces_sky(plan)) return record_sky_trace(plan, tile, hits, rec);
+    const Plane ao =
+        plan.has(Effect::ao) ? record_ao(plan, tile, hits, step, rec) : constant_value(1.0f, rec);
+    if (plan.has_atmosphere()) return {record_sky_resolve(plan, tile, hits, ao, rec), ao};
+    return {constant_value(0.0f, rec), ao};
+}
+
 }  // namespace
 
 void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FrameParams params,
@@ -78,16 +89,19 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, tile, voxels, rec) : voxels;
     const SpecularPlanes seen = plan.has(Effect::specular) ? record_specular_trace(plan, tile, hits, rec)
                                                            : SpecularPlanes{hits, constant_value(1.0f, rec)};
-    const Plane ao = plan.has(Effect::ao)
-                         ? record_ao(plan, tile, seen.hits, ao_step(plan, params, number), rec)
-                         : constant_value(1.0f, rec);
+    const SkyPlanes sky = record_sky(plan, tile, seen.hits, ao_step(plan, params, number), rec);
     const Plane sun =
         plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, tile, seen.hits, rec)
                                                   : constant_value(0.0f, rec);
     const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
-    const FilmInputs inputs{
-        .first_hits = hits, .seen = seen, .ao = ao, .sun = sun, .direct = direct, .photons = photons};
+    const FilmInputs inputs{.first_hits = hits,
+                            .seen = seen,
+                            .ao = sky.ao,
+                            .sky = sky.light,
+                            .sun = sun,
+                            .direct = direct,
+                            .photons = photons};
     record_film_add(plan, tile, inputs, sample, number.keeps_color, rec);
     if (plan.has(Effect::aov) && sample == number.first) record_aov_position(plan, tile, hits, rec);
 }

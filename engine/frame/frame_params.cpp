@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "frame/frame.h"
+#include "scene/atmosphere.h"
 #include "scene/scene_camera.h"
 #include "shared/sampling.h"
 #include "shared/sequence.h"
@@ -60,9 +61,10 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.column_count = static_cast<gpu::uint>(settings.size.x);
     params.seed = settings.seed;
     params.ao_radius = settings.ao_radius;
-    params.sky_radiance = plan.has(Effect::sky) ? scene.sky.radiance : glm::vec3(0.0f);
+    params.sky_radiance =
+        plan.has(Effect::sky) && !plan.has_atmosphere() ? scene.sky.radiance : glm::vec3(0.0f);
     params.sun_direction = scene.sun.direction();
-    params.sun_irradiance = plan.has(Effect::sun) ? scene.sun.irradiance : glm::vec3(0.0f);
+    params.sun_irradiance = plan.has(Effect::sun) ? sunlight(scene) : glm::vec3(0.0f);
     params.sun_cone_height =
         gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
     place_lights(params, plan);

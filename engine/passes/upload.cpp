@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/plane.h"
+#include "passes/sky/sky.h"
 #include "passes/world.h"
 #include "plan/film_planes.h"
 #include "scene/lobe_weights.h"
@@ -54,6 +55,7 @@ void record_scene_upload(const RenderPlan& plan, const Scene& scene, const March
 
 void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
                              const LightList& lights, Recording& recording) {
+    record_sky_build(plan, scene, recording);
     if (plan.has(Effect::spheres)) {
         std::vector<gpu::SphereRecord> records;
         for (const std::uint32_t number : sphere_order(scene))

@@ -6,11 +6,11 @@
 
 namespace voxilux {
 
-// Puts the scene on the device: world, materials, spheres, emitters, whatever the plan has.
+// Puts the scene on the device: world, sky, materials, spheres, emitters, whatever the plan has.
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording);
 
-// Of the above what depends on which effects run, and not on the voxels: materials, spheres, emitters.
+// Of the above what depends on which effects run, and not on the voxels: sky, materials, spheres, emitters.
 void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
                              const LightList& lights, Recording& recording);
 

@@ -43,8 +43,9 @@ Verdict judge_sun(const SceneFacts& facts, const EffectRequest&) {
 }
 
 Verdict judge_sky(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_sky && facts.has_atmosphere) return {false, false, "the atmosphere has no sun"};
     if (!facts.has_sky) return {false, false, "the sky is black"};
-    return {true, true, "constant sky radiance"};
+    return {true, true, facts.has_atmosphere ? "an atmosphere scatters sunlight" : "constant sky radiance"};
 }
 
 Verdict judge_emission(const SceneFacts& facts, const EffectRequest&) {

@@ -6,6 +6,7 @@
 #include "base/checked_cast.h"
 #include "base/error.h"
 #include "plan/film_planes.h"
+#include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
 #include "shared/gpu_types.h"
 
@@ -96,6 +97,9 @@ void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     plan.tile_rows = std::min(plan.film_tile_rows, max_rows);  // groups may be one row high
 }
 
+// Share of light below which the air between surfaces is not worth a word.
+constexpr float kVisibleHaze = 0.001f;
+
 void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
                                   static_cast<std::uint64_t>(plan.settings.size.y) * plan.samples();
@@ -105,7 +109,14 @@ void count_rays(RenderPlan& plan) {
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
-void add_notes(RenderPlan& plan, const SceneFacts& facts) {
+void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
+    if (plan.has_atmosphere()) {
+        const float lost = haze(scene, glm::length(glm::dvec3(facts.extent)));
+        if (lost >= kVisibleHaze)
+            plan.notes.push_back(
+                fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
+                            100.0f * lost));
+    }
     if (plan.has(Effect::sky) && (facts.has_glass || facts.has_metal))
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
     plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
@@ -156,13 +167,14 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
+    if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
     if (plan.has(Effect::caustics) || plan.has(Effect::indirect)) {
         plan.photons = plan_photons(plan.settings.photons,
                                     {.lights = world.lights,
                                      .has_emitters = plan.has(Effect::emission),
                                      .has_sun = plan.has(Effect::sun),
                                      .keeps_indirect = plan.has(Effect::indirect),
-                                     .sun_irradiance = scene.sun.irradiance,
+                                     .sun_irradiance = sunlight(scene),
                                      .pixels = pixels_of(plan.settings),
                                      .spheres = plan.sphere_count,
                                      .has_voxels = plan.has(Effect::voxels)},
@@ -181,7 +193,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     decide_sums(plan, request.wants_error);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
-    add_notes(plan, facts);
+    add_notes(plan, scene, facts);
     return plan;
 }
 

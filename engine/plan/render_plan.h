@@ -69,6 +69,7 @@ struct RenderPlan {
     std::uint32_t sphere_count = 0;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
+    std::uint32_t sky_resolution = 0;  // of the atmosphere; 0: the sky is constant
     PhotonPlan photons;                // all zero without caustics and indirect light
     bool sums_squares = false;         // of the beauty, for its variance
     bool sums_bias = false;            // of photons
@@ -81,6 +82,7 @@ struct RenderPlan {
     bool operator==(const RenderPlan&) const = default;
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    [[nodiscard]] bool has_atmosphere() const { return has(Effect::sky) && sky_resolution != 0; }
     // Whether a technique of the plan has a property, such as &Technique::shares_samples.
     template <class Property>
     [[nodiscard]] bool any(Property property) const {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
 
 namespace voxilux {
@@ -118,8 +119,10 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
         facts.extent = facts.box.extent();
         facts.fill_ratio = static_cast<double>(facts.voxel_count) / cell_count(facts.box);
     }
-    facts.sun_reaches = scene.sun.on && any_positive(scene.sun.irradiance) && scene.sun.direction().z > 0.0f;
-    facts.has_sky = any_positive(scene.sky.radiance);
+    facts.sun_reaches = any_positive(sunlight(scene));
+    facts.has_atmosphere = scene.sky.is_atmosphere();
+    facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
+                                         : any_positive(scene.sky.radiance);
     measure_materials(scene, std::move(voxels.used), facts);
     return facts;
 }
@@ -145,6 +148,7 @@ std::string describe(const SceneFacts& facts) {
     }
     line("sun reaches", yes_no(facts.sun_reaches));
     line("sky", yes_no(facts.has_sky));
+    if (facts.has_atmosphere) line("atmosphere", "yes");
     line("emitters", yes_no(facts.has_emitters));
     line("glass", yes_no(facts.has_glass));
     line("metal", yes_no(facts.has_metal));

@@ -24,8 +24,9 @@ struct SceneFacts {
 
     bool has_voxels = false;
     bool has_spheres = false;
-    bool sun_reaches = false;   // switched on, above the horizon, irradiance > 0
-    bool has_sky = false;       // radiance > 0
+    bool sun_reaches = false;  // switched on, above the horizon, irradiance > 0
+    bool has_sky = false;      // radiance > 0, or an atmosphere with a sun
+    bool has_atmosphere = false;
     bool has_emitters = false;  // a used material with emission > 0
     bool has_glass = false;     // a used material that lets light through
     bool has_metal = false;     // a used material with a polished share

@@ -11,6 +11,7 @@
 
 #include "scene/ao_settings.h"
 #include "scene/photon_settings.h"
+#include "scene/sky_settings.h"
 #include "scene/vox_file.h"
 
 namespace voxilux {
@@ -96,19 +97,15 @@ struct Sphere {
 };
 
 // Light from one direction. It is out when it is switched off, `irradiance` is zero, or the direction is not
-// above the horizon (z <= 0).
+// above the horizon (z <= 0, and that of the planet under an atmosphere): see sunlight().
 struct Sun {
     float azimuth_deg = 215.0f;              // counter-clockwise from +x, seen from above
     float elevation_deg = 45.0f;             // above the horizon
     float angular_diameter_deg = 0.53f;      // 0 gives hard shadows
-    glm::vec3 irradiance{3.0f, 2.8f, 2.5f};  // on a surface that faces the sun
+    glm::vec3 irradiance{3.0f, 2.8f, 2.5f};  // on a surface that faces the sun; above an atmosphere
     bool on = true;
 
     [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
-};
-
-struct Sky {
-    glm::vec3 radiance{0.55f, 0.7f, 1.0f};  // the same from every direction
 };
 
 // Pinhole. Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.

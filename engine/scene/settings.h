@@ -46,6 +46,8 @@ constexpr Range between(double low, double high) {
 inline constexpr Range kWhole{0, 4294967295};
 // Radiance and irradiance: far above any sun, and the square still fits a float.
 inline constexpr Range kLight{0, 1e6};
+// Multiples of the Earth's; at 100 no light gets through.
+inline constexpr Range kDensity{0, 100};
 // Degrees: ten turns, for the sake of animations.
 inline constexpr Range kTurn{-3600, 3600};
 inline constexpr Range kPitch{-90, 90};  // degrees
@@ -144,14 +146,24 @@ void visit_settings(Sun& sun, auto&& visit) {
     visit({"azimuth", kTurn, "degrees counter-clockwise from +x, seen from above"}, azimuth_deg);
     visit({"elevation", kPitch, "degrees above the horizon"}, elevation_deg);
     visit({"angular_diameter", below(0, 180), "degrees; 0 gives hard shadows"}, angular_diameter_deg);
-    visit({"irradiance", kLight, "on a surface that faces the sun"}, irradiance);
+    visit({"irradiance", kLight, "on a surface that faces the sun, above any air"}, irradiance);
     visit({"on", {}, "whether it shines"}, on);
 }
 
 void visit_settings(Sky& sky, auto&& visit) {
-    auto& [radiance] = sky;
-    visit({"radiance", kLight, "the same from every direction"}, radiance);
+    auto& [model, radiance, altitude_m, metres_per_voxel, rayleigh, mie, ozone, mie_g, ground_albedo,
+           resolution] = sky;
+    visit({"model", {}, "see Sky", kSkyModelNames}, model);
+    visit({"radiance", kLight, "of the constant sky, from every direction"}, radiance);
     visit({"color", {}, "the same in sRGB"}, HexColour{radiance, "radiance"});
+    visit({"altitude", {0, 1e6}, "of z = 0 above the planet's ground, metres"}, altitude_m);
+    visit({"metres_per_voxel", above(0, 1e6), "size of the scene in the air"}, metres_per_voxel);
+    visit({"rayleigh", kDensity, "density of the air; 1 is the Earth's"}, rayleigh);
+    visit({"mie", kDensity, "of aerosol"}, mie);
+    visit({"ozone", kDensity, "of ozone"}, ozone);
+    visit({"mie_g", {-0.99, 0.99}, "mean cosine of the angle by which aerosol scatters"}, mie_g);
+    visit({"ground_albedo", {0, 1}, "of the planet's ground"}, ground_albedo);
+    visit({"resolution", {16, 512}, "rows of the sky's table above the horizon"}, resolution);
 }
 
 void visit_settings(CameraPlacement& placement, auto&& visit) {

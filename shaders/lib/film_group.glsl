@@ -1,6 +1,6 @@
 // What a sample found at the pixels of a group, and the radiance that follows. Radiance is emission, and off Lambertian
-// surfaces the constant sky through the ambient occlusion, the sun, the emitters, and what photons brought. An effect that
-// is off is a constant of stride 0.
+// surfaces the light of the sky (a constant one through the ambient occlusion), the sun, the emitters, and what photons
+// brought. An effect that is off is a constant of stride 0.
 #ifndef VX_FILM_GROUP_GLSL
 #define VX_FILM_GROUP_GLSL
 
@@ -12,6 +12,7 @@
 
 VX_SPECIALIZED(uint, hits_stride, 1u);
 VX_SPECIALIZED(uint, ao_stride, 1u);
+VX_SPECIALIZED(uint, sky_stride, 0u);  // 0: the sky is constant
 VX_SPECIALIZED(uint, sun_stride, 1u);
 VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
@@ -21,6 +22,7 @@ VX_SPECIALIZED(uint, has_emission, 1u);
 layout(rgba32ui) readonly uniform uimageBuffer Materials;
 layout(rgba32ui) readonly uniform uimageBuffer Hits;
 layout(rgba32ui) readonly uniform uimageBuffer Ao;
+layout(rgba32ui) readonly uniform uimageBuffer SkyLight;
 layout(rgba32ui) readonly uniform uimageBuffer Sun;
 layout(rgba32ui) readonly uniform uimageBuffer Direct;
 layout(rgba32ui) readonly uniform uimageBuffer Photons;
@@ -42,6 +44,7 @@ struct Group {
     vec3 albedo[kGroupPixels];
     vec3 weights[kGroupPixels];
     vec3 photons[kGroupPixels];
+    vec3 sky[kGroupPixels];  // what misses see, and what hits receive over pi
     vec4 ao;
     vec4 sun;
     vec3 direct[kGroupPixels];
@@ -66,6 +69,12 @@ Group load_group(uint at, uint first, uint end) {
     Hit hits[kGroupPixels] = VX_GROUP_HITS(Hits, at, hits_stride);
     set_hits(group, hits);
     group.ao = VX_GROUP_FLOATS(Ao, at, ao_stride);
+    if (sky_stride != 0u) {
+        group.sky = VX_GROUP_VECTORS(SkyLight, at, sky_stride);
+    } else {
+        for (uint k = 0u; k < kGroupPixels; ++k)
+            group.sky[k] = frame.sky_radiance * (is_surface(group.hits[k]) ? group.ao[k] : 1.0);
+    }
     group.sun = VX_GROUP_FLOATS(Sun, at, sun_stride);
     group.direct = VX_GROUP_VECTORS(Direct, at, direct_stride);
     group.photons = VX_GROUP_VECTORS(Photons, at, photons_stride);
@@ -75,14 +84,13 @@ Group load_group(uint at, uint first, uint end) {
 
 vec3 radiance(Group group, uint k) {
     Hit hit = group.hits[k];
-    vec3 radiance = frame.sky_radiance;
+    vec3 radiance = group.sky[k];
     if (is_surface(hit)) {
-        vec3 ambient = frame.sky_radiance * group.ao[k];
         vec3 sunlight = frame.sun_irradiance * (group.sun[k] * kInversePi);
         vec3 emitter_light = group.direct[k] + kInversePi * group.photons[k];
         vec3 emission = has_emission != 0u ? material_vector(hit, kMaterialEmission) : vec3(0.0);
         if (hit.face == kFaceSphereInside) emission = vec3(0.0);
-        radiance = emission + group.albedo[k] * (ambient + sunlight + emitter_light);
+        radiance = emission + group.albedo[k] * (group.sky[k] + sunlight + emitter_light);
     }
     return radiance * group.weights[k];
 }

@@ -19,6 +19,16 @@ uvec2 ray_number(uvec2 first, uint i) {
     return uvec2(low, first.y + (low < i ? 1u : 0u));
 }
 
+// Where a ray takes its direction from, by its number in the pixel's stream.
+vec2 occlusion_point(uint stream, uvec2 number) {
+    return draw_2d(sample_key(stream, number, frame.seed), kPairOcclusion);
+}
+
+// Cosine-distributed off a hit.
+vec3 cosine_off(Hit hit, vec2 u) {
+    return is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
+}
+
 // Share of a pixel's cosine-weighted rays off its hit that meet nothing within the radius; `first` numbers the
 // first of them in the pixel's stream.
 float trace_visibility(Pixel pixel, Hit hit, uvec2 first) {
@@ -26,9 +36,7 @@ float trace_visibility(Pixel pixel, Hit hit, uvec2 first) {
     uint stream = pixel_stream(pixel);
     uint open = 0u;
     for (uint i = 0u; i < ao_rays; ++i) {
-        SampleKey key = sample_key(stream, ray_number(first, i), frame.seed);
-        vec2 u = draw_2d(key, kPairOcclusion);
-        vec3 direction = is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
+        vec3 direction = cosine_off(hit, occlusion_point(stream, ray_number(first, i)));
         open += is_occluded(ray_from(hit, direction, frame.ao_radius), own) ? 0u : 1u;
     }
     return float(open) / float(ao_rays);

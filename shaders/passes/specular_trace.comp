@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Follows each camera ray through mirrors and glass to the diffuse surface or the sky that is seen there. `t` of the
-// result is the length of the whole way. Which way a ray takes at glass is drawn anew in each sample.
+// result is the length of the whole way, its `fraction` at the sky the direction of the ray. Which way a ray takes at glass is drawn anew in each sample.
 
 #include "lib/address.glsl"
 
@@ -80,7 +80,10 @@ void main() {
     count(kFaultPathTooLong, bounce == kMaxBounces ? 1u : 0u);
     found.hit.t = length_so_far;
     if (!is_open || bounce == kMaxBounces) found = no_hit();
-    if (!is_surface(found.hit)) found.hit.t = 0.0;
+    if (!is_surface(found.hit)) {
+        found.hit.t = 0.0;
+        found.hit.fraction = path.direction;
+    }
     hits[pixel.index] = found.hit;
     weights[pixel.index] = is_open && bounce < kMaxBounces ? weight : vec3(0.0);
 }

@@ -37,11 +37,15 @@ using glm::clamp;
 using glm::cross;
 using glm::distance;
 using glm::dot;
+using glm::exp;
 using glm::floor;
 using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
+using glm::packHalf2x16;
+using glm::pow;
+using glm::unpackHalf2x16;
 using std::acos;
 using std::cos;
 using std::isinf;
@@ -61,6 +65,9 @@ inline float uintBitsToFloat(uint bits) {
 }
 inline float roundEven(float x) {
     return std::nearbyint(x);
+}
+inline float atan(float y, float x) {
+    return std::atan2(y, x);
 }
 inline uint bitfieldReverse(uint v) {
     v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);

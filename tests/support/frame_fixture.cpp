@@ -47,14 +47,16 @@ FramePlanes FrameFixture::render(std::uint32_t sample) {
     record_frame(prepared_.plan, tile_of(prepared_.plan, 0, prepared_.plan.film_tile_rows), params_,
                  {.sample = sample, .state = state_, .keeps_color = true}, recording);
     const std::string hits = prepared_.plan.has(Effect::spheres) ? "sphere.hits" : "primary.hits";
-    for (const std::string& buffer : {hits, std::string("ao.visibility"), std::string("sun.lit"),
-                                      std::string("film.color"), std::string("counters")}) {
+    for (const std::string& buffer :
+         {hits, std::string("ao.visibility"), std::string("sky.light"), std::string("sun.lit"),
+          std::string("film.color"), std::string("counters")}) {
         if (recording.find(buffer) != nullptr) recording.readback(buffer);
     }
     const RunResult result = executor_.run(recording);
     const std::uint64_t pixels = prepared_.plan.tile_pixels();
     FramePlanes planes{.hits = plane_of<gpu::Hit>(result, hits, pixels),
                        .ao = plane_of<float>(result, "ao.visibility", pixels),
+                       .sky = plane_of<glm::vec3>(result, "sky.light", pixels),
                        .sun = plane_of<float>(result, "sun.lit", pixels),
                        .color = plane_of<glm::vec3>(result, "film.color", pixels)};
     const std::vector<gpu::uint> counters = values_of<gpu::uint>(result, "counters");

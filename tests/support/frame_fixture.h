@@ -20,6 +20,7 @@ namespace voxilux::test {
 struct FramePlanes {
     std::vector<gpu::Hit> hits;
     std::vector<float> ao;
+    std::vector<glm::vec3> sky;  // of an atmosphere
     std::vector<float> sun;
     std::vector<glm::vec3> color;
     std::array<gpu::uint, gpu::kCounterCount> counters{};

@@ -11,6 +11,7 @@ struct FilmInputs {
     Plane first_hits;  // of camera rays, before mirrors and glass
     SpecularPlanes seen;
     Plane ao;
+    Plane sky;  // of an atmosphere: what misses see, and what hits receive over pi; else a constant
     Plane sun;
     Plane direct;          // irradiance / pi, of emitters
     PhotonPlanes photons;  // irradiance, of photons

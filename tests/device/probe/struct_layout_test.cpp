@@ -11,6 +11,7 @@
 #include "shared/alias.h"
 #include "shared/gpu_types.h"
 #include "shared/photon_types.h"
+#include "shared/sky_view.h"
 #include "vk/spirv_reflect.h"
 
 namespace voxilux {
@@ -47,6 +48,13 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(AliasEntry, pdf)),
         VX_LAYOUT(Sphere, VX_MEMBER(Sphere, anchor), VX_MEMBER(Sphere, curvature), VX_MEMBER(Sphere, normal)),
         VX_LAYOUT(SphereRecord, VX_MEMBER(SphereRecord, shape), VX_MEMBER(SphereRecord, material)),
+        VX_LAYOUT(Air, VX_MEMBER(Air, rayleigh), VX_MEMBER(Air, ozone), VX_MEMBER(Air, mie),
+                  VX_MEMBER(Air, mie_extinction), VX_MEMBER(Air, mie_g), VX_MEMBER(Air, ground_albedo)),
+        VX_LAYOUT(SkyParams, VX_MEMBER(SkyParams, air), VX_MEMBER(SkyParams, height),
+                  VX_MEMBER(SkyParams, horizon), VX_MEMBER(SkyParams, top), VX_MEMBER(SkyParams, disc_height),
+                  VX_MEMBER(SkyParams, sun_direction), VX_MEMBER(SkyParams, irradiance),
+                  VX_MEMBER(SkyParams, resolution)),
+        VX_LAYOUT(SkyScatterPush, VX_MEMBER(SkyScatterPush, air), VX_MEMBER(SkyScatterPush, is_first)),
         VX_LAYOUT(FrameParams, VX_MEMBER(FrameParams, chunks), VX_MEMBER(FrameParams, world_origin),
                   VX_MEMBER(FrameParams, camera_cell), VX_MEMBER(FrameParams, camera_fraction),
                   VX_MEMBER(FrameParams, camera_right), VX_MEMBER(FrameParams, camera_up),

@@ -99,6 +99,19 @@ TEST(ToDisplay, nan_is_magenta_only_in_debug) {
     EXPECT_EQ(pixel(false, 1), (std::array<int, 3>{188, 0, 188}));
 }
 
+TEST(ToDisplay, automatic_exposure_shows_the_geometric_mean_as_middle_grey) {
+    Image image = test::constant_image(4, 1, 0.0f);
+    for (const char* name : {"R", "G", "B"}) {
+        std::vector<float>& pixels = image.channels.at(name).pixels;
+        pixels = {0.0f, 2e-5f, 8e-5f, std::numeric_limits<float>::infinity()};
+    }
+    EXPECT_NEAR(automatic_exposure_ev(image), std::log2(0.18f / 4e-5f), 1e-4f);
+    const DisplayImage shown =
+        to_display(test::constant_image(2, 2, 3e-6f), {.curve = ToneMap::plain, .exposure_ev = {}});
+    EXPECT_EQ(srgb_code(shown.image.channels.at("R").pixels[0]), srgb_code(0.18f));
+    EXPECT_EQ(automatic_exposure_ev(test::constant_image(2, 2, 0.0f)), 0.0f);
+}
+
 TEST(ToDisplay, exposure_is_in_stops_and_extremes_stay_defined) {
     const Image image = test::constant_image(1, 1, 0.25f);
     const auto red = [&](float ev) {

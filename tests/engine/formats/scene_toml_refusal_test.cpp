@@ -45,8 +45,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         RefusedText{"key_near", "[sun]\nazimuth = 3\n  elevaton = 4\n",
                     "s.toml:3:3: unknown key 'elevaton' in [sun]; did you mean 'elevation'?"},
-        RefusedText{"key_far", "[sky]\nzzzzzzzz = 1\n",
-                    "s.toml:2:1: unknown key 'zzzzzzzz' in [sky]; known: 'radiance', 'color'"},
+        RefusedText{"key_far", "[sun]\nzzzzzzzz = 1\n",
+                    "s.toml:2:1: unknown key 'zzzzzzzz' in [sun]; known: 'azimuth', 'elevation', "
+                    "'angular_diameter', 'irradiance', 'on'"},
         RefusedText{"technique_near", "[technique]\nao = \"hsh\"\n",
                     "s.toml:2:6: 'ao' in [technique] must be one of 'auto', 'brute', 'hash', not 'hsh'"},
         RefusedText{"technique_of_near", "[technique]\nindirct = \"none\"\n",

@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"frames_of_a_still", one_voxel_with({"--frames", "1-3"}), "--frames: the scene is still"},
         Refused{"frame_and_frames", one_voxel_with({"--frame", "1", "--frames", "1-3"}), "--frame"},
         Refused{"exposure", one_voxel_with({"--exposure", "nan"}),
-                "--exposure: nan is not a number of stops"},
+                "--exposure: nan is not a number of stops, nor auto"},
         Refused{"tone", one_voxel_with({"--tone", "warm"}), "--tone: 'warm' is not filmic or plain"},
         Refused{"group_size", one_voxel_with({"--group-size", "8"}), "--group-size: '8' is not"},
         Refused{"device", one_voxel_with({"--device", "no such"}),

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "shared/sky_view.h"
+
+namespace voxilux {
+
+// The atmosphere of a scene in the shaders' terms, seen from z = 0.
+[[nodiscard]] gpu::SkyParams sky_params(const Scene& scene);
+
+// Irradiance of a surface of the scene that faces the sun: zero when the sun is off or below the horizon. An
+// atmosphere dims and colours it, and the planet hides what is below its horizon, as a mean over the disc.
+[[nodiscard]] glm::vec3 sunlight(const Scene& scene);
+
+// Share of light that the atmosphere takes over a horizontal distance at z = 0, in the colour that loses
+// most.
+[[nodiscard]] float haze(const Scene& scene, double voxels);
+
+}  // namespace voxilux

@@ -1,0 +1,228 @@
+// The light that the air scatters along a ray, all orders of scattering included.
+//
+// The first order is integrated along the ray with exact phase functions. The others come from a table of the
+// light that arrives at a place from all directions, in spherical harmonics of degree 0 to 2 (6 numbers per
+// colour, as the light is symmetric about the vertical plane of the sun), by height and by the sun's cosine.
+// A scattering multiplies each degree by a moment of its phase function. The table is the fixed point of its
+// own definition: gathered from rays that march through it (scatter_texel), a few times over. Hillaire 2020
+// keeps the mean over directions alone and closes the orders by a geometric series, which leaves the light of
+// later orders without direction and without neighbours; this removes most of its error, at the horizon and
+// in twilight in particular, at the same cost. (Discrete ordinates with delta-free moments: Chandrasekhar
+// 1960, "Radiative Transfer", section 48.)
+//
+// All light is per unit of the sun's irradiance above the air. The including side defines VX_SKY_PARAM and
+// VX_SKY_ARG and load_scatter(), which reads a word of the table.
+#ifndef VX_SKY_MARCH_H
+#define VX_SKY_MARCH_H
+
+#include "atmosphere.h"
+#include "sky_view.h"
+
+VX_BEGIN
+
+// The sun's cosines lie densest around the middle one, where it sets, and end where even the top is dark.
+VX_CONST(float, kScatterMiddle, -0.06f);
+VX_CONST(float, kScatterWidth, 0.25f);
+VX_CONST(float, kScatterFirst, -0.489795918f);  // (-0.3 - middle) / (|-0.3 - middle| + width)
+VX_CONST(float, kScatterLast, 0.809160305f);    // of cosine 1
+// The sun's cosine, at or below which there is no light: that of the first column.
+VX_CONST(float, kScatterDark, -0.2999f);
+// Nodes of a stretch of a ray: 6 Gauss points times the panels.
+VX_CONST(uint, kGaussNodes, 6u);
+VX_CONST_LIST(float, kGaussNode, 6) = {0.0337652429f, 0.1693953068f, 0.3806904070f,
+                                       0.6193095930f, 0.8306046932f, 0.9662347571f};
+VX_CONST_LIST(float, kGaussWeight, 6) = {0.0856622462f, 0.1803807865f, 0.2339569673f,
+                                         0.2339569673f, 0.1803807865f, 0.0856622462f};
+
+// A ray through the air by what its light depends on.
+struct AirRay {
+    float height;     // of the start, [0, kAirTop]
+    float cosine;     // to the vertical there
+    float sun;        // the sun's cosine to the vertical there
+    float sun_angle;  // cosine of the angle between the ray and the sun
+};
+
+// The same ray from a point on it.
+VX_FN AirRay ray_after(AirRay ray, float t) {
+    if (t <= 0.0f) return ray;
+    const float r = kGroundRadius + ray.height;
+    ray.height = min(height_after(ray.height, ray.cosine, t), kAirTop);
+    ray.cosine = clamp((r * ray.cosine + t) / (kGroundRadius + ray.height), -1.0f, 1.0f);
+    ray.sun = clamp((r * ray.sun + t * ray.sun_angle) / (kGroundRadius + ray.height), -1.0f, 1.0f);
+    return ray;
+}
+
+struct AirLight {
+    vec3 rayleigh;  // scattered once, by air, over its phase function
+    vec3 mie;       // scattered once, by aerosol, over its phase function
+    vec3 multiple;  // scattered more than once
+    vec3 ground;    // from the ground, dimmed on the way
+    vec3 scatters;  // share of light along the ray, the same everywhere, that scattering would add
+};
+
+struct SkyHarmonics {
+    vec3 c[6];
+};
+
+VX_FN float scatter_height(uint row) {
+    const float v = float(row) / float(kScatterHeights - 1u);
+    return kAirTop * v * v;
+}
+
+VX_FN float scatter_cosine(uint column) {
+    const float u =
+        kScatterFirst + (kScatterLast - kScatterFirst) * (float(column) / float(kScatterCosines - 1u));
+    return min(kScatterMiddle + kScatterWidth * u / (1.0f - abs(u)), 1.0f);
+}
+
+// Two harmonics of a texel are three words of half floats.
+VX_FN SkyHarmonics scatter_entry(VX_SKY_PARAM uint texel, float weight) {
+    SkyHarmonics entry;
+    for (uint pair = 0u; pair < kSkyHarmonics / 2u; ++pair) {
+        const uint first = 3u * (texel * (kSkyHarmonics / 2u) + pair);
+        const vec2 a = unpackHalf2x16(load_scatter(VX_SKY_ARG first));
+        const vec2 b = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 1u));
+        const vec2 c = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 2u));
+        entry.c[2u * pair] = weight * vec3(a.x, a.y, b.x);
+        entry.c[2u * pair + 1u] = weight * vec3(b.y, c.x, c.y);
+    }
+    return entry;
+}
+
+// What arrives at a height when the sun is at a cosine, as the factors of the harmonics. Linear on the
+// triangles of the table: most of the time of a march are loads, and a triangle has three corners.
+VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
+    const float row = sqrt(clamp(h / kAirTop, 0.0f, 1.0f)) * float(kScatterHeights - 1u);
+    const float away = sun - kScatterMiddle;
+    const float u = (away / (abs(away) + kScatterWidth) - kScatterFirst) / (kScatterLast - kScatterFirst);
+    const float column = clamp(u, 0.0f, 1.0f) * float(kScatterCosines - 1u);
+    const uint i = min(uint(row), kScatterHeights - 2u);
+    const uint j = min(uint(column), kScatterCosines - 2u);
+    const float v = row - float(i);
+    const float w = column - float(j);
+    const bool is_low = v + w <= 1.0f;
+    const uint texel = i * kScatterCosines + j;
+    const float unit = 1.0f / kScatterScale;
+    SkyHarmonics found =
+        scatter_entry(VX_SKY_ARG is_low ? texel : texel + kScatterCosines + 1u, unit * abs(1.0f - v - w));
+    const SkyHarmonics next = scatter_entry(VX_SKY_ARG texel + 1u, unit * (is_low ? w : 1.0f - v));
+    const SkyHarmonics above =
+        scatter_entry(VX_SKY_ARG texel + kScatterCosines, unit * (is_low ? v : 1.0f - w));
+    for (uint k = 0u; k < kSkyHarmonics; ++k)
+        found.c[k] += next.c[k] + above.c[k];
+    return found;
+}
+
+// What light scatters into a direction: `cosine` to the vertical, `across` its x of the harmonics' frame.
+// zeroth, first, second: scattering coefficients times the moments of the phase function.
+VX_FN vec3 scattered_light(SkyHarmonics light, float cosine, float across, vec3 zeroth, vec3 first,
+                           vec3 second) {
+    const float z2 = cosine * cosine;
+    const float difference = 2.0f * across * across - max(1.0f - z2, 0.0f);  // x^2 - y^2
+    return zeroth * light.c[0] + first * (light.c[1] * cosine + light.c[2] * across) +
+           second *
+               (light.c[3] * (1.5f * z2 - 0.5f) + light.c[4] * (cosine * across) + light.c[5] * difference);
+}
+
+// Irradiance of the ground by the harmonics of the light there.
+VX_FN vec3 diffuse_irradiance(SkyHarmonics light) {
+    return max(kPi * light.c[0] + (2.0f / 3.0f * kPi) * light.c[1] + (0.25f * kPi) * light.c[3], vec3(0.0f));
+}
+
+// Radiance of the ground where the sun has this cosine.
+VX_FN vec3 ground_radiance(VX_SKY_PARAM Air air, float sun, bool has_table) {
+    vec3 irradiance = max(sun, 0.0f) * transmittance_out(air, 0.0f, sun);
+    if (has_table) irradiance += diffuse_irradiance(scatter_lookup(VX_SKY_ARG 0.0f, sun));
+    return (air.ground_albedo * kInversePi) * irradiance;
+}
+
+// Where a ray is cut, in rising order: at its lowest point and where it enters and leaves the planet's
+// shadow, the half cylinder of the ground's radius behind the centre. There its light has kinks. 0: not at
+// all.
+VX_FN vec3 air_cuts(AirRay ray, float end) {
+    const float r = kGroundRadius + ray.height;
+    const float lowest = -r * ray.cosine;
+    const float a = 1.0f - ray.sun_angle * ray.sun_angle;
+    const float b = r * (ray.cosine - ray.sun * ray.sun_angle);
+    const float c = ray.height * (2.0f * kGroundRadius + ray.height) - r * r * ray.sun * ray.sun;
+    const float square = b * b - a * c;
+    const float root = sqrt(max(square, 0.0f));
+    const bool crosses = square > 0.0f && a > 1e-6f;
+    float into = crosses ? (-b - root) / a : 0.0f;
+    float out_of = crosses ? (-b + root) / a : 0.0f;
+    if (into >= end || r * ray.sun + into * ray.sun_angle > 0.0f) into = 0.0f;
+    if (out_of >= end || r * ray.sun + out_of * ray.sun_angle > 0.0f) out_of = 0.0f;
+    const float turn = lowest < end ? max(lowest, 0.0f) : 0.0f;
+    into = max(into, 0.0f);
+    out_of = max(out_of, into);
+    return vec3(min(turn, into), max(min(turn, out_of), into), max(turn, out_of));
+}
+
+// The march. `panels` sets the number of nodes. Without a table only the sun lights air and ground.
+VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels, bool has_table) {
+    const float h = ray.height;
+    const float r = kGroundRadius + h;
+    const bool is_ground = hits_ground(h, ray.cosine);
+    const float end = is_ground ? distance_to_ground(h, ray.cosine)
+                                : distance_to_rise(h, ray.cosine, max(kAirTop - h, 0.0f));
+    const float lowest = -r * ray.cosine;
+    const vec3 cuts = air_cuts(ray, end);
+    const vec3 start_columns = columns_up(h, abs(ray.cosine));
+    const vec3 lowest_columns =
+        ray.cosine < 0.0f && !is_ground ? columns_up(lowest_height(h, ray.cosine), 0.0f) : vec3(0.0f);
+    const vec3 mie = mie_moments(air.mie_g);
+    AirLight light;
+    light.rayleigh = light.mie = light.multiple = light.ground = light.scatters = vec3(0.0f);
+    float to = 0.0f;
+    for (uint stretch = 0u; stretch < 4u; ++stretch) {
+        const float from = to;
+        to = stretch == 0u ? cuts.x : (stretch == 1u ? cuts.y : (stretch == 2u ? cuts.z : end));
+        if (to <= from) continue;
+        const bool rises = from >= lowest;
+        for (uint node = 0u; node < kGaussNodes * panels; ++node) {
+            const uint panel = node / kGaussNodes;
+            const uint place = node - panel * kGaussNodes;
+            // Nodes crowd where the air is dense: at the start of what rises, at both ends of the rest.
+            const float u = (float(panel) + kGaussNode[place]) / float(panels);
+            const float way = rises ? u * u : u * u * (3.0f - 2.0f * u);
+            const float slope = rises ? 2.0f * u : 6.0f * u * (1.0f - u);
+            const float t = from + (to - from) * way;
+            const float weight = (to - from) * slope * (kGaussWeight[place] / float(panels));
+            const float height = height_after(h, ray.cosine, t);
+            const float cosine = clamp((r * ray.cosine + t) / (kGroundRadius + height), -1.0f, 1.0f);
+            const float sun =
+                clamp((r * ray.sun + t * ray.sun_angle) / (kGroundRadius + height), -1.0f, 1.0f);
+            const vec3 part = columns_up(height, abs(cosine));
+            const vec3 columns = ray.cosine >= 0.0f ? start_columns - part
+                                 : (cosine <= 0.0f || is_ground)
+                                     ? part - start_columns
+                                     : 2.0f * lowest_columns - start_columns - part;
+            const vec3 reaches = weight * air_transmittance(air, max(columns, vec3(0.0f)));
+            const vec3 density = air_densities(height);
+            const vec3 rayleigh = air.rayleigh * density.x;
+            const float aerosol = air.mie * density.y;
+            const vec3 sunlight = reaches * transmittance_out(air, height, sun);
+            light.rayleigh += sunlight * rayleigh;
+            light.mie += sunlight * aerosol;
+            light.scatters += reaches * (rayleigh + vec3(aerosol));
+            if (!has_table) continue;
+            const float horizontal = sqrt(max(1.0f - sun * sun, 1e-8f));
+            light.multiple += reaches * scattered_light(scatter_lookup(VX_SKY_ARG height, sun), cosine,
+                                                        (ray.sun_angle - cosine * sun) / horizontal,
+                                                        rayleigh + vec3(aerosol), vec3(aerosol * mie.y),
+                                                        0.1f * rayleigh + vec3(aerosol * mie.z));
+        }
+    }
+    if (is_ground) {
+        const float steep = clamp(-(r * ray.cosine + end) / kGroundRadius, 0.0f, 1.0f);
+        const float sun = clamp((r * ray.sun + end * ray.sun_angle) / kGroundRadius, -1.0f, 1.0f);
+        light.ground = air_transmittance(air, max(columns_up(0.0f, steep) - start_columns, vec3(0.0f))) *
+                       ground_radiance(VX_SKY_ARG air, sun, has_table);
+    }
+    light.multiple = max(light.multiple, vec3(0.0f));
+    return light;
+}
+
+VX_END
+
+#endif
