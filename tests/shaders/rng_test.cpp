@@ -11,14 +11,14 @@ namespace voxilux {
 namespace {
 
 constexpr std::size_t kBins = 32;
-constexpr std::uint32_t kDraws = 1000000;
+constexpr std::uint32_t kRandomDraws = 1000000;
 
 // Chi-square of the pair (draw(i), draw(i + 1)) over kBins^2 equal cells.
 template <typename Draw>
 double pair_chi_square(Draw draw) {
     std::vector<std::uint64_t> seen(kBins * kBins, 0);
     float previous = draw(0);
-    for (std::uint32_t i = 1; i <= kDraws; ++i) {
+    for (std::uint32_t i = 1; i <= kRandomDraws; ++i) {
         const float next = draw(i);
         const auto column = static_cast<std::size_t>(previous * static_cast<float>(kBins));
         const auto row = static_cast<std::size_t>(next * static_cast<float>(kBins));
@@ -26,7 +26,7 @@ double pair_chi_square(Draw draw) {
         previous = next;
     }
     const std::vector<double> expected(seen.size(),
-                                       static_cast<double>(kDraws) / static_cast<double>(seen.size()));
+                                       static_cast<double>(kRandomDraws) / static_cast<double>(seen.size()));
     return test::chi_square(seen, expected);
 }
 
