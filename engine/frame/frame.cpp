@@ -6,6 +6,7 @@
 #include "passes/film/shade.h"
 #include "passes/light/direct.h"
 #include "passes/light/sun.h"
+#include "passes/paths/paths.h"
 #include "passes/photons/photons.h"
 #include "passes/primary/primary.h"
 #include "passes/primary/sphere.h"
@@ -85,11 +86,13 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
         plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, tile, seen.hits, rec)
                                                   : constant_value(0.0f, rec, 3);
+    const bool has_paths = plan.paths.runs();
+    const Plane sent = has_paths ? record_paths(plan, tile, seen.hits, direct, rec) : direct;
     const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
     const ShadeInputs inputs{.hits = seen.hits,
-                             .ao = ao,
+                             .ao = has_paths ? constant_value(0.0f, rec) : ao,  // paths find the sky
                              .sun = sun,
-                             .direct = direct,
+                             .direct = sent,
                              .photons = photons.light,
                              .weights = seen.weights};
     const Plane color = record_shade_resolve(plan, tile, inputs, rec);
