@@ -1,10 +1,16 @@
-// A path from a visible point on, ray by ray. Each diffuse surface sends up to three rays, one after the other: to the
-// sun, to an emitter, and on. The balance heuristic weighs the last two (Veach and Guibas 1995).
+// A path from a visible point on, ray by ray. Each diffuse surface sends up to four rays, one after the other: to the
+// sun, to a mirror image of the sun, to an emitter, and on. The balance heuristic weighs what several of them can find
+// (Veach and Guibas 1995).
 // Include lib/path.glsl, lib/lights.glsl and lib/photon_start.glsl first.
 //
 // Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
 // sun.trace and direct.trace, so the path leaves them out. By mirrors and glass alone to the visible point: by the
 // path where caustics are its own (finds_caustics), else by photons. All other light: by the path.
+//
+// Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
+// and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
+// eight cones, the sun's own and its images. A ray goes into the sun's and one into another; what they meet on the way
+// may be mirrors and glass. Chance finds what comes by spheres, and out of glass by another face.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
@@ -13,6 +19,7 @@
 VX_SPECIALIZED(uint, has_sun, 0u);
 VX_SPECIALIZED(uint, has_emitters, 0u);
 VX_SPECIALIZED(uint, has_specular, 0u);
+VX_SPECIALIZED(uint, has_images, 0u);  // of the sun: by voxels of glass and mirrors
 VX_SPECIALIZED(uint, finds_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
 VX_SPECIALIZED(uint, sure_surfaces, 2u);   // after the visible point, that roulette leaves alone
@@ -23,21 +30,26 @@ const uint sphere_turns = sphere_count <= kFewSpheres ? 0u : sphere_count + glas
 const uint kRayNone = 0u;  // no path is under way
 const uint kRayOn = 1u;
 const uint kRaySun = 2u;
-const uint kRayEmitter = 3u;
+const uint kRayImage = 3u;  // to an image of the sun
+const uint kRayEmitter = 4u;
 
 struct Walk {
     PathRay ray;
+    PathRay vertex;   // where rays of that surface start
+    vec3 ahead;       // at the visible point: the direction of the path's own ray
     uint kind;        // kRay*
     uint stream;      // of samples of its pixel
     vec3 normal;      // of the diffuse surface that the ray leaves
     vec3 throughput;  // product of the albedos on the way
     float scale;      // of radiance, by refraction
     float pdf;        // per solid angle: the density with which that surface sends light where the ray goes
+    float image_share;  // 1 / (samples that the sun and its images give that direction + solid angle of the sun * pdf)
     vec3 light;       // that was found
     uint surfaces;    // met
+    uint glints;      // met by a ray to the sun
     uint vertices;    // diffuse ones, the visible point included
     bool is_straight;    // nothing was met since the last of them
-    vec3 expected;       // what a ray to the sun or, but for its radiance, to an emitter brings where nothing is in its way
+    vec3 expected;       // what a ray to the sun brings, or one to an emitter but for its radiance
     DrawnLight emitter;  // that it goes to
 };
 
@@ -64,13 +76,17 @@ Walk no_walk() {
     walk.ray.direction = vec3(0.0, 0.0, 1.0);
     walk.ray.own = kNoSphere;
     walk.ray.medium = kNoMedium;
+    walk.vertex = walk.ray;
+    walk.ahead = walk.ray.direction;
     walk.stream = 0u;
     walk.normal = vec3(0.0, 0.0, 1.0);
     walk.throughput = vec3(0.0);
     walk.scale = 1.0;
     walk.pdf = 0.0;
+    walk.image_share = 0.0;
     walk.light = vec3(0.0);
     walk.surfaces = 0u;
+    walk.glints = 0u;
     walk.vertices = 1u;
     walk.is_straight = true;
     walk.expected = vec3(0.0);
@@ -90,6 +106,8 @@ Walk first_walk(PhotonStart start) {
     walk.ray.fraction = start.fraction;
     walk.ray.direction = is_path ? start.direction : walk.ray.direction;
     walk.ray.own = start.sphere;
+    walk.vertex = walk.ray;
+    walk.ahead = walk.ray.direction;
     walk.stream = start.noise;
     walk.throughput = vec3(is_path ? 1.0 : 0.0);
     walk.light = start.power;
@@ -108,6 +126,7 @@ Walk walk_of(PathState state) {
     walk.throughput = state.throughput;
     walk.scale = state.scale;
     walk.pdf = state.pdf;
+    walk.image_share = state.image_share;
     walk.light = state.light;
     walk.surfaces = state.surfaces;
     walk.vertices = state.vertices;
@@ -127,6 +146,7 @@ PathState state_of(Walk walk, uint next_id) {
     state.throughput = walk.throughput;
     state.scale = walk.scale;
     state.pdf = walk.pdf;
+    state.image_share = walk.image_share;
     state.light = walk.light;
     state.surfaces = walk.surfaces;
     state.vertices = walk.vertices;
@@ -138,7 +158,30 @@ PathState state_of(Walk walk, uint next_id) {
 vec3 numbers_of(Walk walk, uint use) {
     SampleKey key = sample_of_frame;
     key.stream = walk.stream;
-    return path_numbers(key, walk.surfaces, use);
+    return path_numbers(key, walk.surfaces + (use == kUseGlint ? walk.glints : 0u), use);
+}
+
+const bool has_glints = has_sun != 0u && has_specular != 0u;  // sunlight by way of mirrors and glass
+
+vec3 image_direction(uint image) {
+    return sun_direction * vec3((image & 1u) != 0u ? -1.0 : 1.0, (image & 2u) != 0u ? -1.0 : 1.0, (image & 4u) != 0u ? -1.0 : 1.0);
+}
+
+const uint kImages = 7u;  // beside the sun itself
+
+// For Walk::image_share: how many samples go into a direction, times the solid angle of the sun.
+float samples_of_sun(vec3 direction) {
+    float samples = is_in_cone(direction, sun_direction, sun_height) ? 1.0 : 0.0;
+    if (has_images == 0u) return samples;
+    for (uint image = 1u; image <= kImages; ++image)
+        samples += is_in_cone(direction, image_direction(image), sun_height) ? 1.0 / float(kImages) : 0.0;
+    return samples;
+}
+
+void set_direction(inout Walk walk, vec3 direction) {
+    if (has_specular != 0u) walk.ray = walk.vertex;
+    walk.ray.direction = direction;
+    walk.pdf = max(dot(walk.normal, direction), 0.0) * kInversePi;
 }
 
 // Of the light of sun and emitters that the path's own ray meets: 0 where others find it, 1 where nothing else does.
@@ -164,21 +207,39 @@ void take_emission(inout Walk walk, PathHit found) {
 void take_light(inout Walk walk, PathHit found) {
     if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
     if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
-    vec3 radiance = sky;
-    if (has_sun != 0u && has_specular != 0u && !walk.is_straight) {
-        bool in_sun = is_in_cone(walk.ray.direction, sun_direction, sun_height);
-        if (in_sun) radiance += sun_irradiance * (share_of_path(walk, 0.0) / cone_solid_angle(sun_height));
-    }
-    walk.light += walk.kind == kRaySun ? walk.expected : walk.throughput * walk.scale * radiance;
+    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky;
+    if (walk.kind != kRayOn && walk.is_straight)
+        walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
+    if (!has_glints || walk.is_straight) return;
+    // Rays to the sun end in its cone but for rounding, which is below 10^-6.
+    float height = sun_height + (walk.kind == kRayOn ? 0.0 : 1e-12);
+    if (!is_in_cone(walk.ray.direction, sun_direction, height)) return;
+    vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0));
+    walk.light += walk.image_share * (walk.kind == kRayOn ? carried : walk.expected);
 }
 
-// What the path's own ray does at a surface. False where the path ends.
-bool scatter(inout Walk walk, PathHit found) {
-    vec3 u = numbers_of(walk, kUseEvent);
+// What a ray does at a surface. `u` are for the lobe and for Fresnel's choice.
+BsdfSample event_at(Walk walk, PathHit found, vec2 u) {
+    if (has_specular != 0u) return path_event(walk.ray, found, u);
     BsdfSample event;
     event.kind = kEventDiffuse;
     event.albedo = materials[found.hit.material].albedo;
-    if (has_specular != 0u) event = path_event(walk.ray, found, u.xy);
+    return event;
+}
+
+// Sends a ray to the sun on by way of a mirror or glass. False where it ends.
+bool glint(inout Walk walk, PathHit found, BsdfSample event) {
+    if (event.kind == kEventDiffuse) return false;
+    if (event.kind != kEventPass) walk.expected *= event.albedo;
+    if (event.kind == kEventRefract) walk.expected *= radiance_scale(event.eta);
+    walk.ray = path_after(walk.ray, found, event);
+    walk.is_straight = false;
+    ++walk.glints;
+    return true;
+}
+
+// What the path's own ray does at a surface; `u` is for roulette. False where the path ends.
+bool scatter(inout Walk walk, PathHit found, BsdfSample event, float u) {
     bool is_diffuse = event.kind == kEventDiffuse;
     if (event.kind != kEventPass) walk.throughput *= event.albedo;
     if (event.kind == kEventRefract) walk.scale *= radiance_scale(event.eta);
@@ -186,12 +247,14 @@ bool scatter(inout Walk walk, PathHit found) {
     start.medium = walk.ray.medium;
     if (has_specular != 0u && !is_diffuse) start = path_after(walk.ray, found, event);
     walk.ray = start;
+    if (is_diffuse) walk.vertex = start;
     walk.is_straight = is_diffuse;
+    walk.glints = 0u;
     walk.normal = found.normal;
     walk.vertices += is_diffuse ? 1u : 0u;
     ++walk.surfaces;
     float survival = walk.surfaces > sure_surfaces ? roulette_survival(walk.throughput) : 1.0;
-    bool goes_on = u.z < survival && max(walk.throughput.x, max(walk.throughput.y, walk.throughput.z)) > 0.0;
+    bool goes_on = u < survival && max(walk.throughput.x, max(walk.throughput.y, walk.throughput.z)) > 0.0;
     walk.throughput /= goes_on ? survival : 1.0;
     return goes_on;
 }
@@ -200,34 +263,39 @@ bool scatter(inout Walk walk, PathHit found) {
 bool leave_to_emitter(inout Walk walk) {
     vec3 u = numbers_of(walk, kUseEmitter);
     vec3 u_point = numbers_of(walk, kUseEmitterPoint);
-    vec3 origin = local_position(walk.ray.cell, walk.ray.fraction);
+    vec3 origin = local_position(walk.vertex.cell, walk.vertex.fraction);
     LightSample aim = aim_at_emitter(origin, unit_bits(u.x), u.y, u_point.xy);
-    walk.pdf = max(dot(walk.normal, aim.direction), 0.0) * kInversePi;
+    set_direction(walk, aim.direction);
     if (!(aim.pdf > 0.0 && walk.pdf > 0.0)) return false;
     walk.emitter = aim.emitter;
     walk.expected = walk.throughput * (walk.scale * walk.pdf / aim.pdf);
-    walk.ray.direction = aim.direction;
     return true;
 }
 
-bool leave_to_sun(inout Walk walk) {
-    vec3 direction = uniform_cone(sun_direction, sun_height, numbers_of(walk, kUseSun).xy);
-    float cosine = dot(walk.normal, direction);
-    if (!(cosine > 0.0)) return false;
-    walk.expected = walk.throughput * sun_irradiance * (walk.scale * cosine * kInversePi);
-    walk.ray.direction = direction;
-    return true;
+// Aims at the sun, or at one of its images. False where it is below the horizon.
+bool leave_to_sun(inout Walk walk, uint use) {
+    vec3 u = numbers_of(walk, use);
+    uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages)), kImages - 1u);
+    set_direction(walk, uniform_cone(image_direction(image), sun_height, u.xy));
+    walk.expected = walk.throughput * sun_irradiance * (walk.scale * walk.pdf);
+    return walk.pdf > 0.0;
 }
 
-// The next ray of a diffuse surface. `last` is the kind of the one before, kRayNone for the first.
+// The next ray of a diffuse surface. `last` is the kind of the one before, kRayNone for the first. At the visible
+// point, sun and emitters are found by others.
 void leave(inout Walk walk, uint last) {
+    bool is_first = walk.vertices == 1u;
     walk.kind = kRayOn;
-    if (has_sun != 0u && last == kRayNone && leave_to_sun(walk)) walk.kind = kRaySun;
-    bool may_aim = has_emitters != 0u && aims_at_emitters != 0u && last != kRayEmitter && walk.kind == kRayOn;
-    if (may_aim && leave_to_emitter(walk)) walk.kind = kRayEmitter;
-    if (walk.kind != kRayOn) return;
-    walk.ray.direction = cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy);
-    walk.pdf = dot(walk.normal, walk.ray.direction) * kInversePi;
+    walk.is_straight = true;
+    walk.glints = 0u;
+    if (has_sun != 0u && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
+    if (has_glints && has_images != 0u && last <= kRaySun && walk.kind == kRayOn && leave_to_sun(walk, kUseImage))
+        walk.kind = kRayImage;
+    bool may_aim = has_emitters != 0u && aims_at_emitters != 0u && !is_first;
+    if (may_aim && last != kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
+    if (walk.kind == kRayOn)
+        set_direction(walk, is_first ? walk.ahead : cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy));
+    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk.ray.direction) + cone_solid_angle(sun_height) * walk.pdf);
 }
 
 #endif

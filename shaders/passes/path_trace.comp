@@ -24,6 +24,9 @@
 
 VX_SPECIALIZED(uint, has_rounds, 0u);  // paths go on from States
 
+layout(scalar) readonly buffer Hits {
+    Hit hits[];
+};
 layout(scalar) writeonly buffer Light {
     vec3 light[];
 };
@@ -34,7 +37,7 @@ layout(scalar) buffer States {
 // Whether the ray may be followed to what it has met.
 bool is_met(Walk walk, PathHit found) {
     bool is_sound = found.hit.face != kFaceInside || found.stays;
-    return is_surface(found.hit) && is_sound && walk.surfaces < kMaxPathSurfaces;
+    return is_surface(found.hit) && is_sound && walk.surfaces + walk.glints < kMaxPathSurfaces;
 }
 
 void main() {
@@ -57,17 +60,25 @@ void main() {
         if (walk.kind == kRayNone) {
             if (next_id >= pixels) break;
             walk = first_walk(photon_start(next_id));
+            if (has_glints && finds_caustics != 0u && is_surface(hits[next_id])) {
+                walk.normal = surface_normal(hits[next_id]);
+                leave(walk, kRayNone);
+            }
             next_id += push.lanes;
         }
         PathHit found = next_hit(walk.ray);
         ++segments;
         turns += 2u + subgroupMax(march_steps) + sphere_turns;
         take_light(walk, found);
-        bool arrives = walk.kind == kRayOn;
-        bool goes_on = !arrives || is_met(walk, found);
-        too_long += arrives && walk.surfaces == kMaxPathSurfaces ? 1u : 0u;
-        if (arrives && goes_on) goes_on = scatter(walk, found);
-        if (goes_on && walk.is_straight) leave(walk, arrives ? kRayNone : walk.kind);
+        uint last = walk.kind;
+        bool is_own = last == kRayOn;
+        bool meets = is_met(walk, found);
+        too_long += walk.surfaces + walk.glints == kMaxPathSurfaces ? 1u : 0u;
+        vec3 u = numbers_of(walk, is_own ? kUseEvent : kUseGlint);
+        BsdfSample event = event_at(walk, found, u.xy);
+        bool is_sent = has_glints && (last == kRaySun || last == kRayImage) && meets && glint(walk, found, event);
+        bool goes_on = !is_own || (meets && scatter(walk, found, event, u.z));
+        if (goes_on && !is_sent && (!is_own || walk.is_straight)) leave(walk, is_own ? kRayNone : last);
         if (!goes_on) {
             light[next_id - push.lanes] = walk.light;
             walk.kind = kRayNone;

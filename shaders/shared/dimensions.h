@@ -29,7 +29,9 @@ VX_CONST(uint, kUseEmitter, 1u);       // which emitter
 VX_CONST(uint, kUseEmitterPoint, 2u);  // which point of it
 VX_CONST(uint, kUseDirection, 3u);     // where to, by the cosine
 VX_CONST(uint, kUseSun, 4u);           // which point of the sun
-VX_CONST(uint, kUsesOfSurface, 5u);
+VX_CONST(uint, kUseImage, 5u);         // the same of an image of the sun, and which image
+VX_CONST(uint, kUseGlint, 6u);  // at mirrors and glass on the way to the sun: which lobe, Fresnel's choice
+VX_CONST(uint, kUsesOfSurface, 7u);
 
 // Keeps them apart from other noise drawn with the same counters ("path" in ASCII).
 VX_CONST(uint, kPathSalt, 0x70617468u);

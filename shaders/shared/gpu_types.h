@@ -124,6 +124,7 @@ struct PathState {
     vec3 throughput;
     float scale;
     float pdf;
+    float image_share;
     vec3 light;
     uint surfaces;
     uint vertices;

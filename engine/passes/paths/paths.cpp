@@ -20,7 +20,7 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
     recording.dispatch(std::move(dispatch));
 }
 
-Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const std::string& starts,
+Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hits, const std::string& starts,
                     const std::string& light, Recording& recording) {
     const bool has_emitters = plan.has(Effect::emission) && plan.world.lights.count != 0;
     const std::string states =
@@ -35,18 +35,21 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const std::stri
     const auto emitter_buffer = [&](std::string (*buffer)(const RenderPlan&, Recording&)) {
         return has_emitters ? buffer(plan, recording) : placeholder_buffer(recording);
     };
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", emitter_buffer(lights_buffer)},
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Hits", hits.buffer},
+                                                       {"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"Starts", starts},
                                                        {"States", states},
                                                        {"Light", light}});
-    dispatch.constants.insert(dispatch.constants.end(),
-                              {{"has_sun", plan.has(Effect::sun) ? 1u : 0u},
-                               {"has_emitters", has_emitters ? 1u : 0u},
-                               {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
-                               {"finds_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
-                               {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
-                               {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
+    dispatch.constants.insert(
+        dispatch.constants.end(),
+        {{"has_sun", plan.has(Effect::sun) ? 1u : 0u},
+         {"has_emitters", has_emitters ? 1u : 0u},
+         {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
+         {"has_images", plan.has(Effect::specular) && plan.has(Effect::voxels) ? 1u : 0u},
+         {"finds_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
+         {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
+         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     return dispatch;
 }
@@ -59,7 +62,7 @@ Plane record_paths(const RenderPlan& plan, const DispatchTile& tile, const Plane
     const Plane light{declare_plane<gpu::vec3>(plan, "path.light", recording)};
     record_path_start(plan, tile, hits, direct, starts, recording);
     const std::uint32_t lanes = plan.path_lanes(tile.row_count);
-    const Dispatch dispatch = path_trace(plan, lanes, starts, light.buffer, recording);
+    const Dispatch dispatch = path_trace(plan, lanes, hits, starts, light.buffer, recording);
     if (plan.paths.rounds > 1) recording.clear("path.states");
     for (std::uint32_t round = 1; round <= plan.paths.rounds; ++round) {
         Dispatch trace = dispatch;
