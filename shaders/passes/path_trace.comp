@@ -85,8 +85,16 @@ void main() {
         }
     }
     if (has_rounds != 0u) states[lane] = state_of(walk, next_id);
-    // What is left after the last round is lost.
-    uint left = (walk.kind == kRayNone ? 0u : 1u) + (next_id < pixels ? 1u : 0u);
+    // What paths would still find after the last round is lost.
+    uint left = 0u;
+    if (walk.kind != kRayNone) {
+        light[next_id - push.lanes] = walk.light;
+        ++left;
+    }
+    for (; push.is_last != 0u && next_id < pixels; next_id += push.lanes) {
+        light[next_id] = photon_start(next_id).power;
+        ++left;
+    }
     count(kWorkPathSegments, segments);
     count(kFaultPathTooLong, too_long + left * push.is_last);
     count(kFaultLoopCut, are_loops_spent(2u + (segments & 1u)) ? 1u : 0u);
