@@ -222,7 +222,10 @@ TEST(PathTruth, p15_glass_that_takes_a_fifth_more_is_caught) {
 // A sun a tenth as wide as the real one: what chance hardly ever finds has little noise, and as much light as
 // a wide sun has.
 TEST(PathTruth, p15_small_sun_gives_as_much_light_as_a_wide_one) {
-    Scene small = glints(), wide = glints();
+    Scene wide = glints();
+    wide.instances[3].translation.z += 1;  // the glass hovers: no floor touches it
+    wide.instances[4].translation.z += 1;
+    Scene small = wide;
     small.sun.angular_diameter_deg = 0.05f;
     const LightPicture a = render(small, 64, 16), b = render(wide, 64, 16);
     glm::dvec3 light_a(0.0), light_b(0.0);
