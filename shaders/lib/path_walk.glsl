@@ -9,8 +9,9 @@
 //
 // Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
 // and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
-// eight cones, the sun's own and its images. A ray goes into the sun's and one into another; what they meet on the way
-// may be mirrors and glass. Chance finds what comes by spheres, and out of glass by another face.
+// eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
+// axes makes of them. A ray goes into the sun's and one into another; what they meet on the way may be mirrors and
+// glass. Chance finds what comes by spheres, and out of glass by another face.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
@@ -58,6 +59,7 @@ vec3 sky;
 vec3 sun_irradiance;
 vec3 sun_direction;
 float sun_height;
+float sun_reach;  // the same, wider by what rounding takes of a direction
 SampleKey sample_of_frame;
 
 void init_walks() {
@@ -65,6 +67,8 @@ void init_walks() {
     sun_irradiance = frame.sun_irradiance;
     sun_direction = frame.sun_direction;
     sun_height = frame.sun_cone_height;
+    float chord = sqrt(2.0 * sun_height) + kDirectionError;
+    sun_reach = 0.5 * chord * chord;
     sample_of_frame = sample_key(0u, uvec2(frame.sample_index, 0u), frame.seed);
 }
 
@@ -167,14 +171,43 @@ vec3 image_direction(uint image) {
     return sun_direction * vec3((image & 1u) != 0u ? -1.0 : 1.0, (image & 2u) != 0u ? -1.0 : 1.0, (image & 4u) != 0u ? -1.0 : 1.0);
 }
 
-const uint kImages = 7u;  // beside the sun itself
+const uint kImages = 8u;       // the sun itself among them
+const uint kGlassImages = 24u;  // of them, by three axes
 
-// For Walk::image_share: how many samples go into a direction, times the solid angle of the sun.
-float samples_of_sun(vec3 direction) {
-    float samples = is_in_cone(direction, sun_direction, sun_height) ? 1.0 : 0.0;
-    if (has_images == 0u) return samples;
-    for (uint image = 1u; image <= kImages; ++image)
-        samples += is_in_cone(direction, image_direction(image), sun_height) ? 1.0 / float(kImages) : 0.0;
+// What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
+// Zero where it reflects all.
+vec3 across_face(vec3 direction, uint axis, float eta) {
+    vec3 along = direction / eta;
+    along = vec3(axis == 0u ? 0.0 : along.x, axis == 1u ? 0.0 : along.y, axis == 2u ? 0.0 : along.z);
+    float square = 1.0 - dot(along, along);
+    if (!(square > 0.0)) return vec3(0.0);
+    float through = sqrt(square) * (direction[axis] < 0.0 ? -1.0 : 1.0);
+    return along + through * face_normal(2u * axis + 1u);
+}
+
+// Images of the sun from `first` on that are in a direction.
+float images_in(vec3 direction, uint first) {
+    float images = 0.0;
+    for (uint image = first; image < kImages; ++image)
+        images += is_in_cone(direction, image_direction(image), sun_reach) ? 1.0 : 0.0;
+    return images;
+}
+
+// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Through a face it grows
+// by eta^2 cos / cos' (Snell's law).
+float samples_of_sun(Walk walk) {
+    vec3 direction = walk.ray.direction;
+    float own = is_in_cone(direction, sun_direction, sun_reach) ? 1.0 : 0.0;
+    if (has_images == 0u) return own;
+    float samples = own + images_in(direction, 1u) / float(kImages - 1u);
+    if (has_glass_voxels == 0u || walk.vertex.medium == kNoMedium) return samples;
+    float ior = materials[walk.vertex.medium].ior;
+    samples = 0.0;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        vec3 outside = across_face(direction, axis, 1.0 / ior);
+        if (outside[axis] == 0.0) continue;
+        samples += images_in(outside, 0u) * ior * ior * abs(direction[axis] / outside[axis]) / float(kGlassImages);
+    }
     return samples;
 }
 
@@ -211,9 +244,8 @@ void take_light(inout Walk walk, PathHit found) {
     if (walk.kind != kRayOn && walk.is_straight)
         walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
     if (!has_glints || walk.is_straight) return;
-    // Rays to the sun end in its cone but for rounding, which is below 10^-6.
-    float height = sun_height + (walk.kind == kRayOn ? 0.0 : 1e-12);
-    if (!is_in_cone(walk.ray.direction, sun_direction, height)) return;
+    // Rays to the sun end in its cone, but for rounding.
+    if (!is_in_cone(walk.ray.direction, sun_direction, walk.kind == kRayOn ? sun_height : sun_reach)) return;
     vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0));
     walk.light += walk.image_share * (walk.kind == kRayOn ? carried : walk.expected);
 }
@@ -275,8 +307,13 @@ bool leave_to_emitter(inout Walk walk) {
 // Aims at the sun, or at one of its images. False where it is below the horizon.
 bool leave_to_sun(inout Walk walk, uint use) {
     vec3 u = numbers_of(walk, use);
-    uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages)), kImages - 1u);
-    set_direction(walk, uniform_cone(image_direction(image), sun_height, u.xy));
+    bool is_in_glass = has_glass_voxels != 0u && walk.vertex.medium != kNoMedium;
+    if (is_in_glass && use == kUseSun) return false;
+    uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages - 1u)), kImages - 2u);
+    uint glass_image = min(uint(u.z * float(kGlassImages)), kGlassImages - 1u);
+    vec3 direction = uniform_cone(image_direction(is_in_glass ? glass_image & 7u : image), sun_height, u.xy);
+    if (is_in_glass) direction = across_face(direction, glass_image >> 3u, materials[walk.vertex.medium].ior);
+    set_direction(walk, direction);
     walk.expected = walk.throughput * sun_irradiance * (walk.scale * walk.pdf);
     return walk.pdf > 0.0;
 }
@@ -286,7 +323,7 @@ bool leave_to_sun(inout Walk walk, uint use) {
 void leave(inout Walk walk, uint last) {
     bool is_first = walk.vertices == 1u;
     walk.kind = kRayOn;
-    walk.is_straight = true;
+    walk.is_straight = !(is_first && walk.vertex.medium != kNoMedium);  // nothing else finds what is in that glass
     walk.glints = 0u;
     if (has_sun != 0u && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
     if (has_glints && has_images != 0u && last <= kRaySun && walk.kind == kRayOn && leave_to_sun(walk, kUseImage))
@@ -295,7 +332,7 @@ void leave(inout Walk walk, uint last) {
     if (may_aim && last != kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
     if (walk.kind == kRayOn)
         set_direction(walk, is_first ? walk.ahead : cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy));
-    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk.ray.direction) + cone_solid_angle(sun_height) * walk.pdf);
+    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk) + cone_solid_angle(sun_height) * walk.pdf);
 }
 
 #endif

@@ -11,19 +11,35 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/path.glsl"
+
 #include "lib/photon_start.glsl"
-#include "lib/surface.glsl"
 
 VX_SPECIALIZED(uint, direct_stride, 1u);
+VX_SPECIALIZED(uint, media_stride, 0u);
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
+};
+// Materials of the glass voxels that visible points are in.
+layout(scalar) writeonly buffer Media {
+    uint media[];
 };
 layout(scalar) readonly buffer Direct {
     vec3 direct[];
 };
 
+uint medium_at(Ray ray) {
+    ray.t_max = kProbeLength;
+    WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
+    if (!entry.enters) return kNoMedium;
+    MarchHit met = march(entry.ray, frame.chunks);
+    count(kFaultRayUnsound, met.fault == kMarchUnsound ? 1u : 0u);
+    return met.face == kFaceInside && is_glass(met.material) ? met.material : kNoMedium;
+}
+
 void main() {
+    init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];
@@ -41,6 +57,7 @@ void main() {
         start.fraction = ray.fraction;
         start.direction = ray.direction;
         start.sphere = own_sphere(hit);
+        if (media_stride != 0u) media[pixel.index] = medium_at(ray);
     }
     put_start(pixel.index, start);
 }

@@ -22,10 +22,14 @@
 #include "lib/path_walk.glsl"
 #include "lib/photon_start.glsl"
 
+VX_SPECIALIZED(uint, media_stride, 0u);
 VX_SPECIALIZED(uint, has_rounds, 0u);  // paths go on from States
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
+};
+layout(scalar) readonly buffer Media {
+    uint media[];
 };
 layout(scalar) writeonly buffer Light {
     vec3 light[];
@@ -62,6 +66,7 @@ void main() {
             walk = first_walk(photon_start(next_id));
             if (has_glints && finds_caustics != 0u && is_surface(hits[next_id])) {
                 walk.normal = surface_normal(hits[next_id]);
+                if (media_stride != 0u) walk.vertex.medium = media[next_id];
                 leave(walk, kRayNone);
             }
             next_id += push.lanes;

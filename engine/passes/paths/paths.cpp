@@ -5,18 +5,28 @@
 namespace voxilux {
 namespace {
 
+// Of visible points in glass, where paths aim at images of the sun from there.
+Plane media_plane(const RenderPlan& plan, Recording& recording) {
+    const bool are_needed =
+        plan.is_by_paths(Effect::caustics) && plan.has(Effect::sun) && plan.has_glass_voxels;
+    if (!are_needed) return {placeholder_buffer(recording), 0};
+    return {declare_plane<gpu::uint>(plan, "path.media", recording)};
+}
+
 void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                        const Plane& direct, const std::string& starts, Recording& recording) {
+    const Plane media = media_plane(plan, recording);
     Dispatch dispatch{.label = "path.start",
                       .shader = "path_start",
                       .extent = pixel_extent(plan, tile),
-                      .bindings = {{"Frame", frame_buffer(recording)},
-                                   {"Spheres", spheres_buffer(plan, recording)},
-                                   {"Hits", hits.buffer},
-                                   {"Direct", direct.buffer},
-                                   {"Starts", starts}},
-                      .constants = surface_constants(plan)};
-    dispatch.constants.push_back({"direct_stride", direct.stride});
+                      .bindings = path_bindings(plan, recording),
+                      .constants = path_constants(plan)};
+    dispatch.bindings.insert(
+        dispatch.bindings.end(),
+        {{"Hits", hits.buffer}, {"Direct", direct.buffer}, {"Media", media.buffer}, {"Starts", starts}});
+    dispatch.constants.insert(dispatch.constants.end(),
+                              {{"direct_stride", direct.stride}, {"media_stride", media.stride}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
 
@@ -32,6 +42,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
                       .extent = {lanes, 1, 1},
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
+    const Plane media = media_plane(plan, recording);
     const auto emitter_buffer = [&](std::string (*buffer)(const RenderPlan&, Recording&)) {
         return has_emitters ? buffer(plan, recording) : placeholder_buffer(recording);
     };
@@ -39,6 +50,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
                                                        {"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"Starts", starts},
+                                                       {"Media", media.buffer},
                                                        {"States", states},
                                                        {"Light", light}});
     dispatch.constants.insert(
@@ -49,6 +61,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
          {"has_images", plan.has(Effect::specular) && plan.has(Effect::voxels) ? 1u : 0u},
          {"finds_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
          {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
+         {"media_stride", media.stride},
          {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     return dispatch;
