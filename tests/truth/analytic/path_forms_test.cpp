@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathTruth,
 Scene glints() {
     Scene scene = test::dark_scene(48, 1024, 1.0);
     scene.sky.radiance = {0.2f, 0.25f, 0.3f};
-    scene.sun = {.azimuth_deg = 215.0f, .elevation_deg = 40.0f, .angular_diameter_deg = 4.0f};
+    scene.sun = {.azimuth_deg = 215.0f, .elevation_deg = 40.0f, .angular_diameter_deg = 10.0f};
     const std::uint16_t stone = test::add_diffuse(scene, 0.6f);
     test::add_box(scene, {-10, -10, -1}, {10, 10, 0}, stone);
     test::add_box(scene, {3, -10, 0}, {4, 10, 7}, test::add_mirror(scene, 0.9f));
@@ -207,7 +207,7 @@ Scene glints() {
 }
 
 TEST(PathTruth, p15_sun_by_way_of_mirrors_and_glass_agrees_with_an_independent_tracer) {
-    expect_truth(glints(), {.scene = "glints", .samples = 96, .truth_spp = 1024});
+    expect_truth(glints(), {.scene = "glints", .samples = 96, .truth_spp = 2048});
 }
 
 TEST(PathTruth, p15_glass_that_takes_a_fifth_more_is_caught) {
