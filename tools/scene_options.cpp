@@ -80,8 +80,9 @@ bool has_photons(const Scene& scene, const SceneOptions& options) {
     choose_techniques(options.techniques, settings);
     const EffectStates effects =
         decide_effects(measure_scene(scene), with_techniques(options.request.effects, settings));
-    return std::ranges::any_of(effects, [](const EffectState& state) {
-        return state.on && (state.effect == Effect::caustics || state.effect == Effect::indirect);
+    return std::ranges::any_of(effects, [&](const EffectState& state) {
+        return state.on && ((state.effect == Effect::caustics && !settings.paths.caustics) ||
+                            (state.effect == Effect::indirect && !settings.paths.indirect));
     });
 }
 

@@ -96,8 +96,8 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         merge(root, tree);
     }
     const TomlSection sections(root, "the scene",
-                               {"render", "ao", "photons", "technique", "camera", "sun", "sky", "material",
-                                "model", "shape", "sphere"});
+                               {"render", "ao", "photons", "paths", "technique", "camera", "sun", "sky",
+                                "material", "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     visit_sections(scene, [&](std::string_view name, auto& settings) {
         if (const toml::table* table = find_section(in, name))

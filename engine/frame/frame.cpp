@@ -5,6 +5,7 @@
 #include "passes/film/film_add.h"
 #include "passes/light/direct.h"
 #include "passes/light/sun.h"
+#include "passes/paths/paths.h"
 #include "passes/photons/photons.h"
 #include "passes/primary/primary.h"
 #include "passes/primary/sphere.h"
@@ -94,13 +95,14 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
         plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
     const Plane direct = plan.has(Effect::direct) ? record_direct_trace(plan, tile, seen.hits, rec)
                                                   : constant_value(0.0f, rec);
+    const Plane sent = plan.paths.runs() ? record_paths(plan, tile, seen.hits, direct, rec) : direct;
     const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
     const FilmInputs inputs{.first_hits = hits,
                             .seen = seen,
                             .ao = sky.ao,
                             .sky = sky.light,
                             .sun = sun,
-                            .direct = direct,
+                            .direct = sent,
                             .photons = photons};
     record_film_add(plan, tile, inputs, sample, number.keeps_color, rec);
     if (plan.has(Effect::aov) && sample == number.first) record_aov_position(plan, tile, hits, rec);

@@ -34,6 +34,9 @@ std::string describe(const RenderPlan& plan) {
                             plan.photons.count(), plan.photons.capacity,
                             plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
                             plan.settings.photons.alpha);
+    if (plan.paths.runs())
+        text +=
+            fmt::format("paths     {} per invocation, {} round(s)\n", plan.paths.per_lane, plan.paths.rounds);
     const Footprint needs = footprint(plan);
     for (const PlannedPass& pass : needs.passes)
         text += fmt::format("pass      {:<14} x {}\n", pass.label, pass.count);

@@ -24,7 +24,8 @@ bool is_of_frame(const std::string& stem) {
 Effect payer_of(const RenderPlan& plan, const std::string& stem) {
     if (stem == "primary") return Effect::voxels;
     if (stem == "sphere") return Effect::spheres;
-    if (stem == "photon") return plan.has(Effect::indirect) ? Effect::indirect : Effect::caustics;
+    if (stem == "photon") return plan.is_by_photons(Effect::indirect) ? Effect::indirect : Effect::caustics;
+    if (stem == "path") return Effect::indirect;
     for (const EffectState& state : plan.effects) {
         if (name_of(state.effect) == stem) return state.effect;
     }

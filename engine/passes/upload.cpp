@@ -66,7 +66,8 @@ void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::iv
         const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);
         recording.upload(materials_buffer(plan, recording), std::as_bytes(std::span(materials)));
     }
-    if (!plan.has(Effect::direct) && plan.photons.emitter_photons == 0) return;
+    const bool paths_aim = plan.paths.runs() && plan.has(Effect::emission) && plan.world.lights.count != 0;
+    if (!plan.has(Effect::direct) && plan.photons.emitter_photons == 0 && !paths_aim) return;
     recording.upload(lights_buffer(plan, recording), std::as_bytes(std::span(lights.records)));
     recording.upload(light_table_buffer(plan, recording), std::as_bytes(std::span(lights.table)));
 }

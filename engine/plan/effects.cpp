@@ -73,8 +73,13 @@ Verdict judge_caustics(const SceneFacts& facts, const EffectRequest&) {
     return {true, true, "photons: glass and mirrors gather light"};
 }
 
-Verdict judge_indirect(const SceneFacts& facts, const EffectRequest&) {
+Verdict judge_indirect(const SceneFacts& facts, const EffectRequest& request) {
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
+    if (request.traces_paths) {
+        const bool shines = facts.has_emitters || facts.sun_reaches || facts.has_sky;
+        if (!shines) return {false, false, "neither emitter nor sun nor sky shines"};
+        return {true, true, "paths: surfaces send light on"};
+    }
     if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
     if (!facts.has_emitters)
         return {true, false, "no lamps: occlusion of the sky stands for light between surfaces", true};
@@ -113,7 +118,7 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
 }
 
 // Light that has not been let out, or finds no mirror, needs no photons.
-void drop_unlit(EffectStates& states) {
+void drop_unlit(const EffectRequest& request, EffectStates& states) {
     const auto state = [&](Effect effect) -> EffectState& {
         return states[static_cast<std::size_t>(effect)];
     };
@@ -121,11 +126,22 @@ void drop_unlit(EffectStates& states) {
         if (state(effect).on) state(effect) = {effect, false, reason, true};
     };
     if (!state(Effect::specular).on) drop(Effect::caustics, "mirrors and glass are switched off");
+    const bool sky_lights = request.traces_paths && state(Effect::sky).on;
     if (state(Effect::emission).on) return;
     drop(Effect::direct, "lamps are switched off");
     if (state(Effect::sun).on) return;
     drop(Effect::caustics, "neither lamp nor sun shines");
-    drop(Effect::indirect, "neither lamp nor sun shines");
+    if (!sky_lights) drop(Effect::indirect, "neither lamp nor sun shines");
+}
+
+// Occlusion of the sky within a reach stands for the light of the sky, which paths find as it is. Who asks
+// for occlusion gets it as an AOV.
+void drop_stand_in(const EffectRequest& request, EffectStates& states) {
+    const bool is_asked_for = request.switches.contains(Effect::ao);
+    EffectState& ao = states[static_cast<std::size_t>(Effect::ao)];
+    if (!request.traces_paths || !states[static_cast<std::size_t>(Effect::indirect)].on) return;
+    if (ao.on && !is_asked_for)
+        ao = {Effect::ao, false, "paths find the light of the sky without a stand-in"};
 }
 
 }  // namespace
@@ -148,7 +164,8 @@ EffectStates decide_effects(const SceneFacts& facts, const EffectRequest& reques
     EffectStates states;
     for (std::size_t i = 0; i < kEffectCount; ++i)
         states[i] = decide(kEffects[i], facts, request);
-    drop_unlit(states);
+    drop_unlit(request, states);
+    drop_stand_in(request, states);
     return states;
 }
 

@@ -70,11 +70,24 @@ void check_shard(const RenderPlan& plan) {
     }
 }
 
+// Paths that find caustics find all light; none find that of an atmosphere.
+void check_paths(const RenderPlan& plan) {
+    if (plan.paths.runs() && plan.has_atmosphere())
+        throw Error(
+            ExitCode::input_refused,
+            "paths do not find the light of an atmosphere; leave out --technique indirect, or use a constant "
+            "[sky]");
+    if (plan.is_by_paths(Effect::caustics) && !plan.is_by_paths(Effect::indirect))
+        throw Error(ExitCode::input_refused,
+                    "caustics by paths need indirect light by paths; use --technique indirect=paths, too");
+}
+
 // Which techniques compute the effects that are on, and nothing for those that are off.
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
-    if (!plan.has(Effect::caustics) && !plan.has(Effect::indirect)) plan.photons = {};
-    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings);
+    if (!plan.any(&Technique::by_photons)) plan.photons = {};
+    if (!plan.any(&Technique::by_paths)) plan.paths = {};
 }
 
 // What the film sums for errors beside the picture.
@@ -117,8 +130,13 @@ void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
                 fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
                             100.0f * lost));
     }
-    if (plan.has(Effect::sky) && (facts.has_glass || facts.has_metal))
+    const bool is_polished = facts.has_glass || facts.has_metal;
+    if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
+    if (plan.has(Effect::sun) && is_polished && plan.paths.runs())
+        plan.notes.emplace_back(
+            "sunlight that goes on from surface to surface by way of mirrors and glass is found by chance: "
+            "it is noisy");
     plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
 }
 
@@ -168,18 +186,6 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
-    if (plan.has(Effect::caustics) || plan.has(Effect::indirect)) {
-        plan.photons = plan_photons(plan.settings.photons,
-                                    {.lights = world.lights,
-                                     .has_emitters = plan.has(Effect::emission),
-                                     .has_sun = plan.has(Effect::sun),
-                                     .keeps_indirect = plan.has(Effect::indirect),
-                                     .sun_irradiance = sunlight(scene),
-                                     .pixels = pixels_of(plan.settings),
-                                     .spheres = plan.sphere_count,
-                                     .has_voxels = plan.has(Effect::voxels)},
-                                    limits);
-    }
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
@@ -189,6 +195,24 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     decide_techniques(plan);
+    if (plan.any(&Technique::by_photons)) {
+        plan.photons = plan_photons(plan.settings.photons,
+                                    {.lights = world.lights,
+                                     .has_emitters = plan.has(Effect::emission),
+                                     .has_sun = plan.has(Effect::sun),
+                                     .keeps_indirect = plan.is_by_photons(Effect::indirect),
+                                     .sun_irradiance = sunlight(scene),
+                                     .pixels = pixels_of(plan.settings),
+                                     .spheres = plan.sphere_count,
+                                     .has_voxels = plan.has(Effect::voxels)},
+                                    limits);
+    }
+    if (plan.any(&Technique::by_paths))
+        plan.paths = plan_paths({.max_albedo = world.lights.max_albedo,
+                                 .spheres = plan.sphere_count,
+                                 .has_voxels = plan.has(Effect::voxels)},
+                                limits);
+    check_paths(plan);
     check_shard(plan);
     decide_sums(plan, request.wants_error);
     split_image(plan, limits.max_groups[1]);

@@ -10,6 +10,7 @@
 #include "plan/device_limits.h"
 #include "plan/effects.h"
 #include "plan/plan_ao.h"
+#include "plan/plan_paths.h"
 #include "plan/plan_photons.h"
 #include "plan/shard.h"
 #include "plan/techniques.h"
@@ -71,6 +72,7 @@ struct RenderPlan {
     bool has_glass_voxels = false;
     std::uint32_t sky_resolution = 0;  // of the atmosphere; 0: the sky is constant
     PhotonPlan photons;                // all zero without caustics and indirect light
+    PathPlan paths;                    // all zero without them
     bool sums_squares = false;         // of the beauty, for its variance
     bool sums_bias = false;            // of photons
     std::uint32_t film_tile_rows = 0;  // rows of one film tile: what one set of film buffers covers
@@ -89,6 +91,20 @@ struct RenderPlan {
         return std::ranges::any_of(techniques, [&](const ChosenTechnique& chosen) {
             return std::invoke(property, *chosen.technique);
         });
+    }
+    // Whether an effect is on, and photons or paths find it.
+    [[nodiscard]] bool is_by_photons(Effect effect) const { return finds(effect, &Technique::by_photons); }
+    [[nodiscard]] bool is_by_paths(Effect effect) const { return finds(effect, &Technique::by_paths); }
+    template <class Property>
+    [[nodiscard]] bool finds(Effect effect, Property property) const {
+        return has(effect) && std::ranges::any_of(techniques, [&](const ChosenTechnique& chosen) {
+                   return chosen.technique->effect == effect && std::invoke(property, *chosen.technique);
+               });
+    }
+    // Invocations that trace the paths of so many rows.
+    [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {
+        const std::uint64_t pixels = std::uint64_t{rows} * static_cast<std::uint64_t>(settings.size.x);
+        return static_cast<std::uint32_t>((pixels + paths.per_lane - 1) / paths.per_lane);
     }
     // Whether samples of a pixel are independent of each other, so that their variance tells the error of
     // their mean. Those of a low-discrepancy sequence are not: their mean errs less. (Its two halves are.)

@@ -14,6 +14,7 @@ constexpr Technique photons_of(Effect effect, std::string_view name, std::string
     return {.effect = effect,
             .name = name,
             .sentence = sentence,
+            .by_photons = true,
             .biased = true,
             .tells_bias = true,
             .independent_samples = true,
@@ -39,6 +40,10 @@ constexpr Technique pixel_radii(Effect effect) {
                       "classic radii of photons depend on the samples before; use photons.classic=false");
 }
 
+constexpr Technique paths_of(Effect effect, std::string_view name, std::string_view sentence) {
+    return {.effect = effect, .name = name, .sentence = sentence, .by_paths = true};
+}
+
 constexpr Technique none(Effect effect) {
     return {.effect = effect, .name = "none", .sentence = "this light is left out"};
 }
@@ -55,10 +60,15 @@ constexpr std::array kTechniques{
     gathering(Effect::caustics),
     splatting(Effect::caustics),
     pixel_radii(Effect::caustics),
+    paths_of(Effect::caustics, "paths",
+             "paths from the camera meet light behind mirrors and glass by chance"),
     none(Effect::caustics),
     gathering(Effect::indirect),
     splatting(Effect::indirect),
     pixel_radii(Effect::indirect),
+    paths_of(Effect::indirect, "paths",
+             "paths from surface to surface find all light, that of the sky included: unbiased"),
+    paths_of(Effect::indirect, "reference", "the same, but paths meet emitters by chance alone: slower"),
     none(Effect::indirect),
 };
 
@@ -69,7 +79,16 @@ const Technique* technique_named(Effect effect, std::string_view name) {
     return &*row;
 }
 
-ChosenTechnique way_of_photons(Effect effect, const PhotonSettings& settings) {
+bool is_found_by_paths(Effect effect, const PathSettings& paths) {
+    return effect == Effect::indirect ? paths.indirect : effect == Effect::caustics && paths.caustics;
+}
+
+ChosenTechnique way_of_light(Effect effect, const RenderSettings& all) {
+    if (is_found_by_paths(effect, all.paths)) {
+        const bool is_plain = effect == Effect::indirect && all.paths.plain;
+        return {technique_named(effect, is_plain ? "reference" : "paths"), "asked for"};
+    }
+    const PhotonSettings& settings = all.photons;
     if (settings.scatter) return {technique_named(effect, "splatting"), "asked for"};
     if (settings.classic) return {technique_named(effect, "pixel_radii"), "asked for"};
     return {technique_named(effect, "photons"), "the fastest way, whose error is known"};
@@ -82,13 +101,13 @@ std::span<const Technique> all_techniques() {
 }
 
 std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
-                                               const PhotonSettings& photons) {
+                                               const RenderSettings& settings) {
     std::vector<ChosenTechnique> chosen;
     if (effects[static_cast<std::size_t>(Effect::ao)].on)
         chosen.push_back({technique_named(Effect::ao, ao.uses_cells() ? "hash" : "brute"), ao.reason});
     for (const Effect effect : {Effect::caustics, Effect::indirect}) {
         const EffectState& state = effects[static_cast<std::size_t>(effect)];
-        chosen.push_back(state.on ? way_of_photons(effect, photons)
+        chosen.push_back(state.on ? way_of_light(effect, settings)
                                   : ChosenTechnique{technique_named(effect, "none"), state.reason});
     }
     return chosen;
@@ -99,6 +118,7 @@ EffectRequest with_techniques(EffectRequest request, const RenderSettings& setti
         Switch& choice = request.switches[effect];
         if (!is_found && choice == Switch::automatic) choice = Switch::off;
     };
+    request.traces_paths = settings.paths.indirect;
     leave_out(Effect::caustics, settings.photons.caustics);
     leave_out(Effect::indirect, settings.photons.indirect);
     return request;

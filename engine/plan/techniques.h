@@ -16,8 +16,10 @@ namespace voxilux {
 // A way to compute an effect. Callers ask for a property, not for a name.
 struct Technique {
     Effect effect = Effect::voxels;
-    std::string_view name;             // as in scene/technique_choice.h
-    std::string_view sentence;         // for the user
+    std::string_view name;      // as in scene/technique_choice.h
+    std::string_view sentence;  // for the user
+    bool by_photons = false;
+    bool by_paths = false;
     bool biased = false;               // more samples do not remove all of its error
     bool tells_bias = false;           // the film can sum by how much it is off
     bool independent_samples = false;  // of a pixel, whatever sequence leads the camera's rays
@@ -49,7 +51,7 @@ struct ChosenTechnique {
 
 // One for each effect that has techniques and is on, or off for want of one (`none`).
 [[nodiscard]] std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
-                                                             const PhotonSettings& photons);
+                                                             const RenderSettings& settings);
 
 // The request with those effects off for which the settings choose `none`, unless it has them on.
 [[nodiscard]] EffectRequest with_techniques(EffectRequest request, const RenderSettings& settings);

@@ -11,6 +11,7 @@ constexpr double kGpuTargetMs = 125.0;
 constexpr double kCpuTargetMs = 400.0;
 // Rays of the first tile, before anything is known: 80 ms at 50 million rays per second.
 constexpr std::uint64_t kFirstTileRays = std::uint64_t{1} << 22;
+constexpr std::uint64_t kRaysOfPath = 16;  // what a path of eight surfaces takes
 constexpr double kMaxGrowth = 4.0;
 constexpr std::uint32_t kGroupRows = 16;  // whole workgroups keep their lanes busy
 
@@ -21,7 +22,8 @@ TileGovernor::TileGovernor(const RenderPlan& plan, bool is_cpu)
       film_tile_rows_(plan.film_tile_rows),
       max_rows_(plan.tile_rows),
       target_ms_(is_cpu ? kCpuTargetMs : kGpuTargetMs) {
-    const std::uint64_t rays_per_pixel = 2 + (plan.has(Effect::ao) ? plan.settings.ao_rays : 0);
+    const std::uint64_t rays_per_pixel =
+        2 + (plan.has(Effect::ao) ? plan.settings.ao_rays : 0) + (plan.paths.runs() ? kRaysOfPath : 0);
     const std::uint64_t rays_per_row = rays_per_pixel * static_cast<std::uint64_t>(plan.settings.size.x);
     keeps_whole_ = plan.any(&Technique::whole_frame) || plan.any(&Technique::whole_slices);
     if (keeps_whole_) {

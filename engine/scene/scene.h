@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/ao_settings.h"
+#include "scene/path_settings.h"
 #include "scene/photon_settings.h"
 #include "scene/sky_settings.h"
 #include "scene/vox_file.h"
@@ -131,6 +132,7 @@ struct RenderSettings {
     Sequence sequence = Sequence::sobol;
     AoSettings ao;
     PhotonSettings photons;
+    PathSettings paths;
 
     bool operator==(const RenderSettings&) const = default;
 };

@@ -105,7 +105,8 @@ struct CameraKeySettings {
 // visit_settings(settings, visit) calls visit(const Setting&, member) for each row of a section.
 
 void visit_settings(RenderSettings& settings, auto&& visit) {
-    auto& [size, spp, ao_rays, ao_radius, seed, sequence, ao, photons] = settings;  // these two are sections
+    auto& [size, spp, ao_rays, ao_radius, seed, sequence, ao, photons, paths] =
+        settings;  // these three are sections
     visit({"size", {1, 65535}, "width and height, pixels"}, size);
     visit({"spp", {1, 4294967295}, "samples per pixel"}, spp);
     visit({"ao_rays", {1, 65535}, "occlusion rays per sample"}, ao_rays);
@@ -139,6 +140,14 @@ void visit_settings(PhotonSettings& settings, auto&& visit) {
     visit({"depth", {1, 4096}, "surfaces on a path without roulette"}, depth);
     visit({"caustics", {}, "false: nothing finds them, as with the technique `none`"}, caustics);
     visit({"indirect", {}, "likewise indirect light"}, indirect);
+}
+
+void visit_settings(PathSettings& settings, auto&& visit) {
+    auto& [indirect, caustics, plain] = settings;
+    visit({"indirect", {}, "true: paths find light between surfaces and that of the sky"}, indirect);
+    visit({"caustics", {}, "true: they find caustics, too"}, caustics);
+    visit({"plain", {}, "true: they meet emitters by chance alone, as with the technique `reference`"},
+          plain);
 }
 
 void visit_settings(Sun& sun, auto&& visit) {
@@ -218,6 +227,7 @@ void visit_sections(auto& scene, auto&& visit) {
     visit("render", scene.settings);
     visit("ao", scene.settings.ao);
     visit("photons", scene.settings.photons);
+    visit("paths", scene.settings.paths);
     visit("sun", scene.sun);
     visit("sky", scene.sky);
 }

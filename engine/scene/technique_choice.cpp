@@ -13,20 +13,39 @@ void choose_ao(RenderSettings& settings) {
     settings.ao.method = kMethod;
 }
 
-template <bool PhotonSettings::*kFound, bool kScatter, bool kClassic>
+// Which members of the settings say how an effect is found.
+struct FoundBy {
+    bool PhotonSettings::*found;  // at all
+    bool PathSettings::*paths;
+};
+
+template <FoundBy kBy, bool kScatter, bool kClassic>
 void choose_photons(RenderSettings& settings) {
-    settings.photons.*kFound = true;
+    settings.photons.*kBy.found = true;
+    settings.paths.*kBy.paths = false;
     settings.photons.scatter = kScatter;
     settings.photons.classic = kClassic;
 }
 
-template <bool PhotonSettings::*kFound>
-void choose_none(RenderSettings& settings) {
-    settings.photons.*kFound = false;
+template <FoundBy kBy>
+void choose_paths(RenderSettings& settings) {
+    settings.photons.*kBy.found = true;
+    settings.paths.*kBy.paths = true;
 }
 
-constexpr bool PhotonSettings::*kCaustics = &PhotonSettings::caustics;
-constexpr bool PhotonSettings::*kIndirect = &PhotonSettings::indirect;
+template <FoundBy kBy>
+void choose_none(RenderSettings& settings) {
+    settings.photons.*kBy.found = false;
+}
+
+constexpr FoundBy kCaustics{&PhotonSettings::caustics, &PathSettings::caustics};
+constexpr FoundBy kIndirect{&PhotonSettings::indirect, &PathSettings::indirect};
+
+template <bool kPlain>
+void choose_indirect_paths(RenderSettings& settings) {
+    choose_paths<kIndirect>(settings);
+    settings.paths.plain = kPlain;
+}
 
 constexpr std::array kChoices{
     TechniqueChoice{"ao", "auto", choose_ao<AoMethod::automatic>},
@@ -35,10 +54,13 @@ constexpr std::array kChoices{
     TechniqueChoice{"caustics", "photons", choose_photons<kCaustics, false, false>},
     TechniqueChoice{"caustics", "splatting", choose_photons<kCaustics, true, false>},
     TechniqueChoice{"caustics", "pixel_radii", choose_photons<kCaustics, false, true>},
+    TechniqueChoice{"caustics", "paths", choose_paths<kCaustics>},
     TechniqueChoice{"caustics", "none", choose_none<kCaustics>},
     TechniqueChoice{"indirect", "photons", choose_photons<kIndirect, false, false>},
     TechniqueChoice{"indirect", "splatting", choose_photons<kIndirect, true, false>},
     TechniqueChoice{"indirect", "pixel_radii", choose_photons<kIndirect, false, true>},
+    TechniqueChoice{"indirect", "paths", choose_indirect_paths<false>},
+    TechniqueChoice{"indirect", "reference", choose_indirect_paths<true>},
     TechniqueChoice{"indirect", "none", choose_none<kIndirect>},
 };
 

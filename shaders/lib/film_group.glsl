@@ -13,6 +13,7 @@
 VX_SPECIALIZED(uint, hits_stride, 1u);
 VX_SPECIALIZED(uint, ao_stride, 1u);
 VX_SPECIALIZED(uint, sky_stride, 0u);  // 0: the sky is constant
+VX_SPECIALIZED(uint, paths_find_sky, 0u);  // its light at surfaces, which is then none of occlusion
 VX_SPECIALIZED(uint, sun_stride, 1u);
 VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
@@ -59,6 +60,12 @@ void set_hits(inout Group group, Hit hits[kGroupPixels]) {
     group.hits = hits;
 }
 
+// What the light of a constant sky is multiplied by.
+float ambient_visibility(Group group, uint k) {
+    if (!is_surface(group.hits[k])) return 1.0;
+    return paths_find_sky != 0u ? 0.0 : group.ao[k];
+}
+
 // Group `at` of the tile; the pixels of the tile are those from `first` to before `end`, numbered in its planes.
 Group load_group(uint at, uint first, uint end) {
     Group group;
@@ -73,7 +80,7 @@ Group load_group(uint at, uint first, uint end) {
         group.sky = VX_GROUP_VECTORS(SkyLight, at, sky_stride);
     } else {
         for (uint k = 0u; k < kGroupPixels; ++k)
-            group.sky[k] = frame.sky_radiance * (is_surface(group.hits[k]) ? group.ao[k] : 1.0);
+            group.sky[k] = frame.sky_radiance * ambient_visibility(group, k);
     }
     group.sun = VX_GROUP_FLOATS(Sun, at, sun_stride);
     group.direct = VX_GROUP_VECTORS(Direct, at, direct_stride);

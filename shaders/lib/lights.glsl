@@ -36,6 +36,44 @@ vec3 sphere_centre(Sphere shape) {
     return shape.anchor - shape.normal / shape.curvature;
 }
 
+struct LightSample {
+    vec3 direction;  // unit; of no meaning when pdf is 0
+    float pdf;       // per solid angle, with which it was drawn
+    DrawnLight emitter;
+};
+
+// Aims at a point of an emitter that is drawn by its power.
+LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
+    LightSample aim;
+    aim.emitter = sample_light(bits, u);
+    aim.pdf = 0.0;
+    aim.direction = vec3(0.0, 0.0, 1.0);
+    if (aim.emitter.parts.kind == kLightSphere) {
+        Sphere shape = spheres[aim.emitter.parts.sphere].shape;
+        SphereCone cone = sphere_cone(sphere_centre(shape) - origin, 1.0 / shape.curvature);
+        if (cone.height > 0.0) {
+            aim.direction = uniform_cone(cone.axis, cone.height, u_point);
+            aim.pdf = aim.emitter.pdf * sphere_cone_pdf(cone);
+        }
+    } else {
+        uint axis = aim.emitter.parts.face >> 1u;
+        float on_face = float(aim.emitter.parts.face & 1u);
+        vec3 point = vec3(axis == 0u ? on_face : u_point.x, axis == 1u ? on_face : (axis == 0u ? u_point.x : u_point.y),
+                          axis == 2u ? on_face : u_point.y);
+        vec3 way = local_position(aim.emitter.cell, point) - origin;
+        float square = dot(way, way);
+        aim.direction = way / sqrt(square);
+        float cosine = -dot(aim.direction, face_normal(aim.emitter.parts.face));
+        if (cosine > 0.0 && square > 0.0) aim.pdf = aim.emitter.pdf * square / cosine;
+    }
+    return aim;
+}
+
+bool is_on_emitter(Hit hit, DrawnLight emitter) {
+    if (emitter.parts.kind == kLightSphere) return is_on_sphere(hit) && hit.sphere == emitter.parts.sphere;
+    return !is_on_sphere(hit) && hit.face == emitter.parts.face && hit.cell == emitter.cell;
+}
+
 // Per solid angle: the density with which an emitter drawn by its power, and a point of it, give the direction from
 // `origin` to a hit on it. 0 where the hit does not shine at `origin`. In weights only: draws use the table's numbers.
 float light_pdf(vec3 origin, vec3 direction, Hit hit, vec3 emission) {

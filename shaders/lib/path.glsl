@@ -116,6 +116,8 @@ void look_behind(PathRay path, CellExit way, Ray probe, MarchHit behind, inout P
     found.stays = found.far_medium == path.medium;
 }
 
+uint march_steps = 0u;  // of the last march
+
 void find_voxel(PathRay path, inout PathHit found) {
     bool inside = has_glass_voxels != 0u && path.medium != kNoMedium;
     Ray ray;
@@ -134,6 +136,7 @@ void find_voxel(PathRay path, inout PathHit found) {
     WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
     if (entry.enters) {
         MarchHit met = march(entry.ray, frame.chunks);
+        march_steps = met.steps;
         count(kFaultRayUnsound, met.fault == kMarchUnsound ? 1u : 0u);
         count(kFaultMarchExhausted, met.fault == kMarchExhausted ? 1u : 0u);
         if (inside) {

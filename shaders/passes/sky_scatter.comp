@@ -5,6 +5,8 @@
 // One round of gathering the light that arrives anywhere in the air: a texel of its table (sky_march.h) per
 // invocation, from the table of the round before.
 
+// Few texels that take long: small groups keep all threads of a software device busy.
+#define VX_LINEAR_GROUP 8
 #include "lib/invocation.glsl"
 #include "lib/sky_build.glsl"
 

@@ -4,6 +4,7 @@
 
 // The sky as the scene sees it: a texel of its table (sky_view.h) per invocation.
 
+#define VX_LINEAR_GROUP 8
 #include "lib/invocation.glsl"
 #include "lib/sky_build.glsl"
 

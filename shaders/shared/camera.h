@@ -2,6 +2,7 @@
 #ifndef VX_CAMERA_H
 #define VX_CAMERA_H
 
+#include "dimensions.h"
 #include "gpu_types.h"
 #include "limits.h"
 #include "march.h"
@@ -10,18 +11,6 @@
 #include "two_float.h"
 
 VX_BEGIN
-
-// Pairs of dimensions of the sample sequence (sequence.h) and who uses them. Occlusion comes first because
-// its noise is the largest and the first dimensions of every sequence are the best.
-VX_CONST(uint, kPairOcclusion, 0u);
-VX_CONST(uint, kPairPixel, 1u);
-VX_CONST(uint, kPairSun, 2u);
-VX_CONST(uint, kPairEmitter, 3u);       // which emitter
-VX_CONST(uint, kPairEmitterPoint, 4u);  // which point of it
-VX_CONST(uint, kPairSurface, 5u);       // where a diffuse surface sends light
-VX_CONST(uint, kPairPhoton, 6u);        // three pairs, of the emission of a photon
-VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path meets
-VX_CONST(uint, kPairsOfBounce, 3u);
 
 // The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its
 // kSequence* id. Pinhole, box filter.

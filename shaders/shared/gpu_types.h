@@ -124,6 +124,32 @@ static_assert(sizeof(Hit) == 4 * kHitWords && sizeof(SurfaceMaterial) == 16 * kM
 static_assert(sizeof(PhotonStart) == 8 * kStartWords);
 #endif
 
+// A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
+struct PathState {
+    ivec3 cell;  // of the ray's origin, local to the world
+    vec3 fraction;
+    vec3 direction;
+    uint own;
+    uint medium;
+    uint kind;
+    uint stream;
+    vec3 throughput;
+    float scale;
+    float pdf;
+    float image_share;
+    vec3 light;
+    uint surfaces;
+    uint vertices;
+    uint is_straight;
+    uint next_id;  // pixel of the tile that the invocation takes next; 0 before the first round
+};
+
+// Push constants of path_trace.
+struct PathPush {
+    uint lanes;    // invocations
+    uint is_last;  // 1 in the last round of a sample: paths that are not done are lost
+};
+
 // What the passes of the ambient occlusion hash share beside FrameParams: one sample of one frame.
 struct AoParams {
     ivec3 last_camera_cell;  // of the sample before, for the reprojection

@@ -112,6 +112,15 @@ VX_CONST(uint, kMaxPhotonSteps, 16777216u);
 // Surfaces that a path from the camera meets before roulette may end it: it costs more noise than time there.
 VX_CONST(uint, kSureBounces, 8u);
 
+// How far two directions may lie apart that would be one without rounding: some roundings of 2^-24 at each of
+// several mirrors. A sun of 0.05 degrees is 400 times as wide.
+VX_CONST(float, kDirectionError, 1.0e-6f);
+// Surfaces that a path of path_trace may meet: one between walls of albedo 0.999 meets more once in 10^28.
+VX_CONST(uint, kMaxPathSurfaces, 65536u);
+// Turns of all loops after which an invocation of path_trace ends its round: three quarters of what lavapipe
+// allows (lib/loops.glsl). What is left is for the march that it is in.
+VX_CONST(uint, kRoundTurns, 49152u);
+
 // Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so that ratios lie in [1/4,
 // 4].
 VX_CONST(float, kMaxEta, 16.0f);

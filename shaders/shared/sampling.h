@@ -120,6 +120,13 @@ VX_FN float cone_solid_angle(float height) {
     return (2.0f * kPi) * height;
 }
 
+// Whether a unit direction is in the cone of cone_height `height` around a unit axis: by the chord between
+// them, because 1 - cos of a sun of 0.05 degrees is below the step of a float near 1.
+VX_FN bool is_in_cone(vec3 direction, vec3 axis, float height) {
+    VX_PRECISE vec3 chord = direction - axis;
+    return dot(chord, chord) <= 2.0f * height;
+}
+
 // Uniform direction in the cone of cone_height `height` around a unit direction, density 1 /
 // cone_solid_angle. Height 0 gives exactly the direction. The concentric map keeps areas, and the height of a
 // cap is proportional to its area (Archimedes), so 1 - cos = height r^2 and sin = r sqrt(height (2 - height

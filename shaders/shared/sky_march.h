@@ -66,7 +66,7 @@ struct SkyHarmonics {
 
 VX_FN float scatter_height(uint row) {
     const float v = float(row) / float(kScatterHeights - 1u);
-    return kAirTop * v * v;
+    return kScatterTop * v * v;
 }
 
 VX_FN float scatter_cosine(uint column) {
@@ -92,7 +92,7 @@ VX_FN SkyHarmonics scatter_entry(VX_SKY_PARAM uint texel, float weight) {
 // What arrives at a height when the sun is at a cosine, as the factors of the harmonics. Linear on the
 // triangles of the table: most of the time of a march are loads, and a triangle has three corners.
 VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
-    const float row = sqrt(clamp(h / kAirTop, 0.0f, 1.0f)) * float(kScatterHeights - 1u);
+    const float row = sqrt(clamp(h / kScatterTop, 0.0f, 1.0f)) * float(kScatterHeights - 1u);
     const float away = sun - kScatterMiddle;
     const float u = (away / (abs(away) + kScatterWidth) - kScatterFirst) / (kScatterLast - kScatterFirst);
     const float column = clamp(u, 0.0f, 1.0f) * float(kScatterCosines - 1u);

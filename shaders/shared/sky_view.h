@@ -25,8 +25,9 @@ struct SkyParams {
 // Harmonics of a direction (x, y, z), z up and the sun over the x axis: 1, z, x, (3 z^2 - 1) / 2, z x, x^2 -
 // y^2.
 VX_CONST(uint, kSkyHarmonics, 6u);
-VX_CONST(uint, kScatterHeights, 8u);   // of the table, from the ground to the top
-VX_CONST(uint, kScatterCosines, 32u);  // of the sun
+VX_CONST(uint, kScatterHeights, 6u);   // of the table, from the ground up
+VX_CONST(float, kScatterTop, 50.0f);   // km; above, too little air is left to scatter what arrives
+VX_CONST(uint, kScatterCosines, 24u);  // of the sun
 VX_CONST(uint, kScatterTexels, kScatterHeights* kScatterCosines);
 VX_CONST(uint, kTexelWords, kSkyHarmonics * 3u / 2u);
 VX_CONST(uint, kScatterWords, kScatterTexels* kTexelWords);

@@ -30,6 +30,7 @@ const std::map<std::string, std::string> kReadAndWritten = {
     {"BucketCounts", "atomic counters"},
     {"WantedCells", "marks are set by atomics"},
     {"Starts", "one file holds how one pass writes them and another reads them"},
+    {"States", "an invocation goes on from what it has written in the round before"},
     {"PhotonTotals", "sums that photons add to by atomics"},
     {"PixelRadii", "each pixel's radius shrinks from iteration to iteration; it belongs to one invocation"},
     {"BucketRunSums", "photon_scan turns them into prefix sums in place, in one workgroup"},

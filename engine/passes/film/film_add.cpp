@@ -34,6 +34,7 @@ std::vector<Constant> film_constants(const RenderPlan& plan, const FilmInputs& i
             {"weights_stride", inputs.seen.weights.stride},
             {"ao_stride", inputs.ao.stride},
             {"sky_stride", inputs.sky.stride},
+            {"paths_find_sky", plan.paths.runs() ? 1u : 0u},
             {"sun_stride", inputs.sun.stride},
             {"direct_stride", inputs.direct.stride},
             {"photons_stride", inputs.photons.light.stride},

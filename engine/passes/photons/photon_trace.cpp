@@ -36,8 +36,8 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
     dispatch.constants.insert(dispatch.constants.end(),
-                              {{"keeps_caustics", plan.has(Effect::caustics) ? 1u : 0u},
-                               {"keeps_indirect", plan.has(Effect::indirect) ? 1u : 0u},
+                              {{"keeps_caustics", plan.is_by_photons(Effect::caustics) ? 1u : 0u},
+                               {"keeps_indirect", plan.is_by_photons(Effect::indirect) ? 1u : 0u},
                                {"sorts_photons", settings.scatter ? 0u : 1u},
                                {"lanes", plan.photons.lanes},
                                {"slots_at_once", plan.photons.slots_at_once},

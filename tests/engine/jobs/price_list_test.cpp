@@ -16,7 +16,7 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
         plan.effects[i].effect = static_cast<Effect>(i);
     for (const Effect effect : effects)
         plan.effects[static_cast<std::size_t>(effect)].on = true;
-    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings.photons);
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings);
     plan.settings.size = plan.image_size = {4, 3};
     plan.film_tile_rows = plan.tile_rows = 3;
     plan.film_tile_count = 1;

@@ -72,7 +72,8 @@ TEST(Techniques, older_keys_are_other_names_of_the_same_choice) {
         {"technique.ao=auto", "ao.method=auto"},
         {"technique.indirect=splatting", "photons.scatter=true"},
         {"technique.indirect=pixel_radii", "photons.classic=true"},
-        {"technique.indirect=photons", "photons.scatter=false"}};
+        {"technique.indirect=photons", "photons.scatter=false"},
+        {"technique.indirect=paths", "paths.indirect=true"}};
     for (const auto& [technique, older] : same)
         EXPECT_EQ(plan_with({technique}), plan_with({older})) << technique;
     EXPECT_NE(plan_with({"technique.ao=hash"}), plan_with({"technique.ao=brute"}));
@@ -90,6 +91,50 @@ TEST(Techniques, none_leaves_the_effect_out) {
     const RenderPlan on = plan_with({"technique.indirect=none"},
                                     test::with_switch(test::exr_request(), Effect::indirect, Switch::on));
     EXPECT_EQ(chosen_of(on, Effect::indirect).name, "photons");
+}
+
+// Paths find the light of the sky, so that its stand-in has nothing to do; sky and sun alone call for them.
+TEST(Techniques, paths_take_the_place_of_occlusion_and_photons) {
+    const Scene scene = test::repository_scene("first_light", {"technique.indirect=paths"});
+    const RenderPlan plan = test::plan_of(scene, {});
+    EXPECT_TRUE(plan.is_by_paths(Effect::indirect));
+    EXPECT_FALSE(plan.has(Effect::ao));
+    EXPECT_FALSE(plan.photons.runs());
+    EXPECT_TRUE(test::plan_of(scene, test::with_switch({}, Effect::ao, Switch::on)).has(Effect::ao))
+        << "as an AOV";
+    const RenderPlan off = test::plan_of(scene, test::with_switch({}, Effect::indirect, Switch::off));
+    EXPECT_TRUE(off.has(Effect::ao));
+    EXPECT_FALSE(off.paths.runs());
+}
+
+TEST(Techniques, photons_of_caustics_and_paths_of_indirect_light_go_together) {
+    const RenderPlan both =
+        test::plan_of(test::repository_scene("cornell", {"technique.indirect=paths"}), {});
+    EXPECT_TRUE(both.photons.runs());
+    EXPECT_TRUE(both.paths.runs());
+    EXPECT_EQ(chosen_by(both),
+              (std::map<std::string, std::string>{{"caustics", "photons"}, {"indirect", "paths"}}));
+    const RenderPlan paths = test::plan_of(
+        test::repository_scene("cornell", {"technique.indirect=paths", "technique.caustics=paths"}), {});
+    EXPECT_FALSE(paths.photons.runs());
+    EXPECT_THROW((void)test::plan_of(test::repository_scene("cornell", {"technique.caustics=paths"}), {}),
+                 Error);
+}
+
+// The longest paths decide how many dispatches a sample takes.
+TEST(Techniques, paths_between_whiter_walls_have_more_rounds_and_fewer_of_them_in_an_invocation) {
+    const DeviceLimits cpu{.is_cpu = true};
+    PathPlan last = plan_paths({.max_albedo = 0.5, .has_voxels = true}, cpu);
+    EXPECT_EQ(last.rounds, 1u);
+    EXPECT_GT(last.per_lane, 8u);
+    for (const double albedo : {0.9, 0.99, 0.999, 1.0}) {
+        const PathPlan plan = plan_paths({.max_albedo = albedo, .has_voxels = true}, cpu);
+        EXPECT_GE(plan.rounds, last.rounds);
+        EXPECT_LE(plan.per_lane, last.per_lane);
+        last = plan;
+    }
+    EXPECT_GT(last.rounds, 4u);
+    EXPECT_EQ(last.per_lane, 1u);
 }
 
 bool takes_a_shard(const Technique& technique) {

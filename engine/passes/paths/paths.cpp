@@ -1,0 +1,88 @@
+#include "passes/paths/paths.h"
+
+#include "passes/specular/specular.h"
+
+namespace voxilux {
+namespace {
+
+// Of visible points in glass, where paths aim at images of the sun from there.
+Plane media_plane(const RenderPlan& plan, Recording& recording) {
+    const bool are_needed =
+        plan.is_by_paths(Effect::caustics) && plan.has(Effect::sun) && plan.has_glass_voxels;
+    if (!are_needed) return {placeholder_buffer(recording), 0};
+    return {declare_plane<gpu::uint>(plan, "path.media", recording)};
+}
+
+void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                       const Plane& direct, const std::string& starts, Recording& recording) {
+    const Plane media = media_plane(plan, recording);
+    Dispatch dispatch{.label = "path.start",
+                      .shader = "path_start",
+                      .extent = pixel_extent(plan, tile),
+                      .bindings = path_bindings(plan, recording),
+                      .constants = path_constants(plan)};
+    dispatch.bindings.insert(
+        dispatch.bindings.end(),
+        {{"Hits", hits.buffer}, {"Direct", direct.buffer}, {"Media", media.buffer}, {"Starts", starts}});
+    dispatch.constants.insert(dispatch.constants.end(),
+                              {{"direct_stride", direct.stride}, {"media_stride", media.stride}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
+}
+
+Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hits, const std::string& starts,
+                    const std::string& light, Recording& recording) {
+    const bool has_emitters = plan.has(Effect::emission) && plan.world.lights.count != 0;
+    const std::string states =
+        plan.paths.rounds > 1
+            ? declare<gpu::PathState>(recording, "path.states", plan.path_lanes(plan.tile_rows))
+            : placeholder_buffer(recording);
+    Dispatch dispatch{.label = "path.trace",
+                      .shader = "path_trace",
+                      .extent = {lanes, 1, 1},
+                      .bindings = path_bindings(plan, recording),
+                      .constants = path_constants(plan)};
+    const Plane media = media_plane(plan, recording);
+    const auto emitter_buffer = [&](std::string (*buffer)(const RenderPlan&, Recording&)) {
+        return has_emitters ? buffer(plan, recording) : placeholder_buffer(recording);
+    };
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Hits", hits.buffer},
+                                                       {"Lights", emitter_buffer(lights_buffer)},
+                                                       {"LightTable", emitter_buffer(light_table_buffer)},
+                                                       {"Starts", starts},
+                                                       {"Media", media.buffer},
+                                                       {"States", states},
+                                                       {"Light", light}});
+    dispatch.constants.insert(
+        dispatch.constants.end(),
+        {{"has_sun", plan.has(Effect::sun) ? 1u : 0u},
+         {"has_emitters", has_emitters ? 1u : 0u},
+         {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
+         {"has_images", plan.has(Effect::specular) && plan.has(Effect::voxels) ? 1u : 0u},
+         {"finds_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
+         {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
+         {"media_stride", media.stride},
+         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    return dispatch;
+}
+
+}  // namespace
+
+Plane record_paths(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const Plane& direct,
+                   Recording& recording) {
+    const std::string starts = declare_plane<gpu::PhotonStart>(plan, "path.starts", recording);
+    const Plane light{declare_plane<gpu::vec3>(plan, "path.light", recording)};
+    record_path_start(plan, tile, hits, direct, starts, recording);
+    const std::uint32_t lanes = plan.path_lanes(tile.row_count);
+    const Dispatch dispatch = path_trace(plan, lanes, hits, starts, light.buffer, recording);
+    if (plan.paths.rounds > 1) recording.clear("path.states");
+    for (std::uint32_t round = 1; round <= plan.paths.rounds; ++round) {
+        Dispatch trace = dispatch;
+        trace.push = to_bytes(gpu::PathPush{.lanes = lanes, .is_last = round == plan.paths.rounds ? 1u : 0u});
+        recording.dispatch(std::move(trace));
+    }
+    return light;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "passes/plane.h"
+
+namespace voxilux {
+
+// Light that each hit receives by way of other surfaces, and the sky's, added to `direct`: irradiance / pi.
+[[nodiscard]] Plane record_paths(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                                 const Plane& direct, Recording& recording);
+
+}  // namespace voxilux

@@ -1,0 +1,338 @@
+// A path from a visible point on, ray by ray. Each diffuse surface sends up to four rays, one after the other: to the
+// sun, to a mirror image of the sun, to an emitter, and on. The balance heuristic weighs what several of them can find
+// (Veach and Guibas 1995).
+// Include lib/path.glsl, lib/lights.glsl and lib/photon_start.glsl first.
+//
+// Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
+// sun.trace and direct.trace, so the path leaves them out. By mirrors and glass alone to the visible point: by the
+// path where caustics are its own (finds_caustics), else by photons. All other light: by the path.
+//
+// Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
+// and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
+// eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
+// axes makes of them. A ray goes into the sun's and one into another; what they meet on the way may be mirrors and
+// glass. Chance finds what comes by spheres, and out of glass by another face.
+#ifndef VX_PATH_WALK_GLSL
+#define VX_PATH_WALK_GLSL
+
+#include "shared/dimensions.h"
+
+VX_SPECIALIZED(uint, has_sun, 0u);
+VX_SPECIALIZED(uint, has_emitters, 0u);
+VX_SPECIALIZED(uint, has_specular, 0u);
+VX_SPECIALIZED(uint, has_images, 0u);  // of the sun: by voxels of glass and mirrors
+VX_SPECIALIZED(uint, finds_caustics, 0u);
+VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
+VX_SPECIALIZED(uint, sure_surfaces, 2u);   // after the visible point, that roulette leaves alone
+
+// Turns of loops over spheres for a ray, where they are not unrolled.
+const uint sphere_turns = sphere_count <= kFewSpheres ? 0u : sphere_count + glass_spheres;
+
+const uint kRayNone = 0u;  // no path is under way
+const uint kRayOn = 1u;
+const uint kRaySun = 2u;
+const uint kRayImage = 3u;  // to an image of the sun
+const uint kRayEmitter = 4u;
+
+struct Walk {
+    PathRay ray;
+    PathRay vertex;   // where rays of that surface start
+    vec3 ahead;       // at the visible point: the direction of the path's own ray
+    uint kind;        // kRay*
+    uint stream;      // of samples of its pixel
+    vec3 normal;      // of the diffuse surface that the ray leaves
+    vec3 throughput;  // product of the albedos on the way
+    float scale;      // of radiance, by refraction
+    float pdf;        // per solid angle: the density with which that surface sends light where the ray goes
+    float image_share;  // 1 / (samples that the sun and its images give that direction + solid angle of the sun * pdf)
+    vec3 light;       // that was found
+    uint surfaces;    // met
+    uint glints;      // met by a ray to the sun
+    uint vertices;    // diffuse ones, the visible point included
+    bool is_straight;    // nothing was met since the last of them
+    vec3 expected;       // what a ray to the sun brings, or one to an emitter but for its radiance
+    DrawnLight emitter;  // that it goes to
+};
+
+// Of the frame, held because lavapipe would load it anew in every turn of a loop (shaders/README.md).
+vec3 sky;
+vec3 sun_irradiance;
+vec3 sun_direction;
+float sun_height;
+float sun_reach;  // the same, wider by what rounding takes of a direction
+SampleKey sample_of_frame;
+
+void init_walks() {
+    sky = frame.sky_radiance;
+    sun_irradiance = frame.sun_irradiance;
+    sun_direction = frame.sun_direction;
+    sun_height = frame.sun_cone_height;
+    float chord = sqrt(2.0 * sun_height) + kDirectionError;
+    sun_reach = 0.5 * chord * chord;
+    sample_of_frame = sample_key(0u, uvec2(frame.sample_index, 0u), frame.seed);
+}
+
+Walk no_walk() {
+    Walk walk;
+    walk.kind = kRayNone;
+    walk.ray.cell = ivec3(-1);
+    walk.ray.fraction = vec3(0.5);
+    walk.ray.direction = vec3(0.0, 0.0, 1.0);
+    walk.ray.own = kNoSphere;
+    walk.ray.medium = kNoMedium;
+    walk.vertex = walk.ray;
+    walk.ahead = walk.ray.direction;
+    walk.stream = 0u;
+    walk.normal = vec3(0.0, 0.0, 1.0);
+    walk.throughput = vec3(0.0);
+    walk.scale = 1.0;
+    walk.pdf = 0.0;
+    walk.image_share = 0.0;
+    walk.light = vec3(0.0);
+    walk.surfaces = 0u;
+    walk.glints = 0u;
+    walk.vertices = 1u;
+    walk.is_straight = true;
+    walk.expected = vec3(0.0);
+    walk.emitter.cell = ivec3(-1);
+    walk.emitter.emission = vec3(0.0);
+    walk.emitter.pdf = 0.0;
+    walk.emitter.parts = light_parts(0u);
+    return walk;
+}
+
+// A start without a direction becomes a path that carries nothing.
+Walk first_walk(PhotonStart start) {
+    bool is_path = start.direction != vec3(0.0);
+    Walk walk = no_walk();
+    walk.kind = kRayOn;
+    walk.ray.cell = start.cell;
+    walk.ray.fraction = start.fraction;
+    walk.ray.direction = is_path ? start.direction : walk.ray.direction;
+    walk.ray.own = start.sphere;
+    walk.vertex = walk.ray;
+    walk.ahead = walk.ray.direction;
+    walk.stream = start.noise;
+    walk.throughput = vec3(is_path ? 1.0 : 0.0);
+    walk.light = start.power;
+    return walk;
+}
+
+Walk walk_of(PathState state) {
+    Walk walk = no_walk();
+    walk.ray.cell = state.cell;
+    walk.ray.fraction = state.fraction;
+    walk.ray.direction = state.direction;
+    walk.ray.own = state.own;
+    walk.ray.medium = state.medium;
+    walk.kind = state.kind;
+    walk.stream = state.stream;
+    walk.throughput = state.throughput;
+    walk.scale = state.scale;
+    walk.pdf = state.pdf;
+    walk.image_share = state.image_share;
+    walk.light = state.light;
+    walk.surfaces = state.surfaces;
+    walk.vertices = state.vertices;
+    walk.is_straight = state.is_straight != 0u;
+    return walk;
+}
+
+PathState state_of(Walk walk, uint next_id) {
+    PathState state;
+    state.cell = walk.ray.cell;
+    state.fraction = walk.ray.fraction;
+    state.direction = walk.ray.direction;
+    state.own = walk.ray.own;
+    state.medium = walk.ray.medium;
+    state.kind = walk.kind;
+    state.stream = walk.stream;
+    state.throughput = walk.throughput;
+    state.scale = walk.scale;
+    state.pdf = walk.pdf;
+    state.image_share = walk.image_share;
+    state.light = walk.light;
+    state.surfaces = walk.surfaces;
+    state.vertices = walk.vertices;
+    state.is_straight = walk.is_straight ? 1u : 0u;
+    state.next_id = next_id;
+    return state;
+}
+
+vec3 numbers_of(Walk walk, uint use) {
+    SampleKey key = sample_of_frame;
+    key.stream = walk.stream;
+    return path_numbers(key, walk.surfaces + (use == kUseGlint ? walk.glints : 0u), use);
+}
+
+const bool has_glints = has_sun != 0u && has_specular != 0u;  // sunlight by way of mirrors and glass
+
+vec3 image_direction(uint image) {
+    return sun_direction * vec3((image & 1u) != 0u ? -1.0 : 1.0, (image & 2u) != 0u ? -1.0 : 1.0, (image & 4u) != 0u ? -1.0 : 1.0);
+}
+
+const uint kImages = 8u;       // the sun itself among them
+const uint kGlassImages = 24u;  // of them, by three axes
+
+// What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
+// Zero where it reflects all.
+vec3 across_face(vec3 direction, uint axis, float eta) {
+    vec3 along = direction / eta;
+    along = vec3(axis == 0u ? 0.0 : along.x, axis == 1u ? 0.0 : along.y, axis == 2u ? 0.0 : along.z);
+    float square = 1.0 - dot(along, along);
+    if (!(square > 0.0)) return vec3(0.0);
+    float through = sqrt(square) * (direction[axis] < 0.0 ? -1.0 : 1.0);
+    return along + through * face_normal(2u * axis + 1u);
+}
+
+// Images of the sun from `first` on that are in a direction.
+float images_in(vec3 direction, uint first) {
+    float images = 0.0;
+    for (uint image = first; image < kImages; ++image)
+        images += is_in_cone(direction, image_direction(image), sun_reach) ? 1.0 : 0.0;
+    return images;
+}
+
+// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Through a face it grows
+// by eta^2 cos / cos' (Snell's law).
+float samples_of_sun(Walk walk) {
+    vec3 direction = walk.ray.direction;
+    float own = is_in_cone(direction, sun_direction, sun_reach) ? 1.0 : 0.0;
+    if (has_images == 0u) return own;
+    float samples = own + images_in(direction, 1u) / float(kImages - 1u);
+    if (has_glass_voxels == 0u || walk.vertex.medium == kNoMedium) return samples;
+    float ior = materials[walk.vertex.medium].ior;
+    samples = 0.0;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        vec3 outside = across_face(direction, axis, 1.0 / ior);
+        if (outside[axis] == 0.0) continue;
+        samples += images_in(outside, 0u) * ior * ior * abs(direction[axis] / outside[axis]) / float(kGlassImages);
+    }
+    return samples;
+}
+
+void set_direction(inout Walk walk, vec3 direction) {
+    if (has_specular != 0u) walk.ray = walk.vertex;
+    walk.ray.direction = direction;
+    walk.pdf = max(dot(walk.normal, direction), 0.0) * kInversePi;
+}
+
+// Of the light of sun and emitters that the path's own ray meets: 0 where others find it, 1 where nothing else does.
+float share_of_path(Walk walk, float emitter_pdf) {
+    bool is_first = walk.vertices == 1u;
+    if (!walk.is_straight) return is_first && finds_caustics == 0u ? 0.0 : 1.0;
+    if (is_first) return 0.0;
+    return aims_at_emitters != 0u ? balance_weight(walk.pdf, emitter_pdf) : 1.0;
+}
+
+void take_emission(inout Walk walk, PathHit found) {
+    vec3 emission = materials[found.hit.material].emission;
+    vec3 origin = local_position(walk.ray.cell, walk.ray.fraction);
+    float emitter_pdf = light_pdf(origin, walk.ray.direction, found.hit, emission);
+    if (!(emitter_pdf > 0.0)) return;
+    vec3 carried = walk.throughput * (walk.scale * share_of_path(walk, emitter_pdf));
+    bool is_aimed = walk.kind == kRayEmitter && is_on_emitter(found.hit, walk.emitter);
+    vec3 aimed = is_aimed ? walk.expected * balance_weight(emitter_pdf, walk.pdf) : vec3(0.0);
+    walk.light += emission * (walk.kind == kRayOn ? carried : aimed);
+}
+
+// Adds the light of what a ray has met.
+void take_light(inout Walk walk, PathHit found) {
+    if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
+    if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
+    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky;
+    if (walk.kind != kRayOn && walk.is_straight)
+        walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
+    if (!has_glints || walk.is_straight) return;
+    // Rays to the sun end in its cone, but for rounding.
+    if (!is_in_cone(walk.ray.direction, sun_direction, walk.kind == kRayOn ? sun_height : sun_reach)) return;
+    vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0));
+    walk.light += walk.image_share * (walk.kind == kRayOn ? carried : walk.expected);
+}
+
+// What a ray does at a surface. `u` are for the lobe and for Fresnel's choice.
+BsdfSample event_at(Walk walk, PathHit found, vec2 u) {
+    if (has_specular != 0u) return path_event(walk.ray, found, u);
+    BsdfSample event;
+    event.kind = kEventDiffuse;
+    event.albedo = materials[found.hit.material].albedo;
+    return event;
+}
+
+// Sends a ray to the sun on by way of a mirror or glass. False where it ends.
+bool glint(inout Walk walk, PathHit found, BsdfSample event) {
+    if (event.kind == kEventDiffuse) return false;
+    if (event.kind != kEventPass) walk.expected *= event.albedo;
+    if (event.kind == kEventRefract) walk.expected *= radiance_scale(event.eta);
+    walk.ray = path_after(walk.ray, found, event);
+    walk.is_straight = false;
+    ++walk.glints;
+    return true;
+}
+
+// What the path's own ray does at a surface; `u` is for roulette. False where the path ends.
+bool scatter(inout Walk walk, PathHit found, BsdfSample event, float u) {
+    bool is_diffuse = event.kind == kEventDiffuse;
+    if (event.kind != kEventPass) walk.throughput *= event.albedo;
+    if (event.kind == kEventRefract) walk.scale *= radiance_scale(event.eta);
+    PathRay start = path_from(found.hit, walk.ray.direction);
+    start.medium = walk.ray.medium;
+    if (has_specular != 0u && !is_diffuse) start = path_after(walk.ray, found, event);
+    walk.ray = start;
+    if (is_diffuse) walk.vertex = start;
+    walk.is_straight = is_diffuse;
+    walk.glints = 0u;
+    walk.normal = found.normal;
+    walk.vertices += is_diffuse ? 1u : 0u;
+    ++walk.surfaces;
+    float survival = walk.surfaces > sure_surfaces ? roulette_survival(walk.throughput) : 1.0;
+    bool goes_on = u < survival && max(walk.throughput.x, max(walk.throughput.y, walk.throughput.z)) > 0.0;
+    walk.throughput /= goes_on ? survival : 1.0;
+    return goes_on;
+}
+
+// Aims at an emitter. False where it cannot send light here.
+bool leave_to_emitter(inout Walk walk) {
+    vec3 u = numbers_of(walk, kUseEmitter);
+    vec3 u_point = numbers_of(walk, kUseEmitterPoint);
+    vec3 origin = local_position(walk.vertex.cell, walk.vertex.fraction);
+    LightSample aim = aim_at_emitter(origin, unit_bits(u.x), u.y, u_point.xy);
+    set_direction(walk, aim.direction);
+    if (!(aim.pdf > 0.0 && walk.pdf > 0.0)) return false;
+    walk.emitter = aim.emitter;
+    walk.expected = walk.throughput * (walk.scale * walk.pdf / aim.pdf);
+    return true;
+}
+
+// Aims at the sun, or at one of its images. False where it is below the horizon.
+bool leave_to_sun(inout Walk walk, uint use) {
+    vec3 u = numbers_of(walk, use);
+    bool is_in_glass = has_glass_voxels != 0u && walk.vertex.medium != kNoMedium;
+    if (is_in_glass && use == kUseSun) return false;
+    uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages - 1u)), kImages - 2u);
+    uint glass_image = min(uint(u.z * float(kGlassImages)), kGlassImages - 1u);
+    vec3 direction = uniform_cone(image_direction(is_in_glass ? glass_image & 7u : image), sun_height, u.xy);
+    if (is_in_glass) direction = across_face(direction, glass_image >> 3u, materials[walk.vertex.medium].ior);
+    set_direction(walk, direction);
+    walk.expected = walk.throughput * sun_irradiance * (walk.scale * walk.pdf);
+    return walk.pdf > 0.0;
+}
+
+// The next ray of a diffuse surface. `last` is the kind of the one before, kRayNone for the first. At the visible
+// point, sun and emitters are found by others.
+void leave(inout Walk walk, uint last) {
+    bool is_first = walk.vertices == 1u;
+    walk.kind = kRayOn;
+    walk.is_straight = !(is_first && walk.vertex.medium != kNoMedium);  // nothing else finds what is in that glass
+    walk.glints = 0u;
+    if (has_sun != 0u && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
+    if (has_glints && has_images != 0u && last <= kRaySun && walk.kind == kRayOn && leave_to_sun(walk, kUseImage))
+        walk.kind = kRayImage;
+    bool may_aim = has_emitters != 0u && aims_at_emitters != 0u && !is_first;
+    if (may_aim && last != kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
+    if (walk.kind == kRayOn)
+        set_direction(walk, is_first ? walk.ahead : cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy));
+    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk) + cone_solid_angle(sun_height) * walk.pdf);
+}
+
+#endif

@@ -1,0 +1,47 @@
+// Who uses which dimensions of a sample: the one register, so that no two decisions share numbers by
+// accident and an effect that comes or goes leaves the numbers of the others alone.
+#ifndef VX_DIMENSIONS_H
+#define VX_DIMENSIONS_H
+
+#include "hash.h"
+#include "portable.h"
+#include "rng.h"
+#include "sequence.h"
+
+VX_BEGIN
+
+// Pairs of dimensions of the sample sequence (sequence.h). The first dimensions of every sequence are the
+// best, so the sky's light on surfaces, whose noise is the largest, comes first: occlusion rays or paths.
+VX_CONST(uint, kPairOcclusion, 0u);
+VX_CONST(uint, kPairPath, kPairOcclusion);  // the first direction of a path
+VX_CONST(uint, kPairPixel, 1u);
+VX_CONST(uint, kPairSun, 2u);
+VX_CONST(uint, kPairEmitter, 3u);       // which emitter
+VX_CONST(uint, kPairEmitterPoint, 4u);  // which point of it
+VX_CONST(uint, kPairSurface, 5u);       // where a diffuse surface sends light
+VX_CONST(uint, kPairPhoton, 6u);        // three pairs, of the emission of a photon
+VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path meets
+VX_CONST(uint, kPairsOfBounce, 3u);
+
+// White noise of paths: three numbers for each use at each surface, the same for all scenes.
+VX_CONST(uint, kUseEvent, 0u);         // which lobe, Fresnel's choice, roulette
+VX_CONST(uint, kUseEmitter, 1u);       // which emitter
+VX_CONST(uint, kUseEmitterPoint, 2u);  // which point of it
+VX_CONST(uint, kUseDirection, 3u);     // where to, by the cosine
+VX_CONST(uint, kUseSun, 4u);           // which point of the sun
+VX_CONST(uint, kUseImage, 5u);         // the same of an image of the sun, and which image
+VX_CONST(uint, kUseGlint, 6u);  // at mirrors and glass on the way to the sun: which lobe, Fresnel's choice
+VX_CONST(uint, kUsesOfSurface, 7u);
+
+// Keeps them apart from other noise drawn with the same counters ("path" in ASCII).
+VX_CONST(uint, kPathSalt, 0x70617468u);
+
+// The numbers of a use at surface `surface` of a path, in [0, 1). The first word of pcg4d is biased (hash4).
+VX_FN vec3 path_numbers(SampleKey key, uint surface, uint use) {
+    uvec4 v = pcg4d(uvec4(key.seed, key.stream, key.index, kPathSalt + kUsesOfSurface * surface + use));
+    return vec3(unit_float(pcg_hash(v.y)), unit_float(pcg_hash(v.z)), unit_float(pcg_hash(v.w)));
+}
+
+VX_END
+
+#endif
