@@ -96,7 +96,7 @@ void main() {
         light[next_id - push.lanes] = walk.light;
         ++left;
     }
-    for (; push.is_last != 0u && next_id < pixels; next_id += push.lanes) {
+    for (uint end = pixels * push.is_last; next_id < end; next_id += push.lanes) {
         light[next_id] = photon_start(next_id).power;
         ++left;
     }
