@@ -13,6 +13,9 @@ namespace {
 constexpr double kPathsPerLane = 16.0;
 constexpr double kRaysOfVertex = 3.0;   // to the sun, to an emitter, on
 constexpr double kTurnsOfMarch = 16.0;  // of all loops for a ray, where eight lanes wait for the slowest
+// Of what a surface receives. Palettes hold white that no voxel has, and whiter rooms have openings; where
+// they have none, no path ends.
+constexpr double kLeastLoss = 0.002;
 // A longer path than that comes once in 10^9 times.
 constexpr double kRarePath = 1e-9;
 // Beyond it a path is cut and counted: a closed room of albedo 1, where no path ever ends.
@@ -25,13 +28,14 @@ PathPlan plan_paths(const PathNeeds& needs, const DeviceLimits& limits) {
     const double turns =
         kRaysOfVertex * (1.0 + spheres + (needs.has_voxels ? kTurnsOfMarch : 0.0));  // of a surface
     const double albedo = std::min(needs.max_albedo, 1.0);
-    const double mean = turns / std::max(1.0 - albedo, 1e-4);
+    const double mean = turns / std::max(1.0 - albedo, kLeastLoss);
     const double most = gpu::kMaxPathSurfaces;
     const double longest =
         albedo < 1.0 ? std::min(most, std::log(kRarePath) / std::log(std::max(albedo, kRarePath))) : most;
     const double budget = gpu::kRoundTurns;
-    const double per_lane = limits.is_cpu ? std::clamp(0.5 * budget / mean, 1.0, kPathsPerLane) : 1.0;
-    const double rounds = std::ceil((per_lane * std::min(mean, budget) + turns * longest) / budget);
+    const double per_lane =
+        limits.is_cpu ? std::clamp(0.5 * budget * kMaxRounds / mean, 1.0, kPathsPerLane) : 1.0;
+    const double rounds = std::ceil((per_lane * mean + turns * longest) / budget);
     return {.per_lane = static_cast<std::uint32_t>(per_lane),
             .rounds = static_cast<std::uint32_t>(std::clamp(rounds, 1.0, kMaxRounds))};
 }

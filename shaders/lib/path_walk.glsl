@@ -23,7 +23,7 @@ VX_SPECIALIZED(uint, has_specular, 0u);
 VX_SPECIALIZED(uint, has_images, 0u);  // of the sun: by voxels of glass and mirrors
 VX_SPECIALIZED(uint, finds_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
-VX_SPECIALIZED(uint, sure_surfaces, 2u);   // after the visible point, that roulette leaves alone
+VX_SPECIALIZED(uint, sure_surfaces, 4u);   // after the visible point, that roulette leaves alone
 
 // Turns of loops over spheres for a ray, where they are not unrolled.
 const uint sphere_turns = sphere_count <= kFewSpheres ? 0u : sphere_count + glass_spheres;

@@ -134,7 +134,7 @@ TEST(Techniques, paths_between_whiter_walls_have_more_rounds_and_fewer_of_them_i
         last = plan;
     }
     EXPECT_GT(last.rounds, 4u);
-    EXPECT_EQ(last.per_lane, 1u);
+    EXPECT_LT(last.per_lane, 16u);
 }
 
 bool takes_a_shard(const Technique& technique) {
