@@ -158,6 +158,23 @@ VX_FN vec3 air_cuts(AirRay ray, float end) {
     return vec3(min(turn, into), max(min(turn, out_of), into), max(turn, out_of));
 }
 
+struct RayNode {
+    float way;     // share of a stretch of the ray
+    float weight;  // share of it that the node stands for
+};
+
+// Nodes crowd where the air is dense: at the start of what rises, at both ends of the rest.
+VX_FN RayNode ray_node(uint number, uint panels, bool rises) {
+    const uint panel = number / kGaussNodes;
+    const uint place = number - panel * kGaussNodes;
+    const float u = (float(panel) + kGaussNode[place]) / float(panels);
+    const float slope = rises ? 2.0f * u : 6.0f * u * (1.0f - u);
+    RayNode node;
+    node.way = rises ? u * u : u * u * (3.0f - 2.0f * u);
+    node.weight = slope * (kGaussWeight[place] / float(panels));
+    return node;
+}
+
 // The march. `panels` sets the number of nodes. Without a table only the sun lights air and ground.
 VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels, bool has_table) {
     const float h = ray.height;
@@ -180,14 +197,9 @@ VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels, bool has
         if (to <= from) continue;
         const bool rises = from >= lowest;
         for (uint node = 0u; node < kGaussNodes * panels; ++node) {
-            const uint panel = node / kGaussNodes;
-            const uint place = node - panel * kGaussNodes;
-            // Nodes crowd where the air is dense: at the start of what rises, at both ends of the rest.
-            const float u = (float(panel) + kGaussNode[place]) / float(panels);
-            const float way = rises ? u * u : u * u * (3.0f - 2.0f * u);
-            const float slope = rises ? 2.0f * u : 6.0f * u * (1.0f - u);
-            const float t = from + (to - from) * way;
-            const float weight = (to - from) * slope * (kGaussWeight[place] / float(panels));
+            const RayNode at = ray_node(node, panels, rises);
+            const float t = from + (to - from) * at.way;
+            const float weight = (to - from) * at.weight;
             const float height = height_after(h, ray.cosine, t);
             const float cosine = clamp((r * ray.cosine + t) / (kGroundRadius + height), -1.0f, 1.0f);
             const float sun =

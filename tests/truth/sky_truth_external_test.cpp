@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
