@@ -71,6 +71,7 @@ constexpr double kMaxRms = 1.05;
 struct TruthCase {
     std::string scene;
     std::uint32_t samples = 64;
+    double min_rms = kMinRms;
 };
 
 void PrintTo(const TruthCase& one, std::ostream* out) {
@@ -91,13 +92,13 @@ Distance distance_of(const LightPicture& traced, const LightPicture& truth) {
     return distance;
 }
 
-bool agrees(const PictureZ& z) {
-    return z.rms > kMinRms && z.rms < kMaxRms && farthest(z.of_mean) < kFarOff;
+bool agrees(const PictureZ& z, double min_rms = kMinRms) {
+    return z.rms > min_rms && z.rms < kMaxRms && farthest(z.of_mean) < kFarOff;
 }
 
 void expect_truth(const Scene& scene, const TruthCase& one) {
     const PictureZ z = distance_of(render(scene, one.samples), truth_of(one.scene)).z;
-    EXPECT_TRUE(agrees(z)) << z.rms << ' ' << farthest(z.of_mean);
+    EXPECT_TRUE(agrees(z, one.min_rms)) << z.rms << ' ' << farthest(z.of_mean);
 }
 
 class PathsExternal : public testing::TestWithParam<TruthCase> {};
@@ -108,10 +109,11 @@ TEST_P(PathsExternal, picture_is_the_truth_within_its_noise) {
 }
 
 // In the room and the maze few paths carry most of the light: with fewer samples, pixels that have met none
-// have too small a variance.
+// have too small a variance. Pixels beside those that an emitter fills in part get too large a variance from
+// them.
 INSTANTIATE_TEST_SUITE_P(Gi, PathsExternal,
                          testing::Values(TruthCase{"courtyard"}, TruthCase{"room", 96}, TruthCase{"pillars"},
-                                         TruthCase{"maze", 96}, TruthCase{"corner"}),
+                                         TruthCase{"maze", 96, 0.7}, TruthCase{"corner"}),
                          testing::PrintToStringParamName());
 
 // The means over a picture, from enough samples to tell a thousandth.
