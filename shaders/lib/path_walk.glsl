@@ -168,7 +168,8 @@ vec3 numbers_of(Walk walk, uint use) {
 const bool has_glints = has_sun != 0u && has_specular != 0u;  // sunlight by way of mirrors and glass
 
 vec3 image_direction(uint image) {
-    return sun_direction * vec3((image & 1u) != 0u ? -1.0 : 1.0, (image & 2u) != 0u ? -1.0 : 1.0, (image & 4u) != 0u ? -1.0 : 1.0);
+    uvec3 flips = uvec3(image & 1u, image & 2u, image & 4u);
+    return sun_direction * vec3(flips.x != 0u ? -1.0 : 1.0, flips.y != 0u ? -1.0 : 1.0, flips.z != 0u ? -1.0 : 1.0);
 }
 
 const uint kImages = 8u;       // the sun itself among them
