@@ -20,7 +20,7 @@ using test::LightPicture;
 using test::PictureZ;
 
 // Relative, of the plain sky, which has no noise: the rounding of the files.
-constexpr double kRounding = 5e-6;
+constexpr double kFileRounding = 5e-6;
 
 std::filesystem::path data_of(const std::string& name) {
     return shared_data() / "data" / "gi" / name;
@@ -35,7 +35,7 @@ LightPicture truth_of(const std::string& name) {
     for (std::size_t i = 0; i < means[0].size(); ++i) {
         test::TruthPixel pixel{glm::dvec3(means[0][i], means[1][i], means[2][i]),
                                glm::dvec3(variances[0][i], variances[1][i], variances[2][i])};
-        pixel.variance_of_mean += kRounding * kRounding * pixel.mean * pixel.mean;
+        pixel.variance_of_mean += kFileRounding * kFileRounding * pixel.mean * pixel.mean;
         truth.pixels.push_back(pixel);
     }
     return truth;
@@ -47,7 +47,7 @@ Scene scene_of(const std::string& name, const char* technique = "paths") {
     return scene;
 }
 
-LightPicture render(const Scene& scene, std::uint32_t samples) {
+LightPicture render_white(const Scene& scene, std::uint32_t samples) {
     const std::array blocks{1};
     return test::render_light(scene, {samples, blocks, {}}).front();
 }
@@ -63,7 +63,7 @@ double farthest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-constexpr double kFarOff = 4.0;  // standard deviations
+constexpr double kFarPixel = 4.0;  // standard deviations
 // z of equal pictures has a root mean square of 1, but for the noise of the variances.
 constexpr double kMinRms = 0.95;
 constexpr double kMaxRms = 1.05;
@@ -93,11 +93,11 @@ Distance distance_of(const LightPicture& traced, const LightPicture& truth) {
 }
 
 bool agrees(const PictureZ& z, double min_rms = kMinRms) {
-    return z.rms > min_rms && z.rms < kMaxRms && farthest(z.of_mean) < kFarOff;
+    return z.rms > min_rms && z.rms < kMaxRms && farthest(z.of_mean) < kFarPixel;
 }
 
 void expect_truth(const Scene& scene, const TruthCase& one) {
-    const PictureZ z = distance_of(render(scene, one.samples), truth_of(one.scene)).z;
+    const PictureZ z = distance_of(render_white(scene, one.samples), truth_of(one.scene)).z;
     EXPECT_TRUE(agrees(z, one.min_rms)) << z.rms << ' ' << farthest(z.of_mean);
 }
 
@@ -122,7 +122,7 @@ class PathsNightlyExternal : public testing::TestWithParam<TruthCase> {};
 TEST_P(PathsNightlyExternal, mean_is_the_truth_within_a_thousandth) {
     SKIP_WITHOUT_SHARED_DATA();
     const Scene scene = scene_of(GetParam().scene);
-    const Distance distance = distance_of(render(scene, GetParam().samples), truth_of(GetParam().scene));
+    const Distance distance = distance_of(render_white(scene, GetParam().samples), truth_of(GetParam().scene));
     EXPECT_TRUE(agrees(distance.z)) << distance.z.rms << ' ' << farthest(distance.z.of_mean);
     EXPECT_LT(distance.of_mean, 0.001);
 }
@@ -145,7 +145,7 @@ TEST(PathsExternal, reflection_that_is_a_hundredth_too_weak_is_caught) {
         Scene scene = scene_of(name);
         for (Material& material : scene.materials)
             material.albedo *= 0.99f;
-        EXPECT_FALSE(agrees(distance_of(render(scene, 64), truth_of(name)).z)) << name;
+        EXPECT_FALSE(agrees(distance_of(render_white(scene, 64), truth_of(name)).z)) << name;
     }
 }
 
@@ -186,7 +186,7 @@ TEST(PathsExternal, p6_corner_is_the_solution_by_radiosity) {
     const PictureZ z = test::picture_z(traced, expected);
     testing::Test::RecordProperty("rms", std::to_string(z.rms));
     EXPECT_LT(z.rms, 1.2);
-    EXPECT_LT(farthest(z.of_mean), kFarOff);
+    EXPECT_LT(farthest(z.of_mean), kFarPixel);
 }
 
 }  // namespace
