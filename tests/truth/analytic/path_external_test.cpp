@@ -122,7 +122,8 @@ class PathsNightlyExternal : public testing::TestWithParam<TruthCase> {};
 TEST_P(PathsNightlyExternal, mean_is_the_truth_within_a_thousandth) {
     SKIP_WITHOUT_SHARED_DATA();
     const Scene scene = scene_of(GetParam().scene);
-    const Distance distance = distance_of(render_white(scene, GetParam().samples), truth_of(GetParam().scene));
+    const Distance distance =
+        distance_of(render_white(scene, GetParam().samples), truth_of(GetParam().scene));
     EXPECT_TRUE(agrees(distance.z)) << distance.z.rms << ' ' << farthest(distance.z.of_mean);
     EXPECT_LT(distance.of_mean, 0.001);
 }
