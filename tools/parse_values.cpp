@@ -211,9 +211,10 @@ ProgressMode parse_progress(std::string_view name) {
 
 std::optional<float> parse_exposure(std::string_view text) {
     if (text == "auto") return {};
-    const auto number = leading_number(text);
-    if (number && number->second.empty() && std::isfinite(static_cast<float>(number->first)))
-        return static_cast<float>(number->first);
+    float stops = 0.0f;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, stops);
+    if (error == std::errc() && rest == end && std::isfinite(stops)) return stops;
     refuse(fmt::format("--exposure: {} is not a number of stops, nor auto", text));
 }
 

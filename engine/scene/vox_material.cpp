@@ -70,7 +70,8 @@ void apply(const VoxDict& properties, int index, Material& material, std::vector
     const Reader reader{index, properties, warnings};
     const Surface surface = surface_named(reader);
     material.surface = surface;
-    material.roughness = reader.number({"_rough"}, kUnit).value_or(material.roughness);
+    const float usual = surface == Surface::glass ? 0.0f : material.roughness;
+    material.roughness = reader.number({"_rough"}, kUnit).value_or(usual);
     if (const auto ior = reader.number({"_ri"}, kIor)) {
         material.ior = *ior;
     } else if (const auto above_one = reader.number({"_ior"}, kIorAboveOne)) {

@@ -29,7 +29,7 @@ MOST_SAMPLES = 256  # asked of each scene; the time decides how many are measure
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
 MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given
 COLOURS = ("#0072b2", "#c25400", "#00805e", "#b3508a", "#8a6100", "#2a8fd0", "#6a4fb3", "#5c5c5c")
-KINDS = {"sky": "black", "lamps": "#8a2b2b"}  # of scenes, and the colour of their presets
+KINDS = {"sky": "black", "emitters": "#8a2b2b"}  # of scenes, and the colour of their presets
 MARKS = "osD^vP*Xdh<>"
 
 

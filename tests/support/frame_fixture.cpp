@@ -88,6 +88,7 @@ std::array<gpu::uint, gpu::kCounterCount> FrameFixture::add_radiance(std::uint32
     const FilmInputs inputs{.first_hits = miss,
                             .seen = {miss, weights},
                             .ao = none,
+                            .sky = none,
                             .sun = none,
                             .direct = none,
                             .photons = {none, none}};

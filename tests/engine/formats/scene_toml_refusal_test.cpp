@@ -312,11 +312,11 @@ TEST(SceneTomlRefused, deep_nesting_is_refused) {
 
 TEST(SceneTomlRefused, unknown_extension_is_refused) {
     try {
-        (void)load_scene("scene.obj");
+        (void)load_scene("scene.ply");
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::input_refused);
-        EXPECT_STREQ(error.what(), "scene.obj: unknown kind of scene; give a .vox or a .toml file");
+        EXPECT_STREQ(error.what(), "scene.ply: unknown kind of scene; give a .vox or a .toml file");
     }
 }
 

@@ -134,7 +134,7 @@ TEST(PlanSettings, crop_outside_the_picture_or_of_nothing_is_refused) {
     const auto crop = [&](glm::ivec2 first, glm::ivec2 end) {
         PlanRequest request;
         request.crop = PixelWindow{first, end};
-        return refusal(scene, request, {}, ExitCode::input_refused);
+        return refusal(scene, request, {}, ExitCode::usage);
     };
     EXPECT_EQ(crop({0, 0}, {640, 360}), "accepted");
     EXPECT_EQ(crop({639, 359}, {640, 360}), "accepted");

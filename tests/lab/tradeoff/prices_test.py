@@ -76,7 +76,7 @@ class Presets(unittest.TestCase):
         self.assertEqual(found[0]["sky"]["samples"], 16)
         self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
         self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
-        self.assertEqual(found[0]["emitters"], choose_presets.choose(ALL)[0]["lamps"])
+        self.assertEqual(found[0]["emitters"], choose_presets.choose(ALL)[0]["emitters"])
 
     def test_rays_that_gain_less_than_a_tenth_are_not(self):
         self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(self.rays("a", 1.0, 0.95) + LAMP)))
@@ -95,7 +95,7 @@ class Presets(unittest.TestCase):
         self.assertEqual(choose_presets.choose(rows)[0]["sky"]["samples"], 2)
 
     def test_both_kinds_of_scenes_are_needed(self):
-        for rows, kind in ((THREE, "lamps"), (LAMP, "sky")):
+        for rows, kind in ((THREE, "emitters"), (LAMP, "sky")):
             with self.assertRaisesRegex(prices.Malformed, f"no scene of the kind '{kind}'"):
                 choose_presets.choose(rows)
 

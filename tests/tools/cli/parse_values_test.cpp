@@ -23,6 +23,14 @@ std::string refusal(const Parse& parse) {
     return "accepted";
 }
 
+TEST(ParseExposure, takes_stops_of_either_sign_and_auto) {
+    EXPECT_EQ(parse_exposure("-1"), -1.0f);
+    EXPECT_EQ(parse_exposure("0.5"), 0.5f);
+    EXPECT_EQ(parse_exposure("auto"), std::nullopt);
+    for (const char* text : {"", "1x", "nan", "inf", "1e99"})
+        EXPECT_NE(refusal([&] { (void)parse_exposure(text); }), "accepted") << text;
+}
+
 TEST(ParseSize, two_numbers_give_a_size) {
     EXPECT_EQ(parse_size("--size", "640x360"), glm::ivec2(640, 360));
     EXPECT_EQ(parse_size("--size", "1x1"), glm::ivec2(1, 1));

@@ -34,7 +34,7 @@ TEST(Report, render_has_exactly_its_keys) {
                                      "rounds", "decided_by"}));
     EXPECT_EQ(keys_of(report["forecast"]), (std::set<std::string>{"low_s", "high_s"}));
     EXPECT_EQ(keys_of(report["traversal"]), (std::set<std::string>{"name", "reason"}));
-    ASSERT_EQ(report["passes"].size(), 11u);
+    ASSERT_EQ(report["passes"].size(), 8u);
     for (const Json& pass : report["passes"])
         EXPECT_EQ(keys_of(pass), (std::set<std::string>{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
