@@ -18,7 +18,7 @@ constexpr Technique photons_of(Effect effect, std::string_view name, std::string
             .biased = true,
             .tells_bias = true,
             .independent_samples = true,
-            .whole_slices = true,
+            .whole_tiles = true,
             .uneven_samples = true,
             .needs_pilot = true,
             .noise = NoiseLaw::photons,

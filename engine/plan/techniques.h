@@ -25,7 +25,7 @@ struct Technique {
     bool independent_samples = false;  // of a pixel, whatever sequence leads the camera's rays
     bool shares_samples = false;       // between pixels, so that halves of the film tell no error
     bool whole_frame = false;       // each pass covers the image before the next: one film tile and one tile
-    bool whole_slices = false;      // a tile costs nearly as much as a film tile
+    bool whole_tiles = false;       // a tile costs nearly as much as a film tile
     bool uneven_samples = false;    // the time of a sample depends on its number
     bool needs_pilot = false;       // to find parameters that the settings leave open
     std::optional<NoiseLaw> noise;  // where it rules that of the picture

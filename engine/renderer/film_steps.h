@@ -9,8 +9,8 @@
 #include "film/film_sums.h"
 #include "frame/frame_state.h"
 #include "passes/display/display.h"
+#include "renderer/dispatch_tiles.h"
 #include "renderer/film_readback.h"
-#include "renderer/slices.h"
 #include "shared/counters.h"
 #include "vk/executor.h"
 

@@ -1,4 +1,4 @@
-#include "renderer/slices.h"
+#include "renderer/dispatch_tiles.h"
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ TileGovernor::TileGovernor(const RenderPlan& plan, bool is_cpu)
     const std::uint64_t rays_per_pixel =
         2 + (plan.has(Effect::ao) ? plan.settings.ao_rays : 0) + (plan.paths.runs() ? kRaysOfPath : 0);
     const std::uint64_t rays_per_row = rays_per_pixel * static_cast<std::uint64_t>(plan.settings.size.x);
-    keeps_whole_ = plan.any(&Technique::whole_frame) || plan.any(&Technique::whole_slices);
+    keeps_whole_ = plan.any(&Technique::whole_frame) || plan.any(&Technique::whole_tiles);
     if (keeps_whole_) {
         rows_ = height_;
         return;

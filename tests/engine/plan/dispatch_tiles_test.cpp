@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "renderer/slices.h"
+#include "renderer/dispatch_tiles.h"
 
 namespace voxilux {
 namespace {
