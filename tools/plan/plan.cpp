@@ -48,6 +48,12 @@ int print_plan(const RenderCommand& command, const FrameList& frames, const Rend
     return 0;
 }
 
+void print_scene_messages(const RenderCommand& command, const Scene& scene) {
+    print_frame_note(command.scene, scene);
+    for (const std::string& warning : scene.warnings)
+        fmt::print(stderr, "warning: {}\n", warning);
+}
+
 int print_history(const RenderCommand& command) {
     const nlohmann::ordered_json judged = judge_history(read_history(history_file()), kHistoryRows);
     write_json(command.report.json, judged);
@@ -73,7 +79,7 @@ int run_plan(const PlanCommand& plan_command) {
     RenderOptions options = render_options(command);
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);
-    if (!command.report.quiet) print_frame_note(command.scene, animated);
+    if (!command.report.quiet) print_scene_messages(command, animated);
     request_frames(animated, frames, options.plan);
     if (options.error_target) {
         use_checkpoint(checkpoint, command.resume, options);
