@@ -61,7 +61,6 @@ TEST(Sphere, curvature_zero_is_a_plane) {
 }
 
 TEST(Sphere, hits_of_radius_1e_minus_3_to_1e6_equal_long_double_within_rounding) {
-    test::SphereErrors worst;
     int hits = 0;
     for (const SphereCase& c : test::sphere_cases(100000)) {
         const SphereHit got = intersect(c);

@@ -124,9 +124,9 @@ int run_voxelize(const VoxelizeCommand& command) {
     check_writable(output);
     check_writable(command.report.json);
     ProgressLine progress(command.progress, command.report.quiet);
-    const std::atomic<bool>& interrupted = interrupted_by_signal();
+    const std::atomic<bool>& is_interrupted = interrupted_by_signal();
     request.progress = [&](double done) {
-        if (interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was written");
+        if (is_interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was written");
         const double elapsed_s = times.total().wall;
         progress.show(done, elapsed_s, [=](bool as_json) { return progress_text(done, elapsed_s, as_json); });
     };
