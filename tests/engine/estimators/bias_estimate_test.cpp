@@ -13,8 +13,8 @@
 namespace voxilux {
 namespace {
 
-constexpr int kWidth = 96, kHeight = 64;
-constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+constexpr int kBiasWidth = 96, kBiasHeight = 64;
+constexpr std::size_t kPixels = std::size_t{kBiasWidth} * kBiasHeight;
 constexpr double kRadiance = 0.5;
 constexpr std::uint64_t kSamples = 32;  // of each half
 constexpr double kUnit = 1 << kFilmFractionBits;
@@ -24,7 +24,8 @@ struct Film {
     std::vector<std::uint64_t> samples{kSamples};
 
     [[nodiscard]] BiasEstimate estimate() const {
-        return estimate_bias(kWidth, kHeight, {beauty_a, samples}, {beauty_b, samples}, bias_a, bias_b);
+        return estimate_bias(kBiasWidth, kBiasHeight, {beauty_a, samples}, {beauty_b, samples}, bias_a,
+                             bias_b);
     }
 };
 
