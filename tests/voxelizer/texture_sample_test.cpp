@@ -21,7 +21,8 @@ Texture noise(const glm::ivec2& size, unsigned seed) {
     Texture texture{.name = "noise", .size = size, .texels = {}};
     for (int i = 0; i < size.x * size.y; ++i) {
         const auto code = [&] { return static_cast<std::uint8_t>(random() % 256); };
-        texture.texels.emplace_back(code(), code(), code(), code());
+        const auto a = code(), b = code(), g = code(), r = code();  // in an order that is the same everywhere
+        texture.texels.emplace_back(r, g, b, a);
     }
     return texture;
 }
@@ -87,7 +88,8 @@ std::vector<Piece> random_pieces(double texels, const Texture& texture, int coun
         const double length = texels / texture.size.x, width = length * (0.2 + 0.8 * unit(random));
         const glm::dmat2 span(length * glm::dvec2(std::cos(angle), std::sin(angle)),
                               width * glm::dvec2(std::cos(shear), std::sin(shear)));
-        pieces.push_back({glm::vec2(4.0 * unit(random) - 2.0, 4.0 * unit(random) - 2.0), glm::mat2(span)});
+        const double y = 4.0 * unit(random) - 2.0, x = 4.0 * unit(random) - 2.0;
+        pieces.push_back({glm::vec2(x, y), glm::mat2(span)});
     }
     return pieces;
 }
