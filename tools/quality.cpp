@@ -37,12 +37,12 @@ std::vector<std::string> overrides_of(const QualityPreset& preset) {
 std::string quality_help() {
     std::string text = fmt::format(
         "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
-        "medians of {} scenes under the sky and {} with lamps, on\n{}:",
+        "medians of {} scenes under the sky and {} with emitters, on\n{}:",
         kSkyScenes, kEmitterScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {
         text += fmt::format("\n{:<9}", preset.name);
         const std::pair<const char*, QualityPrice> kinds[] = {{"sky", preset.sky},
-                                                              {"lamps", preset.emitters}};
+                                                              {"emitters", preset.emitters}};
         for (const auto& [kind, price] : kinds)
             text += fmt::format("  {} {:>4} samples, {:>3.2g} %, {:>4g} s per megapixel", kind, price.samples,
                                 100.0 * price.error, price.seconds_per_megapixel);

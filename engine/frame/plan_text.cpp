@@ -15,7 +15,7 @@ std::string describe(const RenderPlan& plan) {
         text += fmt::format("shard     {} of {}: {} of the samples\n", plan.shard.index + 1, plan.shard.count,
                             plan.samples());
     }
-    text += fmt::format("split     {} film band(s) of {} rows\n", plan.film_tile_count, plan.film_tile_rows);
+    text += fmt::format("split     {} film tile(s) of {} rows\n", plan.film_tile_count, plan.film_tile_rows);
     if (plan.has(Effect::voxels)) {
         text +=
             fmt::format("traversal {:<10} {}, {} x {} x {} cells\n", name_of(plan.world.traversal),

@@ -132,7 +132,7 @@ RenderOutcome SampleLoop::outcome() {
     statistics.samples = samples();
     add_projection(statistics);
     statistics.live_cells = renderer.film().state().live_cells;
-    statistics.memory = renderer.executor().memory();
+    statistics.memory = renderer.executor().needed_memory();
     statistics.pipelines = renderer.executor().pipelines_created();
     outcome.rows_ahead = renderer.film().position().rows_ahead;
     if (inputs_.options.keeps_film) outcome.film = std::move(film);

@@ -7,6 +7,7 @@
 #include "shared/counters.h"
 #include "shared/gpu_types.h"
 #include "shared/sequence.h"
+#include "shared/sky_view.h"
 
 namespace voxilux {
 
@@ -28,6 +29,10 @@ std::string placeholder_buffer(Recording& recording) {
     return use_constant("constant.placeholder", sizeof(gpu::SurfaceMaterial), 0, recording);
 }
 
+std::string constant_sky_buffer(Recording& recording) {
+    return use_constant("constant.sky", sizeof(gpu::SkyParams), 0, recording);
+}
+
 Plane constant_miss(Recording& recording) {
     return {use_constant("constant.miss", sizeof(gpu::Hit), 0xFFFFFFFFu, recording), 0};
 }
@@ -42,7 +47,7 @@ std::string frame_buffer(Recording& recording) {
     return declare<gpu::FrameParams>(recording, "frame", 1);
 }
 
-std::string tally_buffer(Recording& recording) {
+std::string counters_buffer(Recording& recording) {
     return declare<gpu::uint>(recording, "counters", gpu::kCounterCount);
 }
 
@@ -120,7 +125,7 @@ Plane record_surface_pass(const RenderPlan& plan, const DispatchTile& tile, cons
                       .shader = pass.shader,
                       .extent = pixel_extent(plan, tile),
                       .bindings = {{"Frame", frame_buffer(recording)},
-                                   {"Counters", tally_buffer(recording)},
+                                   {"Counters", counters_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Hits", hits.buffer},

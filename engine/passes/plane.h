@@ -44,7 +44,7 @@ std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint
 
 // The parameters of the tile, and what its passes count.
 [[nodiscard]] std::string frame_buffer(Recording& recording);
-[[nodiscard]] std::string tally_buffer(Recording& recording);
+[[nodiscard]] std::string counters_buffer(Recording& recording);
 
 // One hit that is a miss, for a frame that marches nothing.
 [[nodiscard]] Plane constant_miss(Recording& recording);
@@ -76,6 +76,9 @@ struct DispatchTile {
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
 // Those of them that say which spheres there are.
 [[nodiscard]] std::vector<Constant> sphere_constants(const RenderPlan& plan);
+
+// Parameters of an atmosphere where there is none.
+[[nodiscard]] std::string constant_sky_buffer(Recording& recording);
 
 // A small buffer that no shader uses, for blocks that a variant of a shader leaves alone.
 [[nodiscard]] std::string placeholder_buffer(Recording& recording);

@@ -74,7 +74,7 @@ void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::iv
 
 void record_frame_upload(const gpu::FrameParams& params, Recording& recording) {
     recording.upload(frame_buffer(recording), to_bytes(params));
-    recording.clear(tally_buffer(recording));
+    recording.clear(counters_buffer(recording));
 }
 
 void record_film_clear(const RenderPlan& plan, Recording& recording) {

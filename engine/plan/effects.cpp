@@ -17,43 +17,43 @@ struct Verdict {
 struct EffectRow {
     Effect effect;
     std::string_view name;
-    Verdict (*judge)(const SceneFacts&, const EffectRequest&);
+    Verdict (*verdict)(const SceneFacts&, const EffectRequest&);
 };
 
-Verdict judge_voxels(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_voxels(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_voxels) return {false, false, "the scene has no voxels"};
     return {true, true, fmt::format("{} voxels", facts.voxel_count)};
 }
 
-Verdict judge_spheres(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_spheres(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_spheres) return {false, false, "the scene has no analytic spheres"};
     return {true, true, fmt::format("{} analytic spheres", facts.sphere_count)};
 }
 
-Verdict judge_ao(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_ao(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "nothing casts or receives occlusion"};
     if (!facts.has_sky) return {true, false, "the sky is black: there is no light to occlude"};
     return {true, true, "surfaces see the sky"};
 }
 
-Verdict judge_sun(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_sun(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.sun_reaches) return {false, false, "the sun is off, black or not above the horizon"};
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
     return {true, true, "the sun is above the horizon"};
 }
 
-Verdict judge_sky(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_sky(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_sky && facts.has_atmosphere) return {false, false, "the atmosphere has no sun"};
     if (!facts.has_sky) return {false, false, "the sky is black"};
     return {true, true, facts.has_atmosphere ? "an atmosphere scatters sunlight" : "constant sky radiance"};
 }
 
-Verdict judge_emission(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_emission(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_emitters) return {false, false, "no used material emits"};
     return {true, true, "emissive materials are seen directly"};
 }
 
-Verdict judge_specular(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_specular(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_glass && !facts.has_metal) return {false, false, "no used material is glass or mirror"};
     return {true, true,
             fmt::format("camera rays follow {}", facts.has_glass && facts.has_metal ? "mirrors and glass"
@@ -61,52 +61,52 @@ Verdict judge_specular(const SceneFacts& facts, const EffectRequest&) {
                                                                                     : "mirrors")};
 }
 
-Verdict judge_direct(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_direct(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_emitters) return {false, false, "no used material emits"};
-    return {true, true, "lamps light surfaces"};
+    return {true, true, "emitters light surfaces"};
 }
 
-Verdict judge_caustics(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_caustics(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_glass && !facts.has_metal)
         return {false, false, "neither glass nor mirror is in the light's way"};
-    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
+    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither emitter nor sun shines"};
     return {true, true, "photons: glass and mirrors gather light"};
 }
 
-Verdict judge_indirect(const SceneFacts& facts, const EffectRequest& request) {
+Verdict verdict_of_indirect(const SceneFacts& facts, const EffectRequest& request) {
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
     if (request.traces_paths) {
         const bool shines = facts.has_emitters || facts.sun_reaches || facts.has_sky;
         if (!shines) return {false, false, "neither emitter nor sun nor sky shines"};
         return {true, true, "paths: surfaces send light on"};
     }
-    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither lamp nor sun shines"};
+    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither emitter nor sun shines"};
     if (!facts.has_emitters)
-        return {true, false, "no lamps: occlusion of the sky stands for light between surfaces", true};
-    return {true, true, "photons: surfaces send the light of lamps on"};
+        return {true, false, "no emitters: occlusion of the sky stands for light between surfaces", true};
+    return {true, true, "photons: surfaces send the light of emitters on"};
 }
 
-Verdict judge_aov(const SceneFacts&, const EffectRequest& request) {
+Verdict verdict_of_aov(const SceneFacts&, const EffectRequest& request) {
     if (!request.wants_aov) return {true, false, "the output holds colour only"};
     return {true, true, "the output is an EXR"};
 }
 
 constexpr std::array<EffectRow, kEffectCount> kEffects = {{
-    {Effect::voxels, "voxels", judge_voxels},
-    {Effect::spheres, "spheres", judge_spheres},
-    {Effect::specular, "specular", judge_specular},
-    {Effect::ao, "ao", judge_ao},
-    {Effect::sun, "sun", judge_sun},
-    {Effect::sky, "sky", judge_sky},
-    {Effect::emission, "emission", judge_emission},
-    {Effect::direct, "direct", judge_direct},
-    {Effect::caustics, "caustics", judge_caustics},
-    {Effect::indirect, "indirect", judge_indirect},
-    {Effect::aov, "aov", judge_aov},
+    {Effect::voxels, "voxels", verdict_of_voxels},
+    {Effect::spheres, "spheres", verdict_of_spheres},
+    {Effect::specular, "specular", verdict_of_specular},
+    {Effect::ao, "ao", verdict_of_ao},
+    {Effect::sun, "sun", verdict_of_sun},
+    {Effect::sky, "sky", verdict_of_sky},
+    {Effect::emission, "emission", verdict_of_emission},
+    {Effect::direct, "direct", verdict_of_direct},
+    {Effect::caustics, "caustics", verdict_of_caustics},
+    {Effect::indirect, "indirect", verdict_of_indirect},
+    {Effect::aov, "aov", verdict_of_aov},
 }};
 
 EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRequest& request) {
-    const Verdict verdict = row.judge(facts, request);
+    const Verdict verdict = row.verdict(facts, request);
     const auto asked = request.switches.find(row.effect);
     const Switch choice = asked == request.switches.end() ? Switch::automatic : asked->second;
     if (choice == Switch::off && verdict.possible)
@@ -128,10 +128,10 @@ void drop_unlit(const EffectRequest& request, EffectStates& states) {
     if (!state(Effect::specular).on) drop(Effect::caustics, "mirrors and glass are switched off");
     const bool sky_lights = request.traces_paths && state(Effect::sky).on;
     if (state(Effect::emission).on) return;
-    drop(Effect::direct, "lamps are switched off");
+    drop(Effect::direct, "emitters are switched off");
     if (state(Effect::sun).on) return;
-    drop(Effect::caustics, "neither lamp nor sun shines");
-    if (!sky_lights) drop(Effect::indirect, "neither lamp nor sun shines");
+    drop(Effect::caustics, "neither emitter nor sun shines");
+    if (!sky_lights) drop(Effect::indirect, "neither emitter nor sun shines");
 }
 
 // Occlusion of the sky within a reach stands for the light of the sky, which paths find as it is. Who asks

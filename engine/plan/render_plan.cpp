@@ -70,13 +70,8 @@ void check_shard(const RenderPlan& plan) {
     }
 }
 
-// Paths that find caustics find all light; none find that of an atmosphere.
+// Paths that find caustics find all light.
 void check_paths(const RenderPlan& plan) {
-    if (plan.paths.runs() && plan.has_atmosphere())
-        throw Error(
-            ExitCode::input_refused,
-            "paths do not find the light of an atmosphere; leave out --technique indirect, or use a constant "
-            "[sky]");
     if (plan.is_by_paths(Effect::caustics) && !plan.is_by_paths(Effect::indirect))
         throw Error(ExitCode::input_refused,
                     "caustics by paths need indirect light by paths; use --technique indirect=paths, too");

@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "frame/frame.h"
+#include "passes/sky/sky.h"
 #include "shared/hash.h"
 
 namespace voxilux {
@@ -31,6 +32,12 @@ PilotFilm::PilotFilm(const RenderPlan& plan, const PreparedScene& prepared, cons
     : plan_(without_shard(plan)),
       params_(pilot_params(plan, scene, prepared.march_world)),
       steps_(plan_, executor, is_cpu) {
+    // A variant without occlusion takes the light of an atmosphere from what its scene was not prepared with.
+    if (traces_sky(plan_) != traces_sky(prepared.plan)) {
+        Recording sky;
+        record_sky_build(plan_, scene, sky);
+        executor.run(sky);
+    }
     steps_.start_frame(params_);
 }
 

@@ -24,6 +24,7 @@ void BufferStore::acquire(const Recording& recording) {
         auto found = held_.find(proxy.name);
         if (found == held_.end()) found = held_.emplace(proxy.name, Held{.buffer = create(proxy)}).first;
         found->second.persistent = proxy.persistent;
+        declared_[proxy.name] = found->second.buffer.bytes;
         found->second.last_run = run_;
     }
 }
@@ -55,6 +56,13 @@ std::vector<MemoryRow> BufferStore::rows() const {
     std::vector<MemoryRow> rows;
     for (const auto& [name, held] : held_)
         rows.push_back({name, held.buffer.bytes});
+    return rows;
+}
+
+std::vector<MemoryRow> BufferStore::declared() const {
+    std::vector<MemoryRow> rows;
+    for (const auto& [name, bytes] : declared_)
+        rows.push_back({name, bytes});
     return rows;
 }
 

@@ -28,6 +28,9 @@ class BufferStore {
 
     [[nodiscard]] std::vector<MemoryRow> rows() const;
 
+    // What recordings have declared so far, in its last size, though it may be freed again.
+    [[nodiscard]] std::vector<MemoryRow> declared() const;
+
   private:
     struct Held {
         Buffer buffer;
@@ -40,6 +43,7 @@ class BufferStore {
 
     const DeviceState* device_;
     std::map<std::string, Held, std::less<>> held_;
+    std::map<std::string, std::uint64_t> declared_;  // bytes
     std::uint64_t run_ = 0;
 };
 

@@ -257,6 +257,11 @@ class RunRecorder {
     bool is_direct_now_ = false;
 };
 
+std::vector<MemoryRow> with_staging(std::vector<MemoryRow> rows, std::uint64_t staging_bytes) {
+    if (staging_bytes > 0) rows.push_back({"executor.staging", staging_bytes});
+    return rows;
+}
+
 }  // namespace
 
 Executor::Executor(Device& device, std::span<const EmbeddedShader> shaders, ExecutorOptions options)
@@ -270,10 +275,11 @@ RunResult Executor::run(const Recording& recording) {
 }
 
 std::vector<MemoryRow> Executor::memory() const {
-    std::vector<MemoryRow> rows = state_->buffers.rows();
-    if (state_->stream.staging_bytes() > 0)
-        rows.push_back({"executor.staging", state_->stream.staging_bytes()});
-    return rows;
+    return with_staging(state_->buffers.rows(), state_->stream.staging_bytes());
+}
+
+std::vector<MemoryRow> Executor::needed_memory() const {
+    return with_staging(state_->buffers.declared(), state_->stream.staging_bytes());
 }
 
 std::uint64_t Executor::pipelines_created() const {

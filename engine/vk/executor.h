@@ -71,6 +71,9 @@ class Executor {
     // The buffers alive now, by name.
     [[nodiscard]] std::vector<MemoryRow> memory() const;
 
+    // Every buffer that a run has needed so far, by name, in its last size, and the staging memory.
+    [[nodiscard]] std::vector<MemoryRow> needed_memory() const;
+
     // Pipelines made since construction.
     [[nodiscard]] std::uint64_t pipelines_created() const;
 

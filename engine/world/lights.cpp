@@ -28,10 +28,11 @@ struct Collector {
 
     void add(const gpu::LightRecord& record, double power) {
         if (list.records.size() + 1 >= kMaxLights)
-            throw Error(ExitCode::input_refused,
-                        fmt::format("the scene has {} lamps or more (each face of an emitting voxel is one); "
-                                    "use fewer emitting voxels",
-                                    kMaxLights));
+            throw Error(
+                ExitCode::input_refused,
+                fmt::format("the scene has {} emitters or more (each face of an emitting voxel is one); "
+                            "use fewer emitting voxels",
+                            kMaxLights));
         list.records.push_back(record);
         powers.push_back(power);
     }

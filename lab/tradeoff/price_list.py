@@ -12,6 +12,7 @@ import argparse
 import pathlib
 import subprocess
 import sys
+import textwrap
 import tempfile
 
 import choose_presets
@@ -67,7 +68,7 @@ def table_text(about, rows):
         slope = curve.slopes["error"] / curve.slopes["time_s"]
         lines.append("| " + " | ".join([f"`{scene}`", f"{own[0]['width']} x {own[0]['height']}",
                                         *(cell(curve, error) for error in ERRORS), f"time^{slope:.2f}"]) + " |")
-    lines += ["", "| `--quality` | occlusion rays | samples under the sky | error | s per megapixel | samples with lamps | error | "
+    lines += ["", "| `--quality` | occlusion rays | samples under the sky | error | s per megapixel | samples with emitters | error | "
               "s per megapixel |", "|---|" + "--:|" * 7]
     for preset in choose_presets.choose(rows):
         cells = [f"`{preset['name']}`", str(preset["ao_rays"])]
@@ -76,7 +77,8 @@ def table_text(about, rows):
             texts = (f"{100 * price['error']:.2g} %", rounded(price["seconds_per_megapixel"]))
             cells += [str(price["samples"]), *(text if price["is_measured"] else f"({text})" for text in texts)]
         lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join([*lines, "", f"Measured on {about['machine']}, {about['device']}, by voxilux {about['version']}."])
+    measured = f"Measured on {about['machine']}, {about['device']}, by voxilux {about['version']}."
+    return "\n".join([*lines, "", textwrap.fill(measured, 110)])
 
 
 def with_table(readme, table):
@@ -91,7 +93,7 @@ def with_table(readme, table):
 
 
 def draw(about, rows, file):
-    """Error against seconds per megapixel, a line for each scene, dashed with lamps; rings where the presets are."""
+    """Error against seconds per megapixel, a line for each scene, dashed with emitters; rings where the presets are."""
     import matplotlib
     matplotlib.use("agg")
     from matplotlib.figure import Figure
@@ -112,7 +114,7 @@ def draw(about, rows, file):
             axes.annotate(preset["name"], place, xytext=(10, 8), textcoords="offset points", weight="bold", color=edge,
                           zorder=6, bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1})
     axes.set(xscale="log", yscale="log", xlabel="time to take the samples (seconds per megapixel)",
-             ylabel="error: root of relMSE (%)", title="Error against time: lines are scenes with default settings (dashed: with lamps), rings are the medians of the "
+             ylabel="error: root of relMSE (%)", title="Error against time: lines are scenes with default settings (dashed: with emitters), rings are the medians of the "
              f"presets\n{about['machine']}; {about['device']}")
     axes.title.set_fontsize(9)
     for axis in (axes.xaxis, axes.yaxis):

@@ -20,14 +20,6 @@ layout(scalar) readonly buffer Materials {
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
-struct PathRay {
-    ivec3 cell;  // of the origin, as in Ray; inside glass the glass voxel
-    vec3 fraction;
-    vec3 direction;
-    uint own;     // the sphere that it starts on, or kNoSphere
-    uint medium;  // material of the glass voxels that it goes through, or kNoMedium
-};
-
 // How a ray ends. What the fields of `hit` mean on the way out of glass voxels: its cell and face are those of the last
 // glass voxel, seen from inside, and `beyond` is the cell behind the face.
 struct PathHit {

@@ -6,24 +6,20 @@
 // Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
 // sun.trace and direct.trace, so the path leaves them out. By mirrors and glass alone to the visible point: by the
 // path where caustics are its own (finds_caustics), else by photons. All other light: by the path.
-//
-// Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
-// and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
-// eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
-// axes makes of them. A ray goes into the sun's and one into another; what they meet on the way may be mirrors and
-// glass. Chance finds what comes by spheres, and out of glass by another face.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
+#include "lib/path_sun.glsl"
+#include "lib/sky.glsl"
 #include "shared/dimensions.h"
 
+VX_SPECIALIZED(uint, has_atmosphere, 0u);  // else the sky is constant
 VX_SPECIALIZED(uint, has_sun, 0u);
 VX_SPECIALIZED(uint, has_emitters, 0u);
 VX_SPECIALIZED(uint, has_specular, 0u);
-VX_SPECIALIZED(uint, has_images, 0u);  // of the sun: by voxels of glass and mirrors
 VX_SPECIALIZED(uint, finds_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
-VX_SPECIALIZED(uint, sure_surfaces, 4u);   // after the visible point, that roulette leaves alone
+VX_SPECIALIZED(uint, min_surfaces, 4u);   // after the visible point, that roulette leaves alone
 
 // Turns of loops over spheres for a ray, where they are not unrolled.
 const uint sphere_turns = sphere_count <= kFewSpheres ? 0u : sphere_count + glass_spheres;
@@ -55,20 +51,14 @@ struct Walk {
 };
 
 // Of the frame, held because lavapipe would load it anew in every turn of a loop (shaders/README.md).
-vec3 sky;
+vec3 constant_sky;
 vec3 sun_irradiance;
-vec3 sun_direction;
-float sun_height;
-float sun_reach;  // the same, wider by what rounding takes of a direction
 SampleKey sample_of_frame;
 
 void init_walks() {
-    sky = frame.sky_radiance;
+    constant_sky = frame.sky_radiance;
     sun_irradiance = frame.sun_irradiance;
-    sun_direction = frame.sun_direction;
-    sun_height = frame.sun_cone_height;
-    float chord = sqrt(2.0 * sun_height) + kDirectionError;
-    sun_reach = 0.5 * chord * chord;
+    init_sun_images();
     sample_of_frame = sample_key(0u, uvec2(frame.sample_index, 0u), frame.seed);
 }
 
@@ -120,11 +110,7 @@ Walk first_walk(PhotonStart start) {
 
 Walk walk_of(PathState state) {
     Walk walk = no_walk();
-    walk.ray.cell = state.cell;
-    walk.ray.fraction = state.fraction;
-    walk.ray.direction = state.direction;
-    walk.ray.own = state.own;
-    walk.ray.medium = state.medium;
+    walk.ray = state.ray;
     walk.kind = state.kind;
     walk.stream = state.stream;
     walk.throughput = state.throughput;
@@ -140,11 +126,7 @@ Walk walk_of(PathState state) {
 
 PathState state_of(Walk walk, uint next_id) {
     PathState state;
-    state.cell = walk.ray.cell;
-    state.fraction = walk.ray.fraction;
-    state.direction = walk.ray.direction;
-    state.own = walk.ray.own;
-    state.medium = walk.ray.medium;
+    state.ray = walk.ray;
     state.kind = walk.kind;
     state.stream = walk.stream;
     state.throughput = walk.throughput;
@@ -166,51 +148,6 @@ vec3 numbers_of(Walk walk, uint use) {
 }
 
 const bool has_glints = has_sun != 0u && has_specular != 0u;  // sunlight by way of mirrors and glass
-
-vec3 image_direction(uint image) {
-    uvec3 flips = uvec3(image & 1u, image & 2u, image & 4u);
-    return sun_direction * vec3(flips.x != 0u ? -1.0 : 1.0, flips.y != 0u ? -1.0 : 1.0, flips.z != 0u ? -1.0 : 1.0);
-}
-
-const uint kImages = 8u;       // the sun itself among them
-const uint kGlassImages = 24u;  // of them, by three axes
-
-// What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
-// Zero where it reflects all.
-vec3 across_face(vec3 direction, uint axis, float eta) {
-    vec3 along = direction / eta;
-    along = vec3(axis == 0u ? 0.0 : along.x, axis == 1u ? 0.0 : along.y, axis == 2u ? 0.0 : along.z);
-    float square = 1.0 - dot(along, along);
-    if (!(square > 0.0)) return vec3(0.0);
-    float through = sqrt(square) * (direction[axis] < 0.0 ? -1.0 : 1.0);
-    return along + through * face_normal(2u * axis + 1u);
-}
-
-// Images of the sun from `first` on that are in a direction.
-float images_in(vec3 direction, uint first) {
-    float images = 0.0;
-    for (uint image = first; image < kImages; ++image)
-        images += is_in_cone(direction, image_direction(image), sun_reach) ? 1.0 : 0.0;
-    return images;
-}
-
-// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Through a face it grows
-// by eta^2 cos / cos' (Snell's law).
-float samples_of_sun(Walk walk) {
-    vec3 direction = walk.ray.direction;
-    float own = is_in_cone(direction, sun_direction, sun_reach) ? 1.0 : 0.0;
-    if (has_images == 0u) return own;
-    float samples = own + images_in(direction, 1u) / float(kImages - 1u);
-    if (has_glass_voxels == 0u || walk.vertex.medium == kNoMedium) return samples;
-    float ior = materials[walk.vertex.medium].ior;
-    samples = 0.0;
-    for (uint axis = 0u; axis < 3u; ++axis) {
-        vec3 outside = across_face(direction, axis, 1.0 / ior);
-        if (outside[axis] == 0.0) continue;
-        samples += images_in(outside, 0u) * ior * ior * abs(direction[axis] / outside[axis]) / float(kGlassImages);
-    }
-    return samples;
-}
 
 void set_direction(inout Walk walk, vec3 direction) {
     if (has_specular != 0u) walk.ray = walk.vertex;
@@ -237,11 +174,15 @@ void take_emission(inout Walk walk, PathHit found) {
     walk.light += emission * (walk.kind == kRayOn ? carried : aimed);
 }
 
+vec3 sky_seen(vec3 direction) {
+    return has_atmosphere != 0u ? sky_radiance(sky, direction) : constant_sky;
+}
+
 // Adds the light of what a ray has met.
 void take_light(inout Walk walk, PathHit found) {
     if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
     if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
-    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky;
+    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky_seen(walk.ray.direction);
     if (walk.kind != kRayOn && walk.is_straight)
         walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
     if (!has_glints || walk.is_straight) return;
@@ -286,7 +227,7 @@ bool scatter(inout Walk walk, PathHit found, BsdfSample event, float u) {
     walk.normal = found.normal;
     walk.vertices += is_diffuse ? 1u : 0u;
     ++walk.surfaces;
-    float survival = walk.surfaces > sure_surfaces ? roulette_survival(walk.throughput) : 1.0;
+    float survival = walk.surfaces > min_surfaces ? roulette_survival(walk.throughput) : 1.0;
     bool goes_on = u < survival && max(walk.throughput.x, max(walk.throughput.y, walk.throughput.z)) > 0.0;
     walk.throughput /= goes_on ? survival : 1.0;
     return goes_on;
@@ -333,7 +274,7 @@ void leave(inout Walk walk, uint last) {
     if (may_aim && last != kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
     if (walk.kind == kRayOn)
         set_direction(walk, is_first ? walk.ahead : cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy));
-    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk) + cone_solid_angle(sun_height) * walk.pdf);
+    if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk.ray.direction, walk.vertex.medium) + cone_solid_angle(sun_height) * walk.pdf);
 }
 
 #endif

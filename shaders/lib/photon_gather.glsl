@@ -132,7 +132,7 @@ Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
 // Adds the photons from `first` to before `end` of a list to the sums of the points that take part.
 void add_span(GatherBox box, GatherList list, uint first, uint end, vec3 point, Discs discs, inout PhotonSums sums) {
     uvec3 wide = uvec3(0u);
-    uvec3 narrow = uvec3(0u);
+    uvec3 half_area = uvec3(0u);
     for (uint at = first; at < end; at += fetching_lanes) {
         Fetched fetched = fetch_photon(box, list, at + gl_SubgroupInvocationID);
         for (uint from = 0u; from < fetching_lanes; ++from) {
@@ -140,10 +140,10 @@ void add_span(GatherBox box, GatherList list, uint first, uint end, vec3 point, 
             uvec3 quanta = subgroupShuffle(fetched.quanta, from);
             wide += squared <= discs.squared ? quanta : uvec3(0u);
             if (own_radii != 0u) sums.met += squared <= discs.squared ? 1u : 0u;
-            narrow += squared <= discs.narrow_squared ? quanta : uvec3(0u);
+            half_area += squared <= discs.half_area_squared ? quanta : uvec3(0u);
         }
     }
-    add_quanta(sums, wide, narrow);
+    add_quanta(sums, wide, half_area);
 }
 
 // As many photons as sums of 32 bits hold.
@@ -192,7 +192,7 @@ PhotonSums gather(vec3 position, uint surface, Discs own) {
         box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
         Discs discs;  // of those that take part
         discs.squared = takes ? own.squared : -1.0;
-        discs.narrow_squared = takes ? own.narrow_squared : -1.0;
+        discs.half_area_squared = takes ? own.half_area_squared : -1.0;
         add_box(box, position, discs, sums);
         waits = waits && !takes && gl_SubgroupInvocationID != leader;
     }

@@ -9,28 +9,28 @@
 layout(scalar) writeonly buffer Light {
     vec3 light[];
 };
-layout(scalar) writeonly buffer NarrowLight {
-    vec3 narrow_light[];
+layout(scalar) writeonly buffer HalfAreaLight {
+    vec3 half_area_light[];
 };
 
 // In quanta.
 struct PhotonSums {
     uint met;        // photons within the radius, where pixels have their own
     u64vec3 wide;    // within the radius
-    u64vec3 narrow;  // within the narrow radius
+    u64vec3 half_area;  // within the half-area radius
 };
 
 PhotonSums no_photons() {
     PhotonSums sums;
     sums.met = 0u;
     sums.wide = u64vec3(0u);
-    sums.narrow = u64vec3(0u);
+    sums.half_area = u64vec3(0u);
     return sums;
 }
 
-void add_quanta(inout PhotonSums sums, uvec3 wide, uvec3 narrow) {
+void add_quanta(inout PhotonSums sums, uvec3 wide, uvec3 half_area) {
     sums.wide += u64vec3(wide);
-    sums.narrow += u64vec3(narrow);
+    sums.half_area += u64vec3(half_area);
 }
 
 // Power of a sum over an area, W / voxel^2.
@@ -45,22 +45,22 @@ vec3 irradiance(u64vec3 sum, float area) {
 // Squared radii of a point's two discs.
 struct Discs {
     float squared;
-    float narrow_squared;
+    float half_area_squared;
 };
 
 Discs common_discs() {
     Discs discs;
     discs.squared = photon.radius * photon.radius;
-    discs.narrow_squared = photon.narrow_radius * photon.narrow_radius;
+    discs.half_area_squared = photon.half_area_radius * photon.half_area_radius;
     return discs;
 }
 
 // Writes what the sums of a pixel mean, when these shares of its discs are there to receive photons.
-void store_light(uint index, PhotonSums sums, Discs discs, float share, float narrow_share) {
+void store_light(uint index, PhotonSums sums, Discs discs, float share, float half_area_share) {
     precise float area = kPi * discs.squared * share;
-    precise float narrow_area = kPi * discs.narrow_squared * narrow_share;
+    precise float half_area = kPi * discs.half_area_squared * half_area_share;
     light[index] = irradiance(sums.wide, area);
-    narrow_light[index] = irradiance(sums.narrow, narrow_area);
+    half_area_light[index] = irradiance(sums.half_area, half_area);
 }
 
 #endif

@@ -22,7 +22,7 @@ VX_SPECIALIZED(uint, sums_sun, 1u);
 VX_SPECIALIZED(uint, keeps_color, 1u);
 
 layout(rgba32ui) readonly uniform uimageBuffer FirstHits;  // before mirrors and glass
-layout(rgba32ui) readonly uniform uimageBuffer NarrowPhotons;
+layout(rgba32ui) readonly uniform uimageBuffer HalfAreaPhotons;
 VX_SUMS(Beauty);
 VX_SUMS(Squares);
 VX_SUMS(Bias);
@@ -53,14 +53,14 @@ void add_beauty(uint at, uint film_group, Group group) {
 }
 
 // How far the light of photons is off because discs smooth it, as radiance. To first order the error of a disc is
-// proportional to its area, and the narrow one has half of it: so it is twice the difference. Noisy, and its mean is not.
+// proportional to its area, and the half-area one has half of it: so it is twice the difference. Noisy, and its mean is not.
 // Source: Hachisuka, Jarosz and Jensen 2010, "A Progressive Error Estimation Framework for Photon Density Estimation", for
 // the idea; the second radius stands for their derivatives of the kernel.
-void add_bias(uint film_group, Group group, vec3 narrow_light[kGroupPixels]) {
+void add_bias(uint film_group, Group group, vec3 half_area_light[kGroupPixels]) {
     vec3 off[kGroupPixels];
     for (uint k = 0u; k < kGroupPixels; ++k) {
         vec3 reflected = group.weights[k] * group.albedo[k] * kInversePi;
-        vec3 bias = 2.0 * reflected * (group.photons[k] - narrow_light[k]);
+        vec3 bias = 2.0 * reflected * (group.photons[k] - half_area_light[k]);
         off[k] = is_surface(group.hits[k]) ? bias : vec3(0.0);
     }
     VX_ADD_VECTORS(Bias, film_group, add_pair, off);
@@ -87,8 +87,8 @@ void main() {
     Group group = load_group(at, skipped, skipped + push.pixel_count);
     add_beauty(at, film_group, group);
     if (sums_bias != 0u) {
-        vec3 narrow_light[kGroupPixels] = VX_GROUP_VECTORS(NarrowPhotons, at, 1u);
-        add_bias(film_group, group, narrow_light);
+        vec3 half_area_light[kGroupPixels] = VX_GROUP_VECTORS(HalfAreaPhotons, at, 1u);
+        add_bias(film_group, group, half_area_light);
     }
     bvec4 inside = bvec4(group.inside[0], group.inside[1], group.inside[2], group.inside[3]);
     if (sums_ao != 0u) {

@@ -43,11 +43,11 @@ void main() {
     Discs discs = common_discs();
     if (own_radii != 0u) {
         discs.squared = radius.squared;
-        discs.narrow_squared = 0.5 * radius.squared;
+        discs.half_area_squared = 0.5 * radius.squared;
     }
     PhotonSums sums = gather(photon_position(hit), photon_surface(hit), discs);
     if (!pixel.inside) return;
-    vec2 shares = disc_shares(hit, vec2(sqrt(discs.squared), sqrt(discs.narrow_squared)));
+    vec2 shares = disc_shares(hit, vec2(sqrt(discs.squared), sqrt(discs.half_area_squared)));
     store_light(pixel.index, sums, discs, shares.x, shares.y);
     if (own_radii != 0u) radii[pixel.index] = shrunk_radius(radius, float(sums.met), photon.alpha);
 }

@@ -29,7 +29,7 @@ void main() {
     uint first = 6u * pixel.index;
     PhotonSums sums;
     sums.wide = u64vec3(totals[first], totals[first + 1u], totals[first + 2u]);
-    sums.narrow = u64vec3(totals[first + 3u], totals[first + 4u], totals[first + 5u]);
-    vec2 shares = disc_shares(hit, vec2(photon.radius, photon.narrow_radius));
+    sums.half_area = u64vec3(totals[first + 3u], totals[first + 4u], totals[first + 5u]);
+    vec2 shares = disc_shares(hit, vec2(photon.radius, photon.half_area_radius));
     store_light(pixel.index, sums, common_discs(), shares.x, shares.y);
 }

@@ -56,7 +56,7 @@ void splat_row(SortedPhoton from, int y, int z) {
                        photon_cell(point.position.y, photon.grid.cells_per_voxel) == y &&
                        photon_cell(point.position.z, photon.grid.cells_per_voxel) == z;
         if (is_here && squared <= photon.radius * photon.radius) add(6u * point.pixel, quanta);
-        if (is_here && squared <= photon.narrow_radius * photon.narrow_radius) add(6u * point.pixel + 3u, quanta);
+        if (is_here && squared <= photon.half_area_radius * photon.half_area_radius) add(6u * point.pixel + 3u, quanta);
     }
 }
 

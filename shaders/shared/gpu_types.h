@@ -124,13 +124,18 @@ static_assert(sizeof(Hit) == 4 * kHitWords && sizeof(SurfaceMaterial) == 16 * kM
 static_assert(sizeof(PhotonStart) == 8 * kStartWords);
 #endif
 
-// A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
-struct PathState {
-    ivec3 cell;  // of the ray's origin, local to the world
+// A ray of a path, which starts on a surface or in a medium.
+struct PathRay {
+    ivec3 cell;  // of the origin, as in Ray; inside glass the glass voxel
     vec3 fraction;
     vec3 direction;
-    uint own;
-    uint medium;
+    uint own;     // the sphere that it starts on, or kNoSphere
+    uint medium;  // material of the glass voxels that it goes through, or kNoMedium
+};
+
+// A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
+struct PathState {
+    PathRay ray;
     uint kind;
     uint stream;
     vec3 throughput;

@@ -17,13 +17,13 @@ struct PhotonGrid {
 // What the passes of one iteration share beside FrameParams: the uniform block PhotonFrame.
 struct PhotonParams {
     PhotonGrid grid;
-    vec3 power_scale;     // quanta per watt, of red, green and blue (photon_power.h)
-    vec3 power_unit;      // watts per quantum
-    float radius;         // of a gather, voxels
-    float narrow_radius;  // of the second, which tells the bias; at most the first
-    uint capacity;        // photons that fit in the store
-    uint iteration;       // from 1
-    float alpha;          // share of the new photons that a pixel with a radius of its own keeps
+    vec3 power_scale;        // quanta per watt, of red, green and blue (photon_power.h)
+    vec3 power_unit;         // watts per quantum
+    float radius;            // of a gather, voxels
+    float half_area_radius;  // of the second, which tells the bias; at most the first
+    uint capacity;           // photons that fit in the store
+    uint iteration;          // from 1
+    float alpha;             // share of the new photons that a pixel with a radius of its own keeps
 };
 
 // The radius of a pixel that shrinks with the photons it has met (sppm.h).

@@ -124,11 +124,11 @@ Camera flying_camera(int frame) {
     return camera_towards(position, {0.0, 0.0, 1.0}, 50.0);
 }
 
-std::string key_disagreement(const AoFixture& rig, const AoFrame& frame, const gpu::Hit& hit,
+std::string key_disagreement(const AoFixture& fixture, const AoFrame& frame, const gpu::Hit& hit,
                              std::uint64_t key) {
     constexpr double kWidthError = 1e-6;  // relative: some roundings of floats
     const double pixel = 2.0 * glm::length(glm::dvec3(frame.params.camera_up)) / frame.params.height;
-    const double width = double{hit.t} * double{rig.plan().settings.ao.cell_px} * pixel;
+    const double width = double{hit.t} * double{fixture.plan().settings.ao.cell_px} * pixel;
     for (const double error : {-kWidthError, kWidthError}) {
         const std::uint32_t level = level_of(width * (1.0 + error));
         if (key_of(cell_around(hit.cell, hit.face, glm::dvec3(hit.fraction), level)) == key) return "";
@@ -139,10 +139,11 @@ std::string key_disagreement(const AoFixture& rig, const AoFrame& frame, const g
                        cell ? static_cast<int>(cell->level) : -1);
 }
 
-std::uint64_t open_samples(const AoFixture& rig, std::uint64_t key, std::uint64_t first, std::uint64_t end) {
+std::uint64_t open_samples(const AoFixture& fixture, std::uint64_t key, std::uint64_t first,
+                           std::uint64_t end) {
     const gpu::AoCell cell = cell_of_key(key).value();
     const gpu::uint stream = gpu::ao_cell_stream(key_words(key));
-    const RenderSettings& settings = rig.scene().settings;
+    const RenderSettings& settings = fixture.scene().settings;
     constexpr gpu::uint kSequences[] = {gpu::kSequenceSobol, gpu::kSequenceHalton, gpu::kSequenceWhite};
     const gpu::uint sequence = kSequences[static_cast<std::size_t>(settings.sequence)];
     std::uint64_t open = 0;
@@ -152,7 +153,7 @@ std::uint64_t open_samples(const AoFixture& rig, std::uint64_t key, std::uint64_
             gpu::cosine_on_face(cell.face, gpu::sample_2d(sequence, sample, gpu::kPairOcclusion));
         const gpu::vec3 start = gpu::ao_cell_point(cell, gpu::sample_2d(sequence, sample, gpu::kPairPixel));
         const gpu::Ray ray = gpu::spawn_ray(cell.voxel, cell.face, start, direction, settings.ao_radius);
-        const gpu::MarchHit hit = gpu::march(rig.march_world(), ray, rig.march_world().chunks_size);
+        const gpu::MarchHit hit = gpu::march(fixture.march_world(), ray, fixture.march_world().chunks_size);
         open += hit.face == gpu::kFaceMiss ? 1 : 0;
     }
     return open;

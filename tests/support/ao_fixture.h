@@ -36,7 +36,7 @@ struct AoFrame {
 using CellSums = std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>>;
 [[nodiscard]] CellSums sums_of(const AoFrame& frame);
 
-// A scene on a device, frame by frame, each of one sample. Persistent buffers go by name, so one rig at a
+// A scene on a device, frame by frame, each of one sample. Persistent buffers go by name, so one fixture at a
 // time uses an executor. A frame counted a fault other than a full table fails the test.
 class AoFixture {
   public:
@@ -71,11 +71,11 @@ class AoFixture {
 
 // Empty when a hit on a voxel's face has this key: its cell is that which double precision finds. A wanted
 // width within rounding of a border between levels may be on either side.
-[[nodiscard]] std::string key_disagreement(const AoFixture& rig, const AoFrame& frame, const gpu::Hit& hit,
-                                           std::uint64_t key);
+[[nodiscard]] std::string key_disagreement(const AoFixture& fixture, const AoFrame& frame,
+                                           const gpu::Hit& hit, std::uint64_t key);
 
 // How many of the samples with the numbers first <= n < end of a cell meet nothing, marched in C++.
-[[nodiscard]] std::uint64_t open_samples(const AoFixture& rig, std::uint64_t key, std::uint64_t first,
+[[nodiscard]] std::uint64_t open_samples(const AoFixture& fixture, std::uint64_t key, std::uint64_t first,
                                          std::uint64_t end);
 
 }  // namespace voxilux::test

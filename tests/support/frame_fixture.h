@@ -26,7 +26,7 @@ struct FramePlanes {
     std::array<gpu::uint, gpu::kCounterCount> counters{};
 };
 
-// A scene on a device, sample by sample. Persistent buffers go by name, so one rig at a time uses an
+// A scene on a device, sample by sample. Persistent buffers go by name, so one fixture at a time uses an
 // executor. The plan has one film tile and every AOV.
 class FrameFixture {
   public:

@@ -59,9 +59,9 @@ std::vector<LightPicture> render_light(Scene scene, const LightRequest& request)
         pictures.push_back({blocks, std::vector<TruthPixel>(static_cast<std::size_t>(blocks.x * blocks.y),
                                                             {glm::dvec3(0.0), glm::dvec3(0.0)})});
     }
-    FrameFixture rig(scene, {.effects = request.effects});
+    FrameFixture fixture(scene, {.effects = request.effects});
     for (std::uint32_t i = 0; i < request.iterations; ++i) {
-        const FramePlanes planes = rig.render(i);
+        const FramePlanes planes = fixture.render(i);
         for (std::size_t f = 0; f < gpu::kFaultCount; ++f)
             EXPECT_EQ(planes.counters[f], 0u) << "fault " << gpu::kCounterNames[f];
         for (std::size_t p = 0; p < pictures.size(); ++p) {

@@ -21,7 +21,7 @@ void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Rec
          .extent = {count, 1, 1},
          .bindings = {{"In", "t.photons"},
                       {"PhotonFrame", photon_frame_buffer(recording)},
-                      {"Counters", tally_buffer(recording)},
+                      {"Counters", counters_buffer(recording)},
                       {"PhotonHeads", photon_head_buffer(recording)},
                       {"StoredPhotons", photon_store_buffer(plan, recording)},
                       {"WantedCells", photon_wanted_buffer(plan, recording)},
@@ -37,7 +37,7 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     frame.row_count = frame.height;
     frame.column_count = job.width;
     recording.upload(frame_buffer(recording), to_bytes(frame));
-    recording.clear(tally_buffer(recording));
+    recording.clear(counters_buffer(recording));
     if (!job.spheres.empty())
         recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(job.spheres)));
     recording.declare(
@@ -49,7 +49,7 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
 PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
     PhotonOutcome outcome;
     outcome.light = values_of<glm::vec3>(result, planes.light.buffer);
-    outcome.narrow = values_of<glm::vec3>(result, planes.narrow.buffer);
+    outcome.half_area = values_of<glm::vec3>(result, planes.half_area.buffer);
     outcome.head = values_of<gpu::PhotonHead>(result, "photon.head").front();
     if (result.readbacks.contains("photon.sorted"))
         outcome.sorted = values_of<gpu::SortedPhoton>(result, "photon.sorted");
@@ -75,7 +75,7 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
                                     ? record_photon_splat(plan, params, tile, {"t.points"}, recording)
                                     : record_photon_gather(plan, tile, {"t.points"}, job.radii, recording);
     for (const std::string& buffer :
-         {planes.light.buffer, planes.narrow.buffer, std::string("photon.head"), std::string("counters")})
+         {planes.light.buffer, planes.half_area.buffer, std::string("photon.head"), std::string("counters")})
         recording.readback(buffer);
     for (const char* buffer : {"photon.sorted", "photon.radii"})
         if (recording.find(buffer) != nullptr) recording.readback(buffer);

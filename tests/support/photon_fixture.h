@@ -30,7 +30,7 @@ struct PhotonJob {
 // What the passes wrote.
 struct PhotonOutcome {
     std::vector<glm::vec3> light;
-    std::vector<glm::vec3> narrow;
+    std::vector<glm::vec3> half_area;
     std::vector<gpu::SortedPhoton> sorted;
     std::vector<gpu::PixelRadius> radii;
     gpu::PhotonHead head{};

@@ -53,7 +53,7 @@ SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Reco
 std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, const std::string& slots,
                                     Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
-            {"Counters", tally_buffer(recording)},
+            {"Counters", counters_buffer(recording)},
             {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
             {"Keys", table_array(plan, "ao.keys", recording)},
             {"Samples", table_array(plan, "ao.samples", recording)},
@@ -75,7 +75,7 @@ void record_ao_age(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "ao.age",
                         .shader = "ao_age",
                         .extent = {plan.ao.slots, 1, 1},
-                        .bindings = {{"Counters", tally_buffer(recording)},
+                        .bindings = {{"Counters", counters_buffer(recording)},
                                      {"AoFrame", declare<gpu::AoParams>(recording, "ao.frame", 1)},
                                      {"Keys", table_array(plan, "ao.keys", recording)},
                                      {"Samples", table_array(plan, "ao.samples", recording)},

@@ -60,7 +60,7 @@ void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const Fil
         .shader = "film_add",
         .extent = {static_cast<std::uint32_t>(plane_elements(pixels) / gpu::kGroupPixels), 1, 1},
         .bindings = {{"Frame", frame_buffer(recording)},
-                     {"Counters", tally_buffer(recording)},
+                     {"Counters", counters_buffer(recording)},
                      {"Spheres", spheres_buffer(plan, recording)},
                      {"Materials", materials_buffer(plan, recording)},
                      {"FirstHits", inputs.first_hits.buffer},
@@ -71,7 +71,7 @@ void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const Fil
                      {"Sun", inputs.sun.buffer},
                      {"Direct", inputs.direct.buffer},
                      {"Photons", inputs.photons.light.buffer},
-                     {"NarrowPhotons", inputs.photons.narrow.buffer},
+                     {"HalfAreaPhotons", inputs.photons.half_area.buffer},
                      {"Color", keeps_color ? declare_plane<gpu::vec3>(plan, "film.color", recording)
                                            : placeholder_buffer(recording)}},
         .constants = film_constants(plan, inputs, keeps_color),

@@ -1,5 +1,6 @@
 #include "passes/paths/paths.h"
 
+#include "passes/sky/sky.h"
 #include "passes/specular/specular.h"
 
 namespace voxilux {
@@ -53,9 +54,12 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
                                                        {"Media", media.buffer},
                                                        {"States", states},
                                                        {"Light", light}});
+    const std::vector<Binding> sky = sky_bindings(plan, recording);
+    dispatch.bindings.insert(dispatch.bindings.end(), sky.begin(), sky.end());
     dispatch.constants.insert(
         dispatch.constants.end(),
-        {{"has_sun", plan.has(Effect::sun) ? 1u : 0u},
+        {{"has_atmosphere", plan.has_atmosphere() ? 1u : 0u},
+         {"has_sun", plan.has(Effect::sun) ? 1u : 0u},
          {"has_emitters", has_emitters ? 1u : 0u},
          {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
          {"has_images", plan.has(Effect::specular) && plan.has(Effect::voxels) ? 1u : 0u},

@@ -46,7 +46,7 @@ std::vector<Binding> point_bindings(const Plane& hits, Recording& recording) {
 
 PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
     return {{declare_plane<gpu::vec3>(plan, "photon.light", recording)},
-            {declare_plane<gpu::vec3>(plan, "photon.narrow", recording)}};
+            {declare_plane<gpu::vec3>(plan, "photon.half_area", recording)}};
 }
 
 // Adds what a pass needs that turns sums into light.
@@ -55,7 +55,7 @@ void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& d
     dispatch.bindings.insert(dispatch.bindings.end(), {{"Spheres", spheres_buffer(plan, recording)},
                                                        {"SphereTable", sphere_table_buffer(plan, recording)},
                                                        {"Light", planes.light.buffer},
-                                                       {"NarrowLight", planes.narrow.buffer}});
+                                                       {"HalfAreaLight", planes.half_area.buffer}});
     for (const Constant& constant : sphere_constants(plan))
         dispatch.constants.push_back(constant);
 }
@@ -97,7 +97,7 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     const double radius = std::max(setup.radius, static_cast<double>(gpu::kMinPhotonRadius));
     gpu::PhotonParams params{};
     params.radius = static_cast<float>(radius);
-    params.narrow_radius = static_cast<float>(radius / std::numbers::sqrt2);
+    params.half_area_radius = static_cast<float>(radius / std::numbers::sqrt2);
     params.grid = gpu::photon_grid(params.radius, static_cast<float>(setup.extent), setup.buckets);
     for (int c = 0; c < 3; ++c) {
         const double most = setup.max_power[c];
@@ -152,7 +152,7 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& ti
                       .extent = tile_extent(plan, tile),
                       .bindings = point_bindings(hits, recording)};
     dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Counters", tally_buffer(recording)},
+                             {{"Counters", counters_buffer(recording)},
                               {"BucketStarts", photon_starts_buffer(plan, recording)},
                               {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
     dispatch.bindings.push_back(
@@ -176,7 +176,7 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
         {.label = "photon.splat",
          .shader = "photon_splat",
          .bindings = {{"PhotonFrame", photon_frame_buffer(recording)},
-                      {"Counters", tally_buffer(recording)},
+                      {"Counters", counters_buffer(recording)},
                       {"PhotonHeads", head},
                       {"StoredPhotons", photon_store_buffer(plan, recording)},
                       {"BucketStarts", photon_starts_buffer(plan, recording)},

@@ -18,8 +18,8 @@ struct PhotonSetup {
     double alpha = 2.0 / 3.0;  // of pixels with radii of their own
 };
 
-// The parameters of an iteration. The radius is not below kMinPhotonRadius, and the narrow one is 1/sqrt(2)
-// of it. A channel without power gets none.
+// The parameters of an iteration. The radius is not below kMinPhotonRadius, and the half-area one is
+// 1/sqrt(2) of it. A channel without power gets none.
 [[nodiscard]] gpu::PhotonParams photon_params(const PhotonSetup& setup);
 
 // Puts the parameters on the device and empties the store, before the pass that traces photons.
@@ -33,10 +33,10 @@ void record_photon_mark(const RenderPlan& plan, const DispatchTile& tile, const 
 // Sorts the stored photons into buckets: photon.scan, photon.sort.
 void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
 
-// Irradiance at each hit from the photons, vec3: as the picture takes it, and with the narrow radius.
+// Irradiance at each hit from the photons, vec3: as the picture takes it, and with the half-area radius.
 struct PhotonPlanes {
     Plane light;
-    Plane narrow;
+    Plane half_area;
 };
 
 // Whose radius a gather takes: the iteration's, or each pixel's own, which starts at the iteration's and

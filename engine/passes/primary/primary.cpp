@@ -23,7 +23,7 @@ Plane record_primary_march(const RenderPlan& plan, const DispatchTile& tile, con
                       .shader = "primary_march",
                       .extent = pixel_extent(plan, tile),
                       .bindings = {{"Frame", frame_buffer(recording)},
-                                   {"Counters", tally_buffer(recording)},
+                                   {"Counters", counters_buffer(recording)},
                                    {"Starts", starts},
                                    {"Hits", hits.buffer}},
                       .constants = {sequence_constant(plan)}};

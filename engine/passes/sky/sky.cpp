@@ -78,6 +78,12 @@ Constant direction_constant(const RenderPlan& plan) {
 
 }  // namespace
 
+std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording) {
+    if (!plan.has_atmosphere())
+        return {{"Sky", constant_sky_buffer(recording)}, {"SkyView", placeholder_buffer(recording)}};
+    return {{"Sky", params_buffer(recording)}, {"SkyView", view_buffer(plan, recording)}};
+}
+
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording) {
     if (!plan.has_atmosphere()) return;
     gpu::SkyParams sky = sky_params(scene);
@@ -89,13 +95,15 @@ void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& rec
                         .extent = {gpu::view_texels(plan.sky_resolution), 1, 1},
                         .bindings = {{"Scatter", scatter}, {"SkyView", view_buffer(plan, recording)}},
                         .push = to_bytes(sky)});
-    // Both, because variants of a plan without occlusion or with cells are rendered on what it has built.
-    record_sky_shares(plan, recording);
-    record_sky_faces(plan, recording);
+    if (traces_sky(plan)) {
+        record_sky_shares(plan, recording);
+    } else {
+        record_sky_faces(plan, recording);
+    }
 }
 
 bool traces_sky(const RenderPlan& plan) {
-    return plan.has_atmosphere() && plan.has(Effect::ao) && !plan.ao.uses_cells();
+    return plan.has_atmosphere() && plan.has(Effect::ao) && !plan.ao.uses_cells() && !plan.paths.runs();
 }
 
 SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
@@ -106,7 +114,7 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                       .shader = "sky_trace",
                       .extent = pixel_extent(plan, tile),
                       .bindings = {{"Frame", frame_buffer(recording)},
-                                   {"Counters", tally_buffer(recording)},
+                                   {"Counters", counters_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"Sky", params_buffer(recording)},

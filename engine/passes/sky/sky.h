@@ -5,12 +5,17 @@
 
 namespace voxilux {
 
+// The table of an atmosphere and its parameters, for shaders that look directions up (lib/sky.glsl); without
+// one, what such a shader leaves alone.
+[[nodiscard]] std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording);
+
 // Builds what an atmosphere looks like from the scene, for all frames under this sun: its parameters, the
-// table of its radiance, the distributions from which rays towards it are drawn, and the irradiance of the
-// six faces. Nothing where the plan has none.
+// table of its radiance, and the distributions from which rays towards it are drawn, or where no such rays
+// are, the irradiance of the six faces. Nothing where the plan has none.
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording);
 
-// Whether rays find the light of the atmosphere together with its occlusion. Otherwise occlusion comes first.
+// Whether rays find the light of the atmosphere together with its occlusion. Otherwise occlusion comes first,
+// or paths find that light.
 [[nodiscard]] bool traces_sky(const RenderPlan& plan);
 
 struct SkyPlanes {

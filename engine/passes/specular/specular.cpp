@@ -4,7 +4,7 @@ namespace voxilux {
 
 std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
-            {"Counters", tally_buffer(recording)},
+            {"Counters", counters_buffer(recording)},
             {"Spheres", spheres_buffer(plan, recording)},
             {"SphereTable", sphere_table_buffer(plan, recording)},
             {"Materials", materials_buffer(plan, recording)}};

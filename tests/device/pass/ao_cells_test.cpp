@@ -63,7 +63,7 @@ struct Slots {
     std::uint64_t hits = 0;
 };
 
-Slots slots_of(const AoFixture& rig, const AoFrame& frame) {
+Slots slots_of(const AoFixture& fixture, const AoFrame& frame) {
     Slots slots;
     for (std::size_t i = 0; i < frame.hits.size(); ++i) {
         if (frame.hits[i].face >= gpu::kFaceInside) continue;
@@ -72,7 +72,8 @@ Slots slots_of(const AoFixture& rig, const AoFrame& frame) {
         if (!slot) {
             ++slots.none;
         } else {
-            const std::string wrong = test::key_disagreement(rig, frame, frame.hits[i], frame.keys[*slot]);
+            const std::string wrong =
+                test::key_disagreement(fixture, frame, frame.hits[i], frame.keys[*slot]);
             if (!wrong.empty()) slots.wrong = wrong;
         }
     }
@@ -90,13 +91,13 @@ Ledger fly(const Run& run) {
     Scene scene = test::pillared_scene();
     scene.settings.ao.slots = run.slots;
     scene.settings.ao.cell_px = run.cell_px;
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     Ledger ledger;
     for (int i = 0; i < run.frames; ++i) {
-        const AoFrame frame = rig.render(test::flying_camera(run.stride * i));
+        const AoFrame frame = fixture.render(test::flying_camera(run.stride * i));
         ledger.add(frame);
         EXPECT_EQ(imbalance(ledger, frame), "") << "frame " << i;
-        const Slots slots = slots_of(rig, frame);
+        const Slots slots = slots_of(fixture, frame);
         EXPECT_EQ(slots.wrong, "") << "frame " << i;
         EXPECT_EQ(slots.none, frame.counters[gpu::kFaultAoTableFull]) << "frame " << i;
         EXPECT_EQ(frame.counters[gpu::kWorkAoOwnRays], slots.none * scene.settings.ao_rays);
@@ -126,8 +127,8 @@ TEST(HardCase, hole03_books_balance_in_a_table_of_16_cells) {
 }
 
 TEST(AoCells, comparison_rejects_a_lost_a_stray_and_a_doubled_sample) {
-    AoFixture rig(test::pillared_scene());
-    const AoFrame frame = rig.render();
+    AoFixture fixture(test::pillared_scene());
+    const AoFrame frame = fixture.render();
     Ledger ledger;
     ledger.add(frame);
     EXPECT_EQ(imbalance(ledger, frame), "");
@@ -144,7 +145,7 @@ TEST(AoCells, comparison_rejects_a_lost_a_stray_and_a_doubled_sample) {
     EXPECT_EQ(imbalance(ledger, frame), "cells");
     AoFrame other = frame;
     std::ranges::rotate(other.slots, other.slots.begin() + 32);
-    EXPECT_NE(slots_of(rig, other).wrong, "");
+    EXPECT_NE(slots_of(fixture, other).wrong, "");
 }
 
 // The cells' sums and the pictures of a flight of few frames, so that no cell is given up.
@@ -163,10 +164,10 @@ std::size_t levels_of(const CellSums& sums) {
 }
 
 Flight short_flight(const Scene& scene, Executor& executor = test_executor()) {
-    AoFixture rig(scene, executor);
+    AoFixture fixture(scene, executor);
     Flight flight;
     for (int i = 0; i < 20; ++i) {
-        const AoFrame frame = rig.render(test::flying_camera(i), static_cast<std::uint32_t>(i % 3));
+        const AoFrame frame = fixture.render(test::flying_camera(i), static_cast<std::uint32_t>(i % 3));
         flight.pictures.push_back(frame.visibility);
         flight.sums = test::sums_of(frame);
     }
@@ -212,11 +213,11 @@ TEST(AoCells, comparison_rejects_another_seed_and_another_cell_size) {
 }
 
 // Cells whose open samples are not those that a march in C++ finds of the same numbers.
-int differing_cells(const AoFixture& rig, const AoFrame& frame, std::uint64_t first_number) {
+int differing_cells(const AoFixture& fixture, const AoFrame& frame, std::uint64_t first_number) {
     int differing = 0;
     for (const auto& [key, sum] : test::sums_of(frame))
         differing +=
-            test::open_samples(rig, key, first_number, first_number + sum.first) != sum.second ? 1 : 0;
+            test::open_samples(fixture, key, first_number, first_number + sum.first) != sum.second ? 1 : 0;
     return differing;
 }
 
@@ -224,19 +225,19 @@ TEST(AoCells, sums_are_those_of_the_cell_s_own_samples_marched_in_cpp) {
     for (const Sequence sequence : {Sequence::sobol, Sequence::halton, Sequence::white}) {
         Scene scene = test::pillared_scene();
         scene.settings.sequence = sequence;
-        AoFixture rig(scene);
+        AoFixture fixture(scene);
         AoFrame frame;
         for (int i = 0; i < 6; ++i)
-            frame = rig.render(test::flying_camera(i));
-        EXPECT_EQ(differing_cells(rig, frame, 0), 0);
-        EXPECT_GT(differing_cells(rig, frame, 1), 20) << "samples of other numbers give other sums";
+            frame = fixture.render(test::flying_camera(i));
+        EXPECT_EQ(differing_cells(fixture, frame, 0), 0);
+        EXPECT_GT(differing_cells(fixture, frame, 1), 20) << "samples of other numbers give other sums";
     }
 }
 
 TEST(AoCells, visibility_of_a_pixel_is_the_open_share_of_its_cell) {
-    AoFixture rig(test::pillared_scene());
+    AoFixture fixture(test::pillared_scene());
     for (int i = 0; i < 4; ++i) {
-        const AoFrame frame = rig.render(test::flying_camera(5 * i));
+        const AoFrame frame = fixture.render(test::flying_camera(5 * i));
         for (std::size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
             const auto slot = frame.slot_of(pixel);
             const float expected =
@@ -250,10 +251,10 @@ TEST(AoCells, visibility_of_a_pixel_is_the_open_share_of_its_cell) {
 TEST(AoCells, sphere_keeps_its_own_rays) {
     Scene scene = test::pillared_scene();
     scene.spheres.push_back({glm::dvec3(0.0, 0.0, 2.5), 3.0, 0});
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     Ledger ledger;
     for (int i = 0; i < 5; ++i) {
-        const AoFrame frame = rig.render(test::flying_camera(i));
+        const AoFrame frame = fixture.render(test::flying_camera(i));
         ledger.add(frame);
         EXPECT_EQ(imbalance(ledger, frame), "");
         const auto on_sphere = static_cast<std::size_t>(

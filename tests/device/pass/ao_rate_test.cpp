@@ -41,11 +41,11 @@ Camera turned(const Scene& scene, double pixels) {
 }
 
 // The largest share of hits searched in a frame after the first.
-double worst_share(AoFixture& rig, double pixels_a_frame, bool same_points) {
+double worst_share(AoFixture& fixture, double pixels_a_frame, bool same_points) {
     double worst = 0.0;
     for (int i = 0; i < 30; ++i) {
         const auto sample = static_cast<std::uint32_t>(same_points ? 0 : i);
-        const AoFrame frame = rig.render(turned(rig.scene(), pixels_a_frame * i), sample);
+        const AoFrame frame = fixture.render(turned(fixture.scene(), pixels_a_frame * i), sample);
         if (i > 0) worst = std::max(worst, searched_share(frame));
     }
     return worst;
@@ -53,8 +53,8 @@ double worst_share(AoFixture& rig, double pixels_a_frame, bool same_points) {
 
 TEST(AoRate, still_camera_searches_few_cells_after_its_first_frame) {
     for (const bool same_points : {true, false}) {
-        AoFixture rig(rate_scene(true));
-        const double worst = worst_share(rig, 0.0, same_points);
+        AoFixture fixture(rate_scene(true));
+        const double worst = worst_share(fixture, 0.0, same_points);
         EXPECT_LE(worst, same_points ? 0.0 : kStillShare);
         testing::Test::RecordProperty(same_points ? "same_points" : "other_points", std::to_string(worst));
     }
@@ -62,8 +62,8 @@ TEST(AoRate, still_camera_searches_few_cells_after_its_first_frame) {
 
 TEST(AoRate, slow_pan_searches_few_cells) {
     for (const double pixels : {0.3, 1.0, 1.5}) {
-        AoFixture rig(rate_scene(true));
-        const double worst = worst_share(rig, pixels, false);
+        AoFixture fixture(rate_scene(true));
+        const double worst = worst_share(fixture, pixels, false);
         EXPECT_LE(worst, kPanShare);
         testing::Test::RecordProperty("pan_" + std::to_string(static_cast<int>(10 * pixels)),
                                       std::to_string(worst));
@@ -71,22 +71,22 @@ TEST(AoRate, slow_pan_searches_few_cells) {
 }
 
 TEST(AoRate, comparison_rejects_searches_of_every_hit) {
-    AoFixture rig(rate_scene(false));
-    EXPECT_EQ(worst_share(rig, 0.0, true), 1.0);
+    AoFixture fixture(rate_scene(false));
+    EXPECT_EQ(worst_share(fixture, 0.0, true), 1.0);
 }
 
 TEST(AoRate, change_of_the_world_or_a_camera_elsewhere_searches_again) {
-    AoFixture rig(rate_scene(true));
-    (void)rig.render();
-    EXPECT_EQ(searched_share(rig.render()), 0.0);
-    Camera behind = *rig.scene().camera;
+    AoFixture fixture(rate_scene(true));
+    (void)fixture.render();
+    EXPECT_EQ(searched_share(fixture.render()), 0.0);
+    Camera behind = *fixture.scene().camera;
     behind.yaw_deg += 180.0;
     behind.pitch_deg -= 30.0;
-    const AoFrame away = rig.render(behind);
+    const AoFrame away = fixture.render(behind);
     EXPECT_TRUE(away.counters[gpu::kWorkAoReused] == 0u);
-    EXPECT_EQ(searched_share(rig.render()), 1.0) << "the last frame saw other places";
-    rig.state.change_world();
-    const AoFrame anew = rig.render();
+    EXPECT_EQ(searched_share(fixture.render()), 1.0) << "the last frame saw other places";
+    fixture.state.change_world();
+    const AoFrame anew = fixture.render();
     EXPECT_EQ(searched_share(anew), 1.0);
     EXPECT_EQ(anew.counters[gpu::kWorkAoClaimed], test::sums_of(anew).size()) << "the table was emptied";
 }
@@ -94,10 +94,10 @@ TEST(AoRate, change_of_the_world_or_a_camera_elsewhere_searches_again) {
 TEST(AoRate, checkerboard_traces_every_other_pixel_after_the_first_frame) {
     Scene scene = rate_scene(true);
     scene.settings.ao.checkerboard = true;
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     const auto width = static_cast<std::size_t>(scene.settings.size.x);
     for (std::uint32_t i = 0; i < 6; ++i) {
-        const AoFrame frame = rig.render();
+        const AoFrame frame = fixture.render();
         std::uint64_t pixels = 0;
         for (std::size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
             const bool turn = i == 0 || (pixel % width + pixel / width + i) % 2 == 0;
@@ -111,17 +111,17 @@ TEST(AoRate, cells_with_enough_samples_take_no_more_and_are_kept) {
     Scene scene = rate_scene(true);
     scene.settings.ao.sample_limit = 100;
     scene.settings.ao_rays = 8;
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     AoFrame full;
     int frames = 0;
     do {
-        full = rig.render();
+        full = fixture.render();
     } while (full.counters[gpu::kWorkAoRays] > 0 && ++frames < 100);
     ASSERT_EQ(full.counters[gpu::kWorkAoRays], 0u);
     for (const auto& [key, sum] : test::sums_of(full))
         ASSERT_GE(sum.first, 100u);
     for (int i = 0; i < 100; ++i) {
-        const AoFrame frame = rig.render();
+        const AoFrame frame = fixture.render();
         ASSERT_EQ(frame.counters[gpu::kWorkAoRays], 0u);
         ASSERT_EQ(frame.counters[gpu::kWorkAoEvicted], 0u);
         ASSERT_EQ(frame.visibility, full.visibility);
@@ -130,9 +130,9 @@ TEST(AoRate, cells_with_enough_samples_take_no_more_and_are_kept) {
 
 // A pixel that takes no samples keeps its cell all the same.
 TEST(AoRate, no_key_is_swapped_when_cells_are_found_by_reprojection) {
-    AoFixture rig(rate_scene(true));
-    (void)rig.render();
-    const AoFrame frame = rig.render();
+    AoFixture fixture(rate_scene(true));
+    (void)fixture.render();
+    const AoFrame frame = fixture.render();
     EXPECT_GT(frame.counters[gpu::kWorkAoReused], 0u);
     EXPECT_EQ(frame.counters[gpu::kWorkAoSearches], 0u);
     EXPECT_EQ(frame.counters[gpu::kWorkAoSwaps], 0u);

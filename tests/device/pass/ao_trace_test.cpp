@@ -44,8 +44,8 @@ struct Stray {
 using Expected = std::function<double(glm::dvec3 position, gpu::uint face)>;
 
 Stray compare(const Scene& scene, const Expected& blocked) {
-    test::FrameFixture rig(scene);
-    const test::FramePlanes planes = rig.render(0);
+    test::FrameFixture fixture(scene);
+    const test::FramePlanes planes = fixture.render(0);
     const double rays = scene.settings.ao_rays;
     Stray stray;
     double difference = 0.0;
@@ -55,7 +55,7 @@ Stray compare(const Scene& scene, const Expected& blocked) {
         if (hit.face >= gpu::kFaceInside) continue;
         EXPECT_TRUE(planes.ao[i] >= 0.0f && planes.ao[i] <= 1.0f) << planes.ao[i];
         const double p =
-            blocked(glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction), hit.face);
+            blocked(glm::dvec3(fixture.march_world().origin + hit.cell) + glm::dvec3(hit.fraction), hit.face);
         if (p < 0.0) continue;
         const double count = std::round((1.0 - static_cast<double>(planes.ao[i])) * rays);
         const double pixel_variance = rays * p * (1.0 - p);

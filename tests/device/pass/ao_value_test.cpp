@@ -67,17 +67,18 @@ struct Stray {
 };
 
 Stray compare(const Scene& scene, const Blocked& blocked, int frames = 16) {
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     AoFrame frame;
     for (int i = 0; i < frames; ++i)
-        frame = rig.render(static_cast<std::uint32_t>(i));
+        frame = fixture.render(static_cast<std::uint32_t>(i));
     for (const float visibility : frame.visibility)
         EXPECT_TRUE(visibility >= 0.0f && visibility <= 1.0f) << visibility;
     Stray stray;
     double difference = 0.0;
     double variance = 0.0;
     for (const auto& [key, sum] : test::sums_of(frame)) {
-        const double p = blocked_in_cell(test::cell_of_key(key).value(), rig.march_world().origin, blocked);
+        const double p =
+            blocked_in_cell(test::cell_of_key(key).value(), fixture.march_world().origin, blocked);
         if (p < 0.0) continue;
         const double samples = static_cast<double>(sum.first);
         const double count = samples - static_cast<double>(sum.second);
@@ -167,9 +168,9 @@ TEST(HardCase, row18_plane_of_cells_is_exactly_open) {
             scene.settings.ao.filter = filter;
             scene.settings.ao_rays = 4;
             scene.camera = test::camera_towards({3.2, -20.0, 2.0}, {0, 0, 0}, 30.0);
-            AoFixture rig(scene);
+            AoFixture fixture(scene);
             for (std::uint32_t i = 0; i < 4; ++i) {
-                for (const float visibility : rig.render(i).visibility)
+                for (const float visibility : fixture.render(i).visibility)
                     ASSERT_EQ(visibility, 1.0f);
             }
         }
@@ -183,8 +184,8 @@ TEST(HardCase, row18_plane_of_cells_seen_at_a_grazing_angle_is_exactly_open) {
     scene.camera = Camera{.position = glm::dvec3(0.3, -150.0, 0.001), .yaw_deg = 90.0, .fov_y_deg = 0.01};
     scene.settings.size = {32, 32};
     scene.settings.ao_rays = 16;
-    AoFixture rig(scene);
-    const AoFrame frame = rig.render();
+    AoFixture fixture(scene);
+    const AoFrame frame = fixture.render();
     EXPECT_GT(frame.counters[gpu::kWorkHits], 100u);
     for (const float visibility : frame.visibility)
         ASSERT_EQ(visibility, 1.0f);
@@ -246,18 +247,18 @@ Scene two_rooms() {
 }
 
 TEST(HardCase, hole14_cells_on_both_sides_of_a_thin_wall_never_mix) {
-    AoFixture rig(two_rooms());
+    AoFixture fixture(two_rooms());
     const Camera inside = test::camera_towards({-3.0, 0.2, 4.0}, {-0.3, 0.0, 0.0}, 70.0);
     const Camera outside = test::camera_towards({4.0, 0.2, 4.0}, {1.3, 0.0, 0.0}, 70.0);
     for (std::uint32_t i = 0; i < 12; ++i) {
-        const AoFrame dark = rig.render(inside, i);
+        const AoFrame dark = fixture.render(inside, i);
         for (const float visibility : dark.visibility)
             ASSERT_EQ(visibility, 0.0f);
-        const AoFrame light = rig.render(outside, i);
+        const AoFrame light = fixture.render(outside, i);
         int beside = 0;
         for (std::size_t pixel = 0; pixel < light.hits.size(); ++pixel) {
             const gpu::Hit& hit = light.hits[pixel];
-            const int x = rig.march_world().origin.x + hit.cell.x;
+            const int x = fixture.march_world().origin.x + hit.cell.x;
             if (hit.face != 5u || x != 1) continue;
             ++beside;
             ASSERT_GT(light.visibility[pixel], 0.25f) << "half is blocked at the wall";

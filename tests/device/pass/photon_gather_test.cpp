@@ -87,12 +87,12 @@ int wrong_points(const PhotonJob& job, const PhotonOutcome& outcome) {
     int wrong = 0;
     for (std::size_t i = 0; i < job.points.size(); ++i) {
         const Truth wide = light_at(job, job.points[i], params.radius);
-        const Truth narrow = light_at(job, job.points[i], params.narrow_radius);
+        const Truth half_area = light_at(job, job.points[i], params.half_area_radius);
         const auto differs = [](const Truth& truth, glm::vec3 got) {
             return !truth.is_close &&
                    glm::length(truth.light - glm::dvec3(got)) > 1e-6 * glm::length(truth.light);
         };
-        wrong += differs(wide, outcome.light[i]) || differs(narrow, outcome.narrow[i]) ? 1 : 0;
+        wrong += differs(wide, outcome.light[i]) || differs(half_area, outcome.half_area[i]) ? 1 : 0;
     }
     return wrong;
 }
@@ -118,7 +118,7 @@ bool same_light(const PhotonOutcome& a, const PhotonOutcome& b) {
     const auto same = [](const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& y) {
         return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(glm::vec3)) == 0;
     };
-    return same(a.light, b.light) && same(a.narrow, b.narrow);
+    return same(a.light, b.light) && same(a.half_area, b.half_area);
 }
 
 TEST(PhotonSplat, light_equals_the_gather_to_the_bit) {
@@ -244,7 +244,7 @@ TEST(PhotonGather, no_photons_are_no_light) {
     const PhotonOutcome outcome = test::run_photons(job);
     expect_no_faults(outcome);
     for (std::size_t i = 0; i < outcome.light.size(); ++i)
-        ASSERT_EQ(outcome.light[i] + outcome.narrow[i], glm::vec3(0.0f));
+        ASSERT_EQ(outcome.light[i] + outcome.half_area[i], glm::vec3(0.0f));
     EXPECT_TRUE(same_light(outcome, test::run_splat(job)));
 }
 
@@ -320,7 +320,7 @@ TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_lea
     const double left =
         2.0 / 3.0 + std::sqrt(3.0) / (4.0 * std::numbers::pi);  // of a line at half the radius
     EXPECT_NEAR(double{walled.light[0].x} / double{open.light[0].x} * left, 1.0, 1e-3);
-    EXPECT_GT(walled.narrow[0].x, open.narrow[0].x);
+    EXPECT_GT(walled.half_area[0].x, open.half_area[0].x);
     EXPECT_TRUE(same_light(walled, test::run_splat(job)));
 }
 

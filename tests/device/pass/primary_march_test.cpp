@@ -75,14 +75,15 @@ struct Marched {
 
 // Marches on the device and expects the bits of C++.
 Marched march_picture(const Scene& scene) {
-    test::FrameFixture rig(scene);
-    Marched marched{.hits = rig.render(0).hits, .solids = local_cells(scene, rig.march_world().origin)};
+    test::FrameFixture fixture(scene);
+    Marched marched{.hits = fixture.render(0).hits,
+                    .solids = local_cells(scene, fixture.march_world().origin)};
     std::vector<gpu::Hit> want;
     const gpu::uint sequence = sequence_id(scene.settings.sequence);
-    for (gpu::uint y = 0; y < rig.params().height; ++y) {
-        for (gpu::uint x = 0; x < rig.params().width; ++x) {
-            marched.rays.push_back(gpu::camera_ray(rig.params(), sequence, x, y));
-            want.push_back(hit_in_cpp(rig.march_world(), marched.rays.back()));
+    for (gpu::uint y = 0; y < fixture.params().height; ++y) {
+        for (gpu::uint x = 0; x < fixture.params().width; ++x) {
+            marched.rays.push_back(gpu::camera_ray(fixture.params(), sequence, x, y));
+            want.push_back(hit_in_cpp(fixture.march_world(), marched.rays.back()));
             marched.hit_count += want.back().face != gpu::kFaceMiss ? 1 : 0;
         }
     }

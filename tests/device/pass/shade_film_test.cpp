@@ -89,14 +89,14 @@ TEST(FilmRadiance, convex_things_vanish_in_a_white_furnace) {
     for (Scene& scene : scenes) {
         scene.settings.size = {32, 24};
         scene.settings.ao_rays = 8;
-        test::FrameFixture rig(scene);
+        test::FrameFixture fixture(scene);
         for (std::uint32_t sample = 0; sample < 3; ++sample) {
-            const test::FramePlanes planes = rig.render(sample);
+            const test::FramePlanes planes = fixture.render(sample);
             EXPECT_GT(planes.counters[gpu::kWorkHits], 100u);
             for (const glm::vec3& color : planes.color)
                 ASSERT_EQ(color, glm::vec3(1.0f));
         }
-        for (const std::int64_t sum : rig.film_sums("beauty_a"))
+        for (const std::int64_t sum : fixture.film_sums("beauty_a"))
             ASSERT_EQ(sum, std::int64_t{2} << gpu::kFilmFractionBits);
     }
 }
@@ -128,10 +128,10 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
     test::add_box(scene, {-3, -3, 0}, {3, 3, 6});
     scene.materials[0].albedo = glm::vec3(0.3f, 0.6f, 0.9f);
     scene.settings.ao_rays = 3;
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     std::vector<std::int64_t> ao(480), sun(480), a(480 * 3), b(480 * 3), squares(480 * 3);
     for (std::uint32_t sample = 0; sample < 5; ++sample) {
-        const test::FramePlanes planes = rig.render(sample);
+        const test::FramePlanes planes = fixture.render(sample);
         for (std::size_t i = 0; i < 480; ++i) {
             ao[i] += fixed(planes.ao[i]);
             sun[i] += fixed(planes.sun[i]);
@@ -141,15 +141,15 @@ TEST(FilmAdd, sums_of_every_plane_are_exact) {
                 squares[3 * i + c] += square(planes.color[i][static_cast<int>(c)]);
         }
     }
-    EXPECT_EQ(rig.film_sums("ao"), ao);
-    EXPECT_EQ(rig.film_sums("sun"), sun);
-    EXPECT_EQ(rig.film_sums("beauty_a"), a);
-    EXPECT_EQ(rig.film_sums("beauty_b"), b);
-    EXPECT_EQ(rig.film_sums("squares"), squares);
+    EXPECT_EQ(fixture.film_sums("ao"), ao);
+    EXPECT_EQ(fixture.film_sums("sun"), sun);
+    EXPECT_EQ(fixture.film_sums("beauty_a"), a);
+    EXPECT_EQ(fixture.film_sums("beauty_b"), b);
+    EXPECT_EQ(fixture.film_sums("squares"), squares);
     squares[77] += 1;
-    EXPECT_NE(rig.film_sums("squares"), squares);
+    EXPECT_NE(fixture.film_sums("squares"), squares);
     a[77] += 1;
-    EXPECT_NE(rig.film_sums("beauty_a"), a);
+    EXPECT_NE(fixture.film_sums("beauty_a"), a);
 }
 
 TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
@@ -158,11 +158,11 @@ TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
     const std::int64_t most = fixed(gpu::kFilmMaxValue);
     const std::vector<std::int64_t> want = {fixed(1.5f),  0,    0,           0, most, -most, 0, -fixed(2.0f),
                                             fixed(0.25f), most, fixed(7.0f), -1};
-    test::FrameFixture rig(values_scene({2, 2}));
+    test::FrameFixture fixture(values_scene({2, 2}));
     std::vector<glm::vec3> radiance(4);
     std::memcpy(radiance.data(), values.data(), values.size() * sizeof(float));
-    const auto counters = rig.add_radiance(0, radiance);
-    EXPECT_EQ(rig.film_sums("beauty_a"), want);
+    const auto counters = fixture.add_radiance(0, radiance);
+    EXPECT_EQ(fixture.film_sums("beauty_a"), want);
     EXPECT_EQ(counters[gpu::kFaultFilmNonFinite], 3u);
     EXPECT_EQ(counters[gpu::kFaultFilmClamped], 3u);
 }
@@ -171,7 +171,7 @@ TEST(FilmAdd, bad_values_are_counted_and_kept_out_of_the_sums) {
 // group.
 TEST(FilmAdd, sums_of_any_values_are_those_of_128_bit_integers) {
     constexpr std::size_t kValues = 3 * 7 * 5;
-    test::FrameFixture rig(values_scene({7, 5}));
+    test::FrameFixture fixture(values_scene({7, 5}));
     test::TestRandom random(21);
     std::vector<__int128> halves[2] = {std::vector<__int128>(kValues), std::vector<__int128>(kValues)};
     std::vector<__int128> squares(kValues);
@@ -185,7 +185,7 @@ TEST(FilmAdd, sums_of_any_values_are_those_of_128_bit_integers) {
         }
         std::vector<glm::vec3> radiance(kValues / 3);
         std::memcpy(radiance.data(), values.data(), kValues * sizeof(float));
-        const auto counters = rig.add_radiance(sample, radiance);
+        const auto counters = fixture.add_radiance(sample, radiance);
         EXPECT_EQ(counters[gpu::kFaultFilmClamped] + counters[gpu::kFaultFilmNonFinite], 0u);
     }
     const auto differences = [](const std::vector<std::int64_t>& sums, const std::vector<__int128>& want,
@@ -195,10 +195,10 @@ TEST(FilmAdd, sums_of_any_values_are_those_of_128_bit_integers) {
             count += std::min<__int128>(want[i], INT64_MAX) == sums[i] + off ? 0 : 1;
         return count;
     };
-    EXPECT_EQ(differences(rig.film_sums("beauty_a"), halves[0], 0), 0u);
-    EXPECT_EQ(differences(rig.film_sums("beauty_b"), halves[1], 0), 0u);
-    EXPECT_EQ(differences(rig.film_sums("squares"), squares, 0), 0u);
-    EXPECT_EQ(differences(rig.film_sums("beauty_a"), halves[0], 1), kValues) << "the negative control";
+    EXPECT_EQ(differences(fixture.film_sums("beauty_a"), halves[0], 0), 0u);
+    EXPECT_EQ(differences(fixture.film_sums("beauty_b"), halves[1], 0), 0u);
+    EXPECT_EQ(differences(fixture.film_sums("squares"), squares, 0), 0u);
+    EXPECT_EQ(differences(fixture.film_sums("beauty_a"), halves[0], 1), kValues) << "the negative control";
 }
 
 // Tiles that begin and end within a group of pixels.
@@ -214,11 +214,11 @@ TEST(FilmAdd, tiles_of_odd_widths_change_no_sum) {
     for (const FilmPlane& plane : film_planes(whole.plan()))
         want[plane.name] = whole.film_sums(plane.name);
     for (const std::uint32_t rows : {1u, 2u, 3u, 5u}) {
-        test::FrameFixture rig(scene);
+        test::FrameFixture fixture(scene);
         for (std::uint32_t sample = 0; sample < 2; ++sample)
-            rig.render_tile(sample, rows);
+            fixture.render_tile(sample, rows);
         for (const auto& [name, sums] : want)
-            EXPECT_EQ(rig.film_sums(name), sums) << name << " in tiles of " << rows << " rows";
+            EXPECT_EQ(fixture.film_sums(name), sums) << name << " in tiles of " << rows << " rows";
     }
 }
 
@@ -227,10 +227,10 @@ TEST(FilmSurface, albedo_and_normal_follow_the_hits) {
     Scene scene = plane_scene();
     scene.materials.push_back({.name = "red", .albedo = glm::vec3(0.75f, 0.5f, 0.25f)});
     test::add_box(scene, {-4, -4, 0}, {4, 4, 5}, 1);
-    test::FrameFixture rig(scene);
-    const test::FramePlanes planes = rig.render(0);
-    const std::vector<std::int64_t> albedo = rig.film_sums("albedo");
-    const std::vector<std::int64_t> normal = rig.film_sums("normal");
+    test::FrameFixture fixture(scene);
+    const test::FramePlanes planes = fixture.render(0);
+    const std::vector<std::int64_t> albedo = fixture.film_sums("albedo");
+    const std::vector<std::int64_t> normal = fixture.film_sums("normal");
     for (std::size_t i = 0; i < planes.hits.size(); ++i) {
         const gpu::Hit& hit = planes.hits[i];
         const bool is_hit = hit.face != gpu::kFaceMiss;

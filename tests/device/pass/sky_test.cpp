@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "frame/frame.h"
 #include "passes/sky/sky.h"
 #include "scene/atmosphere.h"
+#include "scene/technique_choice.h"
 #include "shared/sampling.h"
 #include "support/frame_fixture.h"
 #include "support/sky_model.h"
@@ -87,20 +89,33 @@ struct Mean {
     glm::dvec3 error{0.0};
 };
 
-// The light of the floor over many samples; pixels and samples are independent with white noise.
-Mean mean_light(const Scene& scene, std::uint32_t samples) {
-    test::FrameFixture fixture(scene);
-    glm::dvec3 sum(0.0), squares(0.0);
-    double count = 0.0;
-    for (std::uint32_t sample = 0; sample < samples; ++sample) {
-        for (const vec3& light : fixture.render(sample).sky) {
-            sum += glm::dvec3(light);
-            squares += glm::dvec3(light) * glm::dvec3(light);
-            count += 1.0;
+// Of the values of many pixels and samples, which are independent with white noise.
+class LightMean {
+  public:
+    void add(std::span<const vec3> values) {
+        for (const vec3& value : values) {
+            sum_ += glm::dvec3(value);
+            squares_ += glm::dvec3(value) * glm::dvec3(value);
+            count_ += 1.0;
         }
     }
-    const glm::dvec3 mean = sum / count;
-    return {mean, glm::sqrt((squares / count - mean * mean) / count)};
+    [[nodiscard]] Mean mean() const {
+        const glm::dvec3 mean = sum_ / count_;
+        return {mean, glm::sqrt((squares_ / count_ - mean * mean) / count_)};
+    }
+
+  private:
+    glm::dvec3 sum_{0.0}, squares_{0.0};
+    double count_ = 0.0;
+};
+
+// The light of the floor over many samples.
+Mean mean_light(const Scene& scene, std::uint32_t samples) {
+    test::FrameFixture fixture(scene);
+    LightMean light;
+    for (std::uint32_t sample = 0; sample < samples; ++sample)
+        light.add(fixture.render(sample).sky);
+    return light.mean();
 }
 
 TEST(SkyTrace, open_floor_receives_the_integral_of_the_sky) {
@@ -118,6 +133,40 @@ TEST(SkyTrace, open_floor_receives_the_integral_of_the_sky) {
             EXPECT_LT(found.error[c], 0.05 * found.mean[c]) << "the test tells nothing";
         }
     }
+}
+
+// A convex floor sends no light to itself: what its paths find is the light of the sky and no more.
+TEST(SkyPaths, open_floor_receives_the_integral_of_the_sky) {
+    Scene scene = open_floor(10.0f);
+    scene.settings.sequence = Sequence::white;
+    choose_technique("indirect", "paths", scene.settings);
+    const PlanRequest request{.effects = {.switches = {{Effect::sun, Switch::off}}}};
+    const gpu::SkyParams sky = sky_params(scene);
+    const vec3 expected = face_light(test::view_table(scatter_of(scene), sky), sky, 5);
+    test::FrameFixture fixture(scene, request);
+    ASSERT_TRUE(fixture.plan().paths.runs());
+    LightMean light;
+    for (std::uint32_t sample = 0; sample < 16; ++sample)
+        light.add(fixture.render(sample).color);
+    const Mean found = light.mean();
+    for (int c = 0; c < 3; ++c) {
+        const double tolerance = kSigmas * found.error[c] + 2e-3 * double{expected[c]};
+        EXPECT_NEAR(found.mean[c], double{expected[c]}, tolerance) << "colour " << c;
+        EXPECT_GT(std::abs(found.mean[c] - 1.2 * double{expected[c]}), tolerance) << "the test tells nothing";
+    }
+}
+
+TEST(SkyBuild, makes_what_the_frame_reads_and_no_more) {
+    const Scene scene = open_floor(20.0f);
+    const auto has = [](const Scene& of, const PlanRequest& request, const char* buffer) {
+        const Footprint needs = footprint(test::FrameFixture(of, request).plan());
+        return std::ranges::any_of(needs.buffers, [&](const PlannedBuffer& b) { return b.buffer == buffer; });
+    };
+    EXPECT_TRUE(has(scene, {}, "sky.shares"));
+    EXPECT_FALSE(has(scene, {}, "sky.faces"));
+    const PlanRequest without_ao{.effects = {.switches = {{Effect::ao, Switch::off}}}};
+    EXPECT_FALSE(has(scene, without_ao, "sky.shares"));
+    EXPECT_TRUE(has(scene, without_ao, "sky.faces"));
 }
 
 TEST(SkyResolve, all_of_the_sky_is_what_rays_find_on_an_open_floor) {

@@ -52,15 +52,15 @@ struct Judged {
 Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
     Scene bare = scene;
     bare.spheres.clear();
-    test::FrameFixture rig(bare);
-    const std::vector<gpu::Hit> voxels = rig.render(0).hits;
+    test::FrameFixture fixture(bare);
+    const std::vector<gpu::Hit> voxels = fixture.render(0).hits;
     Judged judged;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const gpu::uint width = rig.params().width;
+        const gpu::uint width = fixture.params().width;
         const test::DoubleRay ray = test::to_double(
-            gpu::camera_ray(rig.params(), sequence_id(scene.settings.sequence),
+            gpu::camera_ray(fixture.params(), sequence_id(scene.settings.sequence),
                             static_cast<gpu::uint>(i) % width, static_cast<gpu::uint>(i) / width));
-        const glm::dvec3 origin = ray.origin + glm::dvec3(rig.march_world().origin);
+        const glm::dvec3 origin = ray.origin + glm::dvec3(fixture.march_world().origin);
         double nearest = voxels[i].face == gpu::kFaceMiss ? std::numeric_limits<double>::infinity()
                                                           : static_cast<double>(voxels[i].t);
         std::size_t sphere = scene.spheres.size();
@@ -78,7 +78,7 @@ Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
             continue;
         }
         ++judged.spheres;
-        const glm::dvec3 p = glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
+        const glm::dvec3 p = glm::dvec3(fixture.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
         const double off = glm::length(p - scene.spheres[sphere].centre) - scene.spheres[sphere].radius;
         const bool is_right = hit.face == gpu::kFaceSphere && hit.sphere == sphere &&
                               hit.material == scene.spheres[sphere].material &&

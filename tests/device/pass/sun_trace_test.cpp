@@ -34,8 +34,8 @@ Scene sunny_floor() {
     return scene;
 }
 
-glm::dvec3 position_of(const test::FrameFixture& rig, const gpu::Hit& hit) {
-    return glm::dvec3(rig.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
+glm::dvec3 position_of(const test::FrameFixture& fixture, const gpu::Hit& hit) {
+    return glm::dvec3(fixture.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
 }
 
 TEST(SunTrace, open_faces_get_exactly_the_cosine_and_faces_turned_away_nothing) {
@@ -66,13 +66,13 @@ Scene walled_floor(float angular_diameter_deg) {
 }
 
 TEST(SunTrace, hard_shadow_ends_where_the_wall_top_hides_the_sun) {
-    test::FrameFixture rig(walled_floor(0.0f));
-    const test::FramePlanes planes = rig.render(0);
+    test::FrameFixture fixture(walled_floor(0.0f));
+    const test::FramePlanes planes = fixture.render(0);
     const double reach = kWallTop / std::tan(radians(40.0));  // of the shadow along the floor
     int lit = 0;
     int dark = 0;
     for (std::size_t i = 0; i < planes.hits.size(); ++i) {
-        const double before_wall = kWallFoot - position_of(rig, planes.hits[i]).x;
+        const double before_wall = kWallFoot - position_of(fixture, planes.hits[i]).x;
         if (before_wall <= 0.0 || std::abs(before_wall - reach) < kEdge) continue;
         ASSERT_EQ(planes.sun[i] > 0.0f, before_wall > reach) << before_wall;
         (before_wall > reach ? lit : dark) += 1;
@@ -86,12 +86,12 @@ TEST(SunTrace, sphere_under_a_sun_in_the_zenith_shadows_a_disc_of_its_radius) {
     scene.sun.elevation_deg = 90.0f;
     scene.spheres.push_back({glm::dvec3(0.25, 0.5, 7.0), 2.5, 0});
     scene.camera = test::camera_towards({0.0, -14.0, 4.0}, {0.25, 0.5, 0.0}, 40.0);
-    test::FrameFixture rig(scene);
-    const test::FramePlanes planes = rig.render(0);
+    test::FrameFixture fixture(scene);
+    const test::FramePlanes planes = fixture.render(0);
     int dark = 0;
     for (std::size_t i = 0; i < planes.hits.size(); ++i) {
         if (planes.hits[i].face != 5u) continue;
-        const glm::dvec3 p = position_of(rig, planes.hits[i]);
+        const glm::dvec3 p = position_of(fixture, planes.hits[i]);
         const double distance = std::hypot(p.x - 0.25, p.y - 0.5);
         if (std::abs(distance - 2.5) < kEdge) continue;
         ASSERT_EQ(planes.sun[i] > 0.0f, distance > 2.5) << distance;
@@ -126,14 +126,14 @@ Penumbra measure_penumbra(Sequence sequence, double shift) {
     constexpr double kSunRadius = 4.0;  // degrees
     Scene scene = walled_floor(static_cast<float>(2.0 * kSunRadius));
     scene.settings.sequence = sequence;
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     Penumbra penumbra;
     double difference = 0.0;
     double variance = 0.0;
     for (std::uint32_t sample = 0; sample < 16; ++sample) {
-        const test::FramePlanes planes = rig.render(sample);
+        const test::FramePlanes planes = fixture.render(sample);
         for (std::size_t i = 0; i < planes.hits.size(); ++i) {
-            const double before_wall = kWallFoot - position_of(rig, planes.hits[i]).x + shift;
+            const double before_wall = kWallFoot - position_of(fixture, planes.hits[i]).x + shift;
             if (planes.hits[i].face != 5u || before_wall <= 0.0) continue;
             const double over = radians(40.0) - std::atan(kWallTop / before_wall);
             const bool is_lit = planes.sun[i] > 0.0f;
@@ -174,12 +174,12 @@ TEST(SunTrace, mean_over_a_soft_sun_is_the_cosine_of_its_cap) {
     scene.sun.angular_diameter_deg = 20.0f;
     scene.settings.sequence = Sequence::white;
     scene.camera = test::camera_down({0, 0, 20}, 30.0);
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     double sum = 0.0;
     double squares = 0.0;
     double count = 0.0;
     for (std::uint32_t sample = 0; sample < 32; ++sample) {
-        for (const float lit : rig.render(sample).sun) {
+        for (const float lit : fixture.render(sample).sun) {
             sum += static_cast<double>(lit);
             squares += static_cast<double>(lit) * static_cast<double>(lit);
             count += 1.0;
@@ -198,11 +198,11 @@ TEST(SunTrace, sun_half_below_the_horizon_lights_half_the_samples) {
     scene.sun.elevation_deg = 1e-6f;
     scene.sun.angular_diameter_deg = 6.0f;
     scene.camera = test::camera_down({0, 0, 20}, 30.0);
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     int lit = 0;
     int count = 0;
     for (std::uint32_t sample = 0; sample < 16; ++sample) {
-        const test::FramePlanes planes = rig.render(sample);
+        const test::FramePlanes planes = fixture.render(sample);
         int lit_now = 0;
         for (const float value : planes.sun) {
             ASSERT_GE(value, 0.0f);

@@ -72,15 +72,15 @@ TEST(BenchScene, voxels_grow_as_a_surface) {
 }
 
 TEST(BenchScene, picture_has_surfaces_and_sky) {
-    const Fixture rig;
-    const double share = static_cast<double>(rig.rays(RayKind::ao).size()) / (kSize.x * kSize.y);
+    const Fixture fixture;
+    const double share = static_cast<double>(fixture.rays(RayKind::ao).size()) / (kSize.x * kSize.y);
     EXPECT_GT(share, 0.5);
     EXPECT_LT(share, 0.95);
 }
 
 TEST(BenchRays, primary_rays_come_in_tiles_whose_rows_alternate) {
-    const Fixture rig;
-    const std::vector<gpu::Ray> rays = rig.rays(RayKind::primary);
+    const Fixture fixture;
+    const std::vector<gpu::Ray> rays = fixture.rays(RayKind::primary);
     ASSERT_EQ(rays.size(), 64u * 40u);
     // Rows of tiles 0 2 4 1 3 of the picture, whose directions go down.
     const auto height = [&](std::size_t ray) { return rays[ray].direction.z; };
@@ -91,16 +91,16 @@ TEST(BenchRays, primary_rays_come_in_tiles_whose_rows_alternate) {
 }
 
 TEST(BenchRays, other_rays_leave_what_the_primary_rays_meet) {
-    const Fixture rig;
-    const std::vector<gpu::Ray> bounded = rig.rays(RayKind::ao);
-    const std::vector<gpu::Ray> unbounded = rig.rays(RayKind::unbounded);
+    const Fixture fixture;
+    const std::vector<gpu::Ray> bounded = fixture.rays(RayKind::ao);
+    const std::vector<gpu::Ray> unbounded = fixture.rays(RayKind::unbounded);
     std::size_t hits = 0;
-    for (const gpu::BenchHit& hit : march_all(rig.guide, rig.rays(RayKind::primary)))
+    for (const gpu::BenchHit& hit : march_all(fixture.guide, fixture.rays(RayKind::primary)))
         hits += hit.face != gpu::kFaceMiss ? 1 : 0;
     EXPECT_EQ(bounded.size(), hits);
     ASSERT_EQ(unbounded.size(), hits);
     for (std::size_t i = 0; i < hits; ++i) {
-        EXPECT_EQ(rig.scene.world.get(bounded[i].cell), VoxelWorld::kEmpty);
+        EXPECT_EQ(fixture.scene.world.get(bounded[i].cell), VoxelWorld::kEmpty);
         EXPECT_EQ(bounded[i].t_max, 32.0f);
         EXPECT_EQ(unbounded[i].t_max, gpu::kUnbounded);
         EXPECT_EQ(bounded[i].direction, unbounded[i].direction);
@@ -127,12 +127,12 @@ TEST(RayChecker, walk_stops_where_boxes_in_double_precision_stop_the_ray) {
 }
 
 TEST(RayChecker, march_has_no_mismatch_and_each_perturbed_hit_is_one) {
-    const Fixture rig;
+    const Fixture fixture;
     for (const RayKind kind : kRayKinds) {
-        const std::vector<gpu::Ray> rays = rig.rays(kind);
-        const Verdicts verdicts = check_rays(rig.scene.world, rays, ~std::uint64_t{0});
+        const std::vector<gpu::Ray> rays = fixture.rays(kind);
+        const Verdicts verdicts = check_rays(fixture.scene.world, rays, ~std::uint64_t{0});
         EXPECT_EQ(verdicts.rays.size(), rays.size());
-        const std::vector<gpu::BenchHit> hits = march_all(rig.guide, rays);
+        const std::vector<gpu::BenchHit> hits = march_all(fixture.guide, rays);
         EXPECT_EQ(count_mismatches(verdicts, hits), 0u) << name_of(kind);
         for (std::size_t i = 0; i < hits.size(); i += 97) {
             const bool is_miss = hits[i].face == gpu::kFaceMiss;
@@ -151,9 +151,9 @@ TEST(RayChecker, march_has_no_mismatch_and_each_perturbed_hit_is_one) {
 }
 
 TEST(RayChecker, few_cells_judge_a_spread_share_of_the_rays) {
-    const Fixture rig;
-    const std::vector<gpu::Ray> rays = rig.rays(RayKind::primary);
-    const Verdicts verdicts = check_rays(rig.scene.world, rays, 2000);
+    const Fixture fixture;
+    const std::vector<gpu::Ray> rays = fixture.rays(RayKind::primary);
+    const Verdicts verdicts = check_rays(fixture.scene.world, rays, 2000);
     const std::set<std::size_t> judged(verdicts.rays.begin(), verdicts.rays.end());
     EXPECT_EQ(judged.size(), verdicts.rays.size());
     ASSERT_GE(judged.size(), 10u);

@@ -80,7 +80,7 @@ TEST(Effects, every_row_gives_its_reason) {
         {"specular mirror", state(Effect::specular, without(&SceneFacts::has_glass)), true,
          "camera rays follow mirrors"},
         {"specular", state(Effect::specular, without_polish()), false, "no used material is glass or mirror"},
-        {"direct needed", state(Effect::direct, rich()), true, "lamps light surfaces"},
+        {"direct needed", state(Effect::direct, rich()), true, "emitters light surfaces"},
         {"direct", state(Effect::direct, without(&SceneFacts::has_emitters)), false,
          "no used material emits"},
         {"caustics needed", state(Effect::caustics, rich()), true, "photons: glass and mirrors gather light"},
@@ -88,13 +88,13 @@ TEST(Effects, every_row_gives_its_reason) {
          "photons: glass and mirrors gather light"},
         {"caustics rough", state(Effect::caustics, without_polish()), false,
          "neither glass nor mirror is in the light's way"},
-        {"caustics dark", state(Effect::caustics, without_light()), false, "neither lamp nor sun shines"},
+        {"caustics dark", state(Effect::caustics, without_light()), false, "neither emitter nor sun shines"},
         {"indirect needed", state(Effect::indirect, rich()), true,
-         "photons: surfaces send the light of lamps on"},
-        {"indirect dark", state(Effect::indirect, without_light()), false, "neither lamp nor sun shines"},
+         "photons: surfaces send the light of emitters on"},
+        {"indirect dark", state(Effect::indirect, without_light()), false, "neither emitter nor sun shines"},
         {"indirect nothing", state(Effect::indirect, without_surfaces()), false, "there is nothing to light"},
         {"indirect of the sun", state(Effect::indirect, without(&SceneFacts::has_emitters)), false,
-         "no lamps: occlusion of the sky stands for light between surfaces"},
+         "no emitters: occlusion of the sky stands for light between surfaces"},
         {"aov needed", state(Effect::aov, rich()), true, "the output is an EXR"},
         {"aov", state(Effect::aov, rich(), Switch::automatic, false), false, "the output holds colour only"},
     };
@@ -140,9 +140,9 @@ TEST(Effects, photons_need_emitters_or_sun_that_are_on) {
     EXPECT_TRUE(get(sunny, Effect::caustics).on);
     EXPECT_TRUE(get(sunny, Effect::indirect).on);
     const EffectStates dark = all_off({Effect::emission, Effect::sun});
-    EXPECT_EQ(get(dark, Effect::direct).reason, "lamps are switched off");
-    EXPECT_EQ(get(dark, Effect::caustics).reason, "neither lamp nor sun shines");
-    EXPECT_EQ(get(dark, Effect::indirect).reason, "neither lamp nor sun shines");
+    EXPECT_EQ(get(dark, Effect::direct).reason, "emitters are switched off");
+    EXPECT_EQ(get(dark, Effect::caustics).reason, "neither emitter nor sun shines");
+    EXPECT_EQ(get(dark, Effect::indirect).reason, "neither emitter nor sun shines");
     const EffectStates dull = all_off({Effect::specular});
     EXPECT_EQ(get(dull, Effect::caustics).reason, "mirrors and glass are switched off");
     EXPECT_TRUE(get(dull, Effect::indirect).on);

@@ -357,10 +357,10 @@ TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
         constexpr double kPhotons = 16384.0 * 16.0;
         Scene scene = hollow_ball(4.0, glm::vec3(albedo));
         scene.settings.photons.radius = 16.0;  // so that visible points want all of them
-        test::FrameFixture rig(scene, PlanRequest{});
+        test::FrameFixture fixture(scene, PlanRequest{});
         double stored = 0.0;
         for (std::uint32_t i = 0; i < 16; ++i)
-            stored += rig.render(i).counters[gpu::kWorkPhotonsStored];
+            stored += fixture.render(i).counters[gpu::kWorkPhotonsStored];
         const double q = albedo * (1.0 - kEmitterPart);
         const double mean = q / (1.0 - q);  // of one photon
         const double variance = mean / (1.0 - q);

@@ -98,9 +98,9 @@ TEST(PathForms, p3_white_niches_under_a_white_sky_are_exactly_white_in_every_sam
             test::add_box(scene, {corner.x + 2 * side, corner.y, 0},
                           {corner.x + 2 * side + 1, corner.y + 3, 6}, chalk);
     scene.camera = test::camera_towards({-12, -15, 14}, {0, 0, 1}, 45.0);
-    test::FrameFixture rig(traced(scene), PlanRequest{});
+    test::FrameFixture fixture(traced(scene), PlanRequest{});
     for (std::uint32_t sample = 0; sample < 8; ++sample)
-        for (const glm::vec3& colour : rig.render(sample).color)
+        for (const glm::vec3& colour : fixture.render(sample).color)
             ASSERT_EQ(colour, glm::vec3(1.0f)) << sample;
 }
 

@@ -35,13 +35,13 @@ struct Measurement {
 
 // Mean occlusion after each of `spp` samples, in one render.
 std::vector<std::vector<float>> mean_occlusion(const Scene& scene, const std::vector<std::uint32_t>& spp) {
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     const auto rows = static_cast<std::uint32_t>(scene.settings.size.y);
     std::vector<std::vector<float>> means;
     for (std::uint32_t sample = 0; sample < spp.back(); ++sample) {
-        rig.render_tile(sample, rows);
+        fixture.render_tile(sample, rows);
         if (sample + 1 == spp[means.size()])
-            means.push_back(mean_plane(rig.film_sums("ao"), 1, 0, sample + 1));
+            means.push_back(mean_plane(fixture.film_sums("ao"), 1, 0, sample + 1));
     }
     return means;
 }

@@ -57,8 +57,8 @@ TEST(HardCase, row19_all_pixels_of_one_key_share_one_cell) {
     Scene scene = test::pillared_scene();
     scene.camera = test::camera_down({8.3, -2.7, 30.0}, 0.3);
     scene.settings.ao.cell_px = 4096.0f;
-    AoFixture rig(scene);
-    const AoFrame frame = rig.render();
+    AoFixture fixture(scene);
+    const AoFrame frame = fixture.render();
     EXPECT_EQ(frame.counters[gpu::kWorkAoClaimed], 1u);
     const CellSums sums = test::sums_of(frame);
     ASSERT_EQ(sums.size(), 1u);
@@ -67,14 +67,14 @@ TEST(HardCase, row19_all_pixels_of_one_key_share_one_cell) {
 }
 
 // Every pixel's key against double precision; false when a face has none.
-void expect_right_keys(const AoFixture& rig, const AoFrame& frame, std::size_t at_least) {
+void expect_right_keys(const AoFixture& fixture, const AoFrame& frame, std::size_t at_least) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < frame.hits.size(); ++i) {
         if (frame.hits[i].face >= gpu::kFaceInside) continue;
         ++count;
         const auto slot = frame.slot_of(i);
         ASSERT_TRUE(slot) << i;
-        ASSERT_EQ(test::key_disagreement(rig, frame, frame.hits[i], frame.keys[*slot]), "") << i;
+        ASSERT_EQ(test::key_disagreement(fixture, frame, frame.hits[i], frame.keys[*slot]), "") << i;
     }
     EXPECT_GE(count, at_least);
 }
@@ -83,9 +83,9 @@ TEST(HardCase, row20_camera_a_million_voxels_away_finds_the_cells_of_double_prec
     for (const double fov : {1e-3, 1e-4, 1e-5}) {
         Scene scene = test::pillared_scene();
         scene.camera = test::camera_towards({6e5, 5e5, 6e5}, {1, 2, 1}, fov);
-        AoFixture rig(scene);
+        AoFixture fixture(scene);
         for (std::uint32_t i = 0; i < 3; ++i)
-            expect_right_keys(rig, rig.render(i), 1000);
+            expect_right_keys(fixture, fixture.render(i), 1000);
     }
 }
 
@@ -108,12 +108,12 @@ TEST(HardCase, row20_scene_a_million_voxels_from_the_origin_has_the_cells_of_the
 TEST(HardCase, row20_levels_follow_the_distance_within_their_bounds) {
     Scene scene = test::pillared_scene();
     scene.settings.ao.cell_px = 4.0f;
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     std::set<std::uint32_t> levels;
     for (const double distance : {300.0, 90.0, 40.0, 20.0, 10.0, 5.0, 2.0, 0.6}) {
         const AoFrame frame =
-            rig.render(test::camera_towards({12.0 - distance, 0.3, 0.7 * distance}, {12, 0, 0}, 50));
-        expect_right_keys(rig, frame, 5);
+            fixture.render(test::camera_towards({12.0 - distance, 0.3, 0.7 * distance}, {12, 0, 0}, 50));
+        expect_right_keys(fixture, frame, 5);
         for (const auto& [key, sum] : test::sums_of(frame))
             levels.insert(test::cell_of_key(key).value().level);
     }
@@ -131,15 +131,15 @@ TEST(HardCase, hole13_camera_close_to_a_wall_enters_few_cells) {
 
 // Sums after one more frame on top of others that were put into the table.
 void expect_sums_carry_on(std::uint64_t preset) {
-    AoFixture rig(test::pillared_scene());
-    AoFrame before = rig.render();
+    AoFixture fixture(test::pillared_scene());
+    AoFrame before = fixture.render();
     for (std::size_t slot = 0; slot < before.keys.size(); ++slot) {
         if (before.keys[slot] == 0) continue;
         before.samples[slot] = preset;
         before.opens[slot] = preset - preset / 3;
     }
-    rig.set_sums(before.samples, before.opens);
-    const AoFrame after = rig.render();
+    fixture.set_sums(before.samples, before.opens);
+    const AoFrame after = fixture.render();
     std::uint64_t taken = 0;
     for (std::size_t slot = 0; slot < before.keys.size(); ++slot) {
         ASSERT_EQ(after.keys[slot], before.keys[slot]);
@@ -148,7 +148,7 @@ void expect_sums_carry_on(std::uint64_t preset) {
         taken += more;
         ASSERT_LE(more, 5000u);
         ASSERT_EQ(after.opens[slot] - before.opens[slot],
-                  test::open_samples(rig, after.keys[slot], preset, preset + more))
+                  test::open_samples(fixture, after.keys[slot], preset, preset + more))
             << "the samples are numbered on from " << preset;
     }
     EXPECT_EQ(taken, after.counters[gpu::kWorkAoRays]);
@@ -174,14 +174,14 @@ TEST(HardCase, row22_visibility_of_a_plane_stays_one_for_any_number_of_samples) 
     scene.settings.size = {24, 16};
     for (const std::uint32_t filter : {0u, 2u}) {
         scene.settings.ao.filter = filter;
-        AoFixture rig(scene);
-        AoFrame frame = rig.render();
+        AoFixture fixture(scene);
+        AoFrame frame = fixture.render();
         for (const std::uint64_t count :
              {65535ull, (1ull << 24) + 1, (1ull << 32) - 1, 1ull << 53, 1ull << 63}) {
             for (std::size_t slot = 0; slot < frame.keys.size(); ++slot)
                 frame.samples[slot] = frame.keys[slot] == 0 ? 0 : count;
-            rig.set_sums(frame.samples, frame.samples);
-            frame = rig.render();
+            fixture.set_sums(frame.samples, frame.samples);
+            frame = fixture.render();
             for (const float visibility : frame.visibility)
                 ASSERT_EQ(visibility, 1.0f) << count << " filter " << filter;
         }
@@ -194,25 +194,25 @@ TEST(HardCase, hole05_samples_beyond_65536_in_one_cell_are_all_there) {
     scene.camera = test::camera_down({8.3, -2.7, 30.0}, 0.3);
     scene.settings.ao_rays = 16;
     scene.settings.ao.cell_px = 4096.0f;
-    AoFixture rig(scene);
+    AoFixture fixture(scene);
     AoFrame frame;
     for (int i = 0; i < 2; ++i)
-        frame = rig.render();
+        frame = fixture.render();
     const CellSums sums = test::sums_of(frame);
     ASSERT_EQ(sums.size(), 1u);
     const auto& [key, sum] = *sums.begin();
     EXPECT_EQ(sum.first, 2u * 16u * 64u * 36u);
     EXPECT_GT(sum.first, 70000u);
-    EXPECT_EQ(sum.second, test::open_samples(rig, key, 0, sum.first));
+    EXPECT_EQ(sum.second, test::open_samples(fixture, key, 0, sum.first));
 }
 
 // Sums after some frames from a state on.
 CellSums flight_from(std::uint64_t frames_done, int frames) {
-    AoFixture rig(test::pillared_scene());
-    rig.state.frames_done = frames_done;
+    AoFixture fixture(test::pillared_scene());
+    fixture.state.frames_done = frames_done;
     CellSums sums;
     for (int i = 0; i < frames; ++i)
-        sums = test::sums_of(rig.render(test::flying_camera(i)));
+        sums = test::sums_of(fixture.render(test::flying_camera(i)));
     return sums;
 }
 
@@ -223,36 +223,36 @@ TEST(HardCase, row23_frame_numbers_that_wrap_change_nothing) {
 }
 
 TEST(HardCase, row23_cells_in_sight_outlive_the_wrap_of_frame_numbers) {
-    AoFixture rig(test::pillared_scene());
-    rig.state.frames_done = 0xFFFFFFFFu - 50;
+    AoFixture fixture(test::pillared_scene());
+    fixture.state.frames_done = 0xFFFFFFFFu - 50;
     for (int i = 0; i < 100; ++i)
-        ASSERT_EQ(rig.render().counters[gpu::kWorkAoEvicted], 0u) << i;
+        ASSERT_EQ(fixture.render().counters[gpu::kWorkAoEvicted], 0u) << i;
 }
 
 // Cells that come back into sight when they are about to be given up: those that were not given up before are
 // kept.
 TEST(HardCase, hole16_cells_seen_again_are_not_given_up_while_in_sight) {
     for (int away = 28; away <= 42; ++away) {
-        AoFixture rig(test::pillared_scene());
-        (void)rig.render();
+        AoFixture fixture(test::pillared_scene());
+        (void)fixture.render();
         const Camera sky = test::camera_towards({0, 0, 20}, {0, 0.1, 40}, 30.0);
         for (int i = 0; i < away; ++i)
-            (void)rig.render(sky);
-        (void)rig.render();
+            (void)fixture.render(sky);
+        (void)fixture.render();
         for (int i = 0; i < 12; ++i)
-            ASSERT_EQ(rig.render().counters[gpu::kWorkAoEvicted], 0u)
+            ASSERT_EQ(fixture.render().counters[gpu::kWorkAoEvicted], 0u)
                 << i << " frames after " << away << " away";
     }
 }
 
 TEST(HardCase, row23_wrap_of_the_number_of_samples_loses_none) {
-    AoFixture rig(test::pillared_scene());
-    (void)rig.render();
-    rig.state.samples_done = 0xFFFFFFFFu;
+    AoFixture fixture(test::pillared_scene());
+    (void)fixture.render();
+    fixture.state.samples_done = 0xFFFFFFFFu;
     std::uint64_t traced = 0;
     CellSums sums;
     for (int i = 0; i < 4; ++i) {
-        const AoFrame frame = rig.render();
+        const AoFrame frame = fixture.render();
         traced += frame.counters[gpu::kWorkAoRays];
         sums = test::sums_of(frame);
     }
@@ -273,16 +273,16 @@ TEST(HardCase, row23_seeds_at_the_ends_give_other_sums) {
 }
 
 // Root mean square error of some cells before a wall after so many samples.
-double error_after(const AoFixture& rig, std::uint64_t samples) {
+double error_after(const AoFixture& fixture, std::uint64_t samples) {
     double sum = 0.0;
     constexpr int kCells = 8;
     for (int i = 0; i < kCells; ++i) {
-        const glm::ivec3 voxel = glm::ivec3(2, 3 * i, -1) - rig.march_world().origin;
+        const glm::ivec3 voxel = glm::ivec3(2, 3 * i, -1) - fixture.march_world().origin;
         const std::uint64_t key = test::key_of({voxel, 5u, 2u, {1u, 2u}});
         double blocked = 0.0;
         for (int j = 0; j < 8; ++j)
             blocked += test::blocked_by_wall(2.0 - (1.0 + (j + 0.5) / 8.0) / 4.0, 5.0, 12.0) / 8.0;
-        const double open = static_cast<double>(test::open_samples(rig, key, 0, samples));
+        const double open = static_cast<double>(test::open_samples(fixture, key, 0, samples));
         const double error = open / static_cast<double>(samples) - (1.0 - blocked);
         sum += error * error / kCells;
     }
@@ -294,10 +294,10 @@ TEST(HardCase, hole15_error_of_a_cell_falls_on_to_65536_samples) {
     test::add_box(scene, {-16, -40, -1}, {16, 60, 0});
     test::add_box(scene, {4, -40, 0}, {5, 60, 5});
     scene.settings.ao_radius = 12.0f;
-    const AoFixture rig(scene);
-    double last = error_after(rig, 64);
+    const AoFixture fixture(scene);
+    double last = error_after(fixture, 64);
     for (const std::uint64_t samples : {1024u, 16384u, 65536u}) {
-        const double error = error_after(rig, samples);
+        const double error = error_after(fixture, samples);
         testing::Test::RecordProperty("rmse_" + std::to_string(samples), std::to_string(error));
         const double white = std::sqrt(0.25 / static_cast<double>(samples));
         EXPECT_LT(error, 0.5 * white) << samples << ": better than white noise";

@@ -39,7 +39,7 @@ TEST(HardCase, row09_camera_that_is_not_finite_or_farther_than_floats_tell_is_re
             Scene scene = walled_scene();
             scene.camera->position[axis] = bad;
             try {
-                test::FrameFixture rig(scene);
+                test::FrameFixture fixture(scene);
                 ADD_FAILURE() << bad << " on axis " << axis << " was not refused";
             } catch (const Error& error) {
                 EXPECT_EQ(error.code(), ExitCode::input_refused);
@@ -74,12 +74,12 @@ TEST(HardCase, row18_plane_seen_at_a_grazing_angle_has_occlusion_exactly_one) {
 }
 
 // The film as it is after `samples` samples of one value, then one more added on the device.
-std::int64_t sum_after(test::FrameFixture& rig, std::uint64_t samples, float value) {
+std::int64_t sum_after(test::FrameFixture& fixture, std::uint64_t samples, float value) {
     const gpu::FilmFixed fixed = gpu::film_fixed(value);
     const auto each = static_cast<std::int64_t>(std::uint64_t{fixed.sum.y} << 32 | fixed.sum.x);
-    rig.set_film_sums("beauty_a", std::vector(12, each * static_cast<std::int64_t>(samples)));
-    rig.add_radiance(0, std::vector(4, glm::vec3(value)));
-    const std::vector<std::int64_t> sums = rig.film_sums("beauty_a");
+    fixture.set_film_sums("beauty_a", std::vector(12, each * static_cast<std::int64_t>(samples)));
+    fixture.add_radiance(0, std::vector(4, glm::vec3(value)));
+    const std::vector<std::int64_t> sums = fixture.film_sums("beauty_a");
     EXPECT_EQ(sums, std::vector(12, each * static_cast<std::int64_t>(samples + 1))) << "after " << samples;
     return sums.front();
 }
@@ -87,12 +87,12 @@ std::int64_t sum_after(test::FrameFixture& rig, std::uint64_t samples, float val
 TEST(HardCase, row22_mean_of_a_constant_stays_constant_past_every_counter_width) {
     Scene scene = test::white_scene();
     scene.settings.size = {4, 1};
-    test::FrameFixture rig(scene);
+    test::FrameFixture fixture(scene);
     for (const float value : {0.7f, -0.3f, 31.25f, 0x1p-24f}) {
-        const float kept = film_mean(sum_after(rig, 0, value), 1);
+        const float kept = film_mean(sum_after(fixture, 0, value), 1);
         for (const std::uint64_t samples :
              {65535ull, 65536ull, (1ull << 20) - 1, (1ull << 24) + 1, (1ull << 32) - 1, (1ull << 32) + 1})
-            EXPECT_EQ(film_mean(sum_after(rig, samples, value), samples + 1), kept)
+            EXPECT_EQ(film_mean(sum_after(fixture, samples, value), samples + 1), kept)
                 << value << " x " << samples;
     }
 }
@@ -174,12 +174,12 @@ TEST(HardCase, row23_comparison_rejects_a_repeated_picture) {
 
 // Everything that a render leaves in the film after three samples.
 std::vector<std::int64_t> film_of(const Scene& scene, std::uint32_t rows, Executor& executor) {
-    test::FrameFixture rig(scene, executor);
+    test::FrameFixture fixture(scene, executor);
     for (std::uint32_t sample = 0; sample < 3; ++sample)
-        rig.render_tile(sample, rows);
+        fixture.render_tile(sample, rows);
     std::vector<std::int64_t> film;
-    for (const FilmPlane& plane : film_planes(rig.plan())) {
-        const std::vector<std::int64_t> sums = rig.film_sums(plane.name);
+    for (const FilmPlane& plane : film_planes(fixture.plan())) {
+        const std::vector<std::int64_t> sums = fixture.film_sums(plane.name);
         film.insert(film.end(), sums.begin(), sums.end());
     }
     return film;

@@ -47,9 +47,9 @@ std::vector<glm::vec3> colours_of(const Scene& scene, std::array<std::uint32_t, 
     options.group_size = group;
     options.poison_transients = true;
     Executor executor(test_device(), all_shaders(), options);
-    test::FrameFixture rig(scene, PlanRequest{}, executor);
-    std::vector<glm::vec3> colours = rig.render(0).color;
-    const std::vector<glm::vec3> more = rig.render(1).color;
+    test::FrameFixture fixture(scene, PlanRequest{}, executor);
+    std::vector<glm::vec3> colours = fixture.render(0).color;
+    const std::vector<glm::vec3> more = fixture.render(1).color;
     colours.insert(colours.end(), more.begin(), more.end());
     return colours;
 }
@@ -76,9 +76,9 @@ TEST(Row25, critical_angle_of_voxel_glass_seen_from_inside_is_sound) {
         scene.camera =
             test::camera_towards(eye, eye + glm::dvec3(std::sin(critical), 0.0, std::cos(critical)), fov);
         if (fov == 1.0) scene.camera->pitch_deg += 0.3;
-        test::FrameFixture rig(scene, PlanRequest{});
+        test::FrameFixture fixture(scene, PlanRequest{});
         for (std::uint32_t i = 0; i < 8; ++i) {
-            const test::FramePlanes planes = rig.render(i);
+            const test::FramePlanes planes = fixture.render(i);
             for (std::size_t f = 0; f < gpu::kFaultCount; ++f)
                 ASSERT_EQ(planes.counters[f], 0u) << gpu::kCounterNames[f];
             for (const glm::vec3& colour : planes.color)
@@ -96,8 +96,8 @@ TEST(Row25, critical_angle_of_a_glass_ball_seen_from_inside_is_sound) {
         // Across the radius at R / n from the centre, a ray meets the surface at the critical angle. Beyond
         // it is reflected again and again, which the black sides of the picture's other half end.
         scene.camera = test::camera_towards({2.0 * (1.0 - 1e-9), 0.0, 0.0}, {2.0, 5.0, 0.0}, fov);
-        test::FrameFixture rig(scene, PlanRequest{});
-        const test::FramePlanes planes = rig.render(0);
+        test::FrameFixture fixture(scene, PlanRequest{});
+        const test::FramePlanes planes = fixture.render(0);
         for (const glm::vec3& colour : planes.color)
             ASSERT_TRUE(colour.x >= 0.0f && colour.x <= 2.25001f) << colour.x << ' ' << fov;
         EXPECT_EQ(planes.counters[gpu::kFaultRayUnsound], 0u);
@@ -219,8 +219,8 @@ TEST(Row30, black_walls_send_nothing_on) {
     const LightPicture picture = render(scene, 4, 1);
     for (const test::TruthPixel& pixel : picture.pixels)
         EXPECT_TRUE(pixel.mean == glm::dvec3(0.0) || pixel.mean == glm::dvec3(12.0));
-    test::FrameFixture rig(scene, PlanRequest{});
-    EXPECT_EQ(rig.render(0).counters[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
+    test::FrameFixture fixture(scene, PlanRequest{});
+    EXPECT_EQ(fixture.render(0).counters[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
     EXPECT_GT(test::FrameFixture(voxel_room(16), PlanRequest{}).render(0).counters[gpu::kWorkPhotonsStored],
               0u);
 }

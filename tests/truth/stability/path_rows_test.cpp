@@ -34,10 +34,10 @@ LightPicture render(const Scene& scene, std::uint32_t samples, int block, const 
 }
 
 std::vector<glm::vec3> colours_of(const Scene& scene, std::uint32_t samples = 4) {
-    test::FrameFixture rig(scene, PlanRequest{});
+    test::FrameFixture fixture(scene, PlanRequest{});
     std::vector<glm::vec3> colours;
     for (std::uint32_t sample = 0; sample < samples; ++sample) {
-        const std::vector<glm::vec3> more = rig.render(sample).color;
+        const std::vector<glm::vec3> more = fixture.render(sample).color;
         colours.insert(colours.end(), more.begin(), more.end());
     }
     return colours;
@@ -79,8 +79,8 @@ TEST(PathRows, p4_closed_white_room_without_an_emitter_is_black_and_ends_at_a_co
     scene.sky.radiance = glm::vec3(1.0f);
     test::add_room(scene, {3, 3, 3}, test::add_diffuse(scene, 1.0f));
     scene.camera = test::camera_towards({1.5, 0.5, 1.5}, {1.5, 3.0, 1.0}, 70.0);
-    test::FrameFixture rig(traced(scene), PlanRequest{});
-    const FramePlanes planes = rig.render(0);
+    test::FrameFixture fixture(traced(scene), PlanRequest{});
+    const FramePlanes planes = fixture.render(0);
     for (const glm::vec3& colour : planes.color)
         ASSERT_EQ(colour, glm::vec3(0.0f));
     EXPECT_GT(planes.counters[gpu::kFaultPathTooLong], 0u);
@@ -154,8 +154,8 @@ std::vector<glm::vec3> with_groups(const Scene& scene, std::array<std::uint32_t,
     options.group_size = group;
     options.poison_transients = true;
     Executor executor(test_device(), all_shaders(), options);
-    test::FrameFixture rig(scene, PlanRequest{}, executor);
-    return rig.render(1).color;
+    test::FrameFixture fixture(scene, PlanRequest{}, executor);
+    return fixture.render(1).color;
 }
 
 TEST(PathRows, p17_workgroups_and_tiles_change_no_bit) {

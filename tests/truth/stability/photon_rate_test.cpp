@@ -96,10 +96,10 @@ struct RateRow {
 std::vector<double> iterations_of(std::uint32_t seed, double alpha) {
     const PlanRequest request{
         .effects = {.switches = {{Effect::direct, Switch::off}, {Effect::indirect, Switch::off}}}};
-    test::FrameFixture rig(mirror_scene(seed, alpha), request);
+    test::FrameFixture fixture(mirror_scene(seed, alpha), request);
     std::vector<double> values;
     for (std::uint32_t i = 0; i < kIterations; ++i) {
-        const test::FramePlanes planes = rig.render(i);
+        const test::FramePlanes planes = fixture.render(i);
         double sum = 0.0;
         for (const glm::vec3& colour : planes.color)
             sum += static_cast<double>(colour.y);

@@ -1,0 +1,69 @@
+// The directions by which sunlight comes to a surface, and its images among them. Include lib/path.glsl first.
+//
+// Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
+// and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
+// eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
+// axes makes of them. A ray goes into the sun's and one into another; what they meet on the way may be mirrors and
+// glass. Chance finds what comes by spheres, and out of glass by another face.
+#ifndef VX_PATH_SUN_GLSL
+#define VX_PATH_SUN_GLSL
+
+VX_SPECIALIZED(uint, has_images, 0u);  // by voxels of glass and mirrors
+
+// Of the frame, held because lavapipe would load it anew in every turn of a loop (shaders/README.md).
+vec3 sun_direction;
+float sun_height;
+float sun_reach;  // the same, wider by what rounding takes of a direction
+
+void init_sun_images() {
+    sun_direction = frame.sun_direction;
+    sun_height = frame.sun_cone_height;
+    float chord = sqrt(2.0 * sun_height) + kDirectionError;
+    sun_reach = 0.5 * chord * chord;
+}
+
+vec3 image_direction(uint image) {
+    uvec3 flips = uvec3(image & 1u, image & 2u, image & 4u);
+    return sun_direction * vec3(flips.x != 0u ? -1.0 : 1.0, flips.y != 0u ? -1.0 : 1.0, flips.z != 0u ? -1.0 : 1.0);
+}
+
+const uint kImages = 8u;       // the sun itself among them
+const uint kGlassImages = 24u;  // of them, by three axes
+
+// What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
+// Zero where it reflects all.
+vec3 across_face(vec3 direction, uint axis, float eta) {
+    vec3 along = direction / eta;
+    along = vec3(axis == 0u ? 0.0 : along.x, axis == 1u ? 0.0 : along.y, axis == 2u ? 0.0 : along.z);
+    float square = 1.0 - dot(along, along);
+    if (!(square > 0.0)) return vec3(0.0);
+    float through = sqrt(square) * (direction[axis] < 0.0 ? -1.0 : 1.0);
+    return along + through * face_normal(2u * axis + 1u);
+}
+
+// Images of the sun from `first` on that are in a direction.
+float images_in(vec3 direction, uint first) {
+    float images = 0.0;
+    for (uint image = first; image < kImages; ++image)
+        images += is_in_cone(direction, image_direction(image), sun_reach) ? 1.0 : 0.0;
+    return images;
+}
+
+// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Through a face it grows
+// by eta^2 cos / cos' (Snell's law).
+float samples_of_sun(vec3 direction, uint medium) {
+    float own = is_in_cone(direction, sun_direction, sun_reach) ? 1.0 : 0.0;
+    if (has_images == 0u) return own;
+    float samples = own + images_in(direction, 1u) / float(kImages - 1u);
+    if (has_glass_voxels == 0u || medium == kNoMedium) return samples;
+    float ior = materials[medium].ior;
+    samples = 0.0;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        vec3 outside = across_face(direction, axis, 1.0 / ior);
+        if (outside[axis] == 0.0) continue;
+        samples += images_in(outside, 0u) * ior * ior * abs(direction[axis] / outside[axis]) / float(kGlassImages);
+    }
+    return samples;
+}
+
+#endif
