@@ -70,20 +70,18 @@ Verdict verdict_of_caustics(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_glass && !facts.has_metal)
         return {false, false, "neither glass nor mirror is in the light's way"};
     if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither emitter nor sun shines"};
-    return {true, true, "photons: glass and mirrors gather light"};
+    return {true, true, "glass and mirrors gather light"};
 }
 
 Verdict verdict_of_indirect(const SceneFacts& facts, const EffectRequest& request) {
     if (!facts.has_voxels && !facts.has_spheres) return {false, false, "there is nothing to light"};
-    if (request.traces_paths) {
-        const bool shines = facts.has_emitters || facts.sun_reaches || facts.has_sky;
-        if (!shines) return {false, false, "neither emitter nor sun nor sky shines"};
-        return {true, true, "paths: surfaces send light on"};
-    }
-    if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither emitter nor sun shines"};
-    if (!facts.has_emitters)
-        return {true, false, "no emitters: occlusion of the sky stands for light between surfaces", true};
-    return {true, true, "photons: surfaces send the light of emitters on"};
+    const bool shines = facts.has_emitters || facts.sun_reaches;
+    if (!shines && !request.traces_paths) return {false, false, "neither emitter nor sun shines"};
+    if (!shines && !facts.has_sky) return {false, false, "neither emitter nor sun nor sky shines"};
+    if (!facts.has_reflectors) return {true, false, "no surface reflects light"};
+    if (request.wants_occlusion)
+        return {true, false, "occlusion is asked for, which stands for light between surfaces", true};
+    return {true, true, "surfaces send light on"};
 }
 
 Verdict verdict_of_aov(const SceneFacts&, const EffectRequest& request) {

@@ -48,8 +48,9 @@ using EffectStates = std::array<EffectState, kEffectCount>;
 // What the user asked for beyond the scene file.
 struct EffectRequest {
     std::map<Effect, Switch> switches;
-    bool wants_aov = false;     // an output can hold more than colour
-    bool traces_paths = false;  // where indirect light is on, paths find it and the light of the sky
+    bool wants_aov = false;        // an output can hold more than colour
+    bool traces_paths = true;      // where indirect light is on, paths find it and the light of the sky
+    bool wants_occlusion = false;  // its technique is named, and none of indirect light
 };
 
 // Decides every effect. An effect runs when the scene calls for it: its need is met and something would

@@ -80,7 +80,11 @@ void check_paths(const RenderPlan& plan) {
 // Which techniques compute the effects that are on, and nothing for those that are off.
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
-    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings);
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres);
+    plan.paths_find_sun_caustics =
+        plan.has(Effect::caustics) &&
+        (plan.is_by_paths(Effect::caustics) ||
+         leaves_sun_to_paths(plan.effects, plan.settings, plan.has_specular_spheres));
     if (!plan.any(&Technique::by_photons)) plan.photons = {};
     if (!plan.any(&Technique::by_paths)) plan.paths = {};
 }
@@ -125,13 +129,16 @@ void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
                 fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
                             100.0f * lost));
     }
+    if (plan.effects[static_cast<std::size_t>(Effect::indirect)].by_choice)
+        plan.notes.emplace_back(plan.has(Effect::ao)
+                                    ? "light between surfaces is left out; occlusion stands for it"
+                                    : "light between surfaces is left out");
     const bool is_polished = facts.has_glass || facts.has_metal;
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
-    if (plan.has(Effect::sun) && is_polished && plan.paths.runs())
+    if (plan.has(Effect::sun) && plan.paths_find_sun_caustics && plan.has_specular_spheres)
         plan.notes.emplace_back(
-            "sunlight that goes on from surface to surface by way of mirrors and glass is found by chance: "
-            "it is noisy");
+            "sunlight by way of spheres of metal and glass is found by chance: it is noisy");
     plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
 }
 
@@ -180,6 +187,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
+    plan.has_specular_spheres = facts.has_specular_spheres;
     if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
@@ -191,16 +199,17 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .wants_error = request.wants_error});
     decide_techniques(plan);
     if (plan.any(&Technique::by_photons)) {
-        plan.photons = plan_photons(plan.settings.photons,
-                                    {.lights = world.lights,
-                                     .has_emitters = plan.has(Effect::emission),
-                                     .has_sun = plan.has(Effect::sun),
-                                     .keeps_indirect = plan.is_by_photons(Effect::indirect),
-                                     .sun_irradiance = sunlight(scene),
-                                     .pixels = pixels_of(plan.settings),
-                                     .spheres = plan.sphere_count,
-                                     .has_voxels = plan.has(Effect::voxels)},
-                                    limits);
+        plan.photons =
+            plan_photons(plan.settings.photons,
+                         {.lights = world.lights,
+                          .has_emitters = plan.has(Effect::emission),
+                          .has_sun = plan.has(Effect::sun) && !plan.paths_find_sun_caustics,
+                          .keeps_indirect = plan.is_by_photons(Effect::indirect) || plan.sends_caustics_on(),
+                          .sun_irradiance = sunlight(scene),
+                          .pixels = pixels_of(plan.settings),
+                          .spheres = plan.sphere_count,
+                          .has_voxels = plan.has(Effect::voxels)},
+                         limits);
     }
     if (plan.any(&Technique::by_paths))
         plan.paths = plan_paths({.max_albedo = world.lights.max_albedo,
@@ -217,8 +226,10 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
 }
 
 RenderPlan plan_without(RenderPlan plan, Effect effect) {
-    plan.effects[static_cast<std::size_t>(effect)].on = false;
-    plan.effects[static_cast<std::size_t>(Effect::aov)].on = false;
+    const auto leave_out = [&](Effect one) { plan.effects[static_cast<std::size_t>(one)].on = false; };
+    if (effect == Effect::indirect && plan.is_by_paths(Effect::caustics)) leave_out(Effect::caustics);
+    leave_out(effect);
+    leave_out(Effect::aov);
     decide_techniques(plan);
     decide_sums(plan, false);
     return plan;

@@ -70,12 +70,14 @@ struct RenderPlan {
     std::uint32_t sphere_count = 0;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
-    std::uint32_t sky_resolution = 0;  // of the atmosphere; 0: the sky is constant
-    PhotonPlan photons;                // all zero without caustics and indirect light
-    PathPlan paths;                    // all zero without them
-    bool sums_squares = false;         // of the beauty, for its variance
-    bool sums_bias = false;            // of photons
-    std::uint32_t film_tile_rows = 0;  // rows of one film tile: what one set of film buffers covers
+    bool has_specular_spheres = false;     // of glass or metal
+    bool paths_find_sun_caustics = false;  // whoever finds those of emitters
+    std::uint32_t sky_resolution = 0;      // of the atmosphere; 0: the sky is constant
+    PhotonPlan photons;                    // all zero without caustics and indirect light
+    PathPlan paths;                        // all zero without them
+    bool sums_squares = false;             // of the beauty, for its variance
+    bool sums_bias = false;                // of photons
+    std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
     std::uint32_t film_tile_count = 0;
     std::uint32_t tile_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
@@ -100,6 +102,10 @@ struct RenderPlan {
         return has(effect) && std::ranges::any_of(techniques, [&](const ChosenTechnique& chosen) {
                    return chosen.technique->effect == effect && std::invoke(property, *chosen.technique);
                });
+    }
+    // Whether photons that mirrors or glass have sent go on from diffuse surfaces: paths do not find those.
+    [[nodiscard]] bool sends_caustics_on() const {
+        return is_by_photons(Effect::caustics) && is_by_paths(Effect::indirect);
     }
     // Invocations that trace the paths of so many rows.
     [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {

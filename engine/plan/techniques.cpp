@@ -61,7 +61,7 @@ constexpr std::array kTechniques{
     splatting(Effect::caustics),
     pixel_radii(Effect::caustics),
     paths_of(Effect::caustics, "paths",
-             "paths from the camera meet light behind mirrors and glass by chance"),
+             "paths from the camera aim at the sun's images in voxels, and meet the rest by chance"),
     none(Effect::caustics),
     gathering(Effect::indirect),
     splatting(Effect::indirect),
@@ -79,19 +79,57 @@ const Technique* technique_named(Effect effect, std::string_view name) {
     return &*row;
 }
 
-bool is_found_by_paths(Effect effect, const PathSettings& paths) {
-    return effect == Effect::indirect ? paths.indirect : effect == Effect::caustics && paths.caustics;
+// Ways of photons that are no default.
+bool names_photons(const PhotonSettings& photons) {
+    return photons.scatter || photons.classic;
 }
 
-ChosenTechnique way_of_light(Effect effect, const RenderSettings& all) {
-    if (is_found_by_paths(effect, all.paths)) {
-        const bool is_plain = effect == Effect::indirect && all.paths.plain;
-        return {technique_named(effect, is_plain ? "reference" : "paths"), "asked for"};
-    }
-    const PhotonSettings& settings = all.photons;
+// Where emitters are all the light, and photons find their caustics anyway, photons take a half to a quarter
+// of the time of paths to an equal error (lab/notes/paths.md).
+bool favours_photons(const EffectStates& effects, const PathSettings& paths) {
+    const auto is_on = [&](Effect effect) { return effects[static_cast<std::size_t>(effect)].on; };
+    return is_on(Effect::caustics) && is_on(Effect::emission) && !is_on(Effect::sun) && !is_on(Effect::sky) &&
+           !paths.caustics.value_or(false);
+}
+
+bool traces_paths(const EffectStates& effects, const RenderSettings& settings) {
+    return settings.paths.indirect.value_or(!names_photons(settings.photons) &&
+                                            !favours_photons(effects, settings.paths));
+}
+
+ChosenTechnique way_of_photons(Effect effect, const PhotonSettings& settings, const char* reason) {
     if (settings.scatter) return {technique_named(effect, "splatting"), "asked for"};
     if (settings.classic) return {technique_named(effect, "pixel_radii"), "asked for"};
-    return {technique_named(effect, "photons"), "the fastest way, whose error is known"};
+    return {technique_named(effect, "photons"), reason};
+}
+
+ChosenTechnique way_of_indirect(const EffectStates& effects, const RenderSettings& settings) {
+    const PathSettings& paths = settings.paths;
+    if (!traces_paths(effects, settings))
+        return way_of_photons(
+            Effect::indirect, settings.photons,
+            paths.indirect ? "asked for" : "emitters are all the light, and send photons anyway");
+    return {technique_named(Effect::indirect, paths.plain ? "reference" : "paths"),
+            paths.indirect ? "asked for" : "unbiased, and the fastest way to an equal error"};
+}
+
+ChosenTechnique way_of_caustics(const EffectStates& effects, const RenderSettings& settings,
+                                bool has_specular_spheres) {
+    const auto paths = [](const char* reason) {
+        return ChosenTechnique{technique_named(Effect::caustics, "paths"), reason};
+    };
+    if (settings.paths.caustics.value_or(false)) return paths("asked for");
+    const bool is_open = !settings.paths.caustics;
+    if (is_open && settings.paths.plain && traces_paths(effects, settings))
+        return paths("plain paths find all light");
+    if (!leaves_sun_to_paths(effects, settings, has_specular_spheres))
+        return way_of_photons(Effect::caustics, settings.photons,
+                              is_open ? "the fastest way, whose error is known" : "asked for");
+    if (effects[static_cast<std::size_t>(Effect::emission)].on)
+        return way_of_photons(Effect::caustics, settings.photons,
+                              "the fastest way for emitters; the sun is left to paths, since voxels alone "
+                              "send it on");
+    return paths("voxels alone send sunlight on, in directions that paths know");
 }
 
 }  // namespace
@@ -100,16 +138,23 @@ std::span<const Technique> all_techniques() {
     return kTechniques;
 }
 
+bool leaves_sun_to_paths(const EffectStates& effects, const RenderSettings& settings,
+                         bool has_specular_spheres) {
+    return effects[static_cast<std::size_t>(Effect::indirect)].on && traces_paths(effects, settings) &&
+           !settings.paths.caustics && !names_photons(settings.photons) && !has_specular_spheres;
+}
+
 std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
-                                               const RenderSettings& settings) {
+                                               const RenderSettings& settings, bool has_specular_spheres) {
     std::vector<ChosenTechnique> chosen;
     if (effects[static_cast<std::size_t>(Effect::ao)].on)
         chosen.push_back({technique_named(Effect::ao, ao.uses_cells() ? "hash" : "brute"), ao.reason});
-    for (const Effect effect : {Effect::caustics, Effect::indirect}) {
+    const auto add = [&](Effect effect, const auto& way) {
         const EffectState& state = effects[static_cast<std::size_t>(effect)];
-        chosen.push_back(state.on ? way_of_light(effect, settings)
-                                  : ChosenTechnique{technique_named(effect, "none"), state.reason});
-    }
+        chosen.push_back(state.on ? way() : ChosenTechnique{technique_named(effect, "none"), state.reason});
+    };
+    add(Effect::caustics, [&] { return way_of_caustics(effects, settings, has_specular_spheres); });
+    add(Effect::indirect, [&] { return way_of_indirect(effects, settings); });
     return chosen;
 }
 
@@ -118,7 +163,9 @@ EffectRequest with_techniques(EffectRequest request, const RenderSettings& setti
         Switch& choice = request.switches[effect];
         if (!is_found && choice == Switch::automatic) choice = Switch::off;
     };
-    request.traces_paths = settings.paths.indirect;
+    request.traces_paths = settings.paths.indirect.value_or(!names_photons(settings.photons));
+    request.wants_occlusion = settings.ao.method != AoMethod::automatic && !settings.paths.indirect &&
+                              !names_photons(settings.photons);
     leave_out(Effect::caustics, settings.photons.caustics);
     leave_out(Effect::indirect, settings.photons.indirect);
     return request;

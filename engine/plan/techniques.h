@@ -49,9 +49,15 @@ struct ChosenTechnique {
     bool operator==(const ChosenTechnique&) const = default;
 };
 
+// Whether the plan leaves caustics of the sun to paths, whoever finds those of emitters. Faces of voxels send
+// sunlight on in directions that paths know. Spheres spread it over all, where chance hardly ever finds it.
+[[nodiscard]] bool leaves_sun_to_paths(const EffectStates& effects, const RenderSettings& settings,
+                                       bool has_specular_spheres);
+
 // One for each effect that has techniques and is on, or off for want of one (`none`).
 [[nodiscard]] std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
-                                                             const RenderSettings& settings);
+                                                             const RenderSettings& settings,
+                                                             bool has_specular_spheres);
 
 // The request with those effects off for which the settings choose `none`, unless it has them on.
 [[nodiscard]] EffectRequest with_techniques(EffectRequest request, const RenderSettings& settings);

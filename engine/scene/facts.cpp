@@ -77,15 +77,25 @@ class Simplifications {
     std::map<std::string_view, Kind> kinds_;
 };
 
+bool is_specular(const Material& material) {
+    const LobeWeights shares = lobe_weights(material);
+    return shares.glass > 0.0f || shares.mirror > 0.0f;
+}
+
 void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& facts) {
-    for (const Sphere& sphere : scene.spheres)
+    for (std::size_t m = 0; m < used.size(); ++m)
+        facts.has_specular_voxels |= used[m] && is_specular(scene.materials[m]);
+    for (const Sphere& sphere : scene.spheres) {
         used.at(sphere.material) = true;
+        facts.has_specular_spheres |= is_specular(scene.materials[sphere.material]);
+    }
     Simplifications simplifications;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
         const Material& material = scene.materials[m];
         ++facts.material_count;
         facts.has_emitters |= any_positive(material.emission);
+        facts.has_reflectors |= any_positive(material.albedo);
         const LobeWeights shares = lobe_weights(material);
         facts.has_glass |= shares.glass > 0.0f;
         facts.has_metal |= shares.mirror > 0.0f;

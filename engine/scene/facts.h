@@ -27,9 +27,12 @@ struct SceneFacts {
     bool sun_reaches = false;  // switched on, above the horizon, irradiance > 0
     bool has_sky = false;      // radiance > 0, or an atmosphere with a sun
     bool has_atmosphere = false;
-    bool has_emitters = false;  // a used material with emission > 0
-    bool has_glass = false;     // a used material that lets light through
-    bool has_metal = false;     // a used material with a polished share
+    bool has_emitters = false;          // a used material with emission > 0
+    bool has_glass = false;             // a used material that lets light through
+    bool has_metal = false;             // a used material with a polished share
+    bool has_reflectors = false;        // a used material that is not black
+    bool has_specular_voxels = false;   // of glass or metal
+    bool has_specular_spheres = false;  // likewise
 
     // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.
     std::vector<std::string> simplified;

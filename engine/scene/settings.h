@@ -144,8 +144,9 @@ void visit_settings(PhotonSettings& settings, auto&& visit) {
 
 void visit_settings(PathSettings& settings, auto&& visit) {
     auto& [indirect, caustics, plain] = settings;
-    visit({"indirect", {}, "true: paths find light between surfaces and that of the sky"}, indirect);
-    visit({"caustics", {}, "true: they find caustics, too"}, caustics);
+    visit({"indirect", {}, "light between surfaces: true: by paths, false: by photons; absent: chosen"},
+          indirect);
+    visit({"caustics", {}, "likewise caustics"}, caustics);
     visit({"plain", {}, "true: they meet emitters by chance alone, as with the technique `reference`"},
           plain);
 }

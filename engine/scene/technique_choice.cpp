@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/assert.h"
 
@@ -16,7 +17,7 @@ void choose_ao(RenderSettings& settings) {
 // Which members of the settings say how an effect is found.
 struct FoundBy {
     bool PhotonSettings::*found;  // at all
-    bool PathSettings::*paths;
+    std::optional<bool> PathSettings::*paths;
 };
 
 template <FoundBy kBy, bool kScatter, bool kClassic>
@@ -31,6 +32,12 @@ template <FoundBy kBy>
 void choose_paths(RenderSettings& settings) {
     settings.photons.*kBy.found = true;
     settings.paths.*kBy.paths = true;
+}
+
+template <FoundBy kBy>
+void leave_to_plan(RenderSettings& settings) {
+    settings.photons.*kBy.found = true;
+    settings.paths.*kBy.paths = std::nullopt;
 }
 
 template <FoundBy kBy>
@@ -51,11 +58,13 @@ constexpr std::array kChoices{
     TechniqueChoice{"ao", "auto", choose_ao<AoMethod::automatic>},
     TechniqueChoice{"ao", "brute", choose_ao<AoMethod::brute>},
     TechniqueChoice{"ao", "hash", choose_ao<AoMethod::hash>},
+    TechniqueChoice{"caustics", "auto", leave_to_plan<kCaustics>},
     TechniqueChoice{"caustics", "photons", choose_photons<kCaustics, false, false>},
     TechniqueChoice{"caustics", "splatting", choose_photons<kCaustics, true, false>},
     TechniqueChoice{"caustics", "pixel_radii", choose_photons<kCaustics, false, true>},
     TechniqueChoice{"caustics", "paths", choose_paths<kCaustics>},
     TechniqueChoice{"caustics", "none", choose_none<kCaustics>},
+    TechniqueChoice{"indirect", "auto", leave_to_plan<kIndirect>},
     TechniqueChoice{"indirect", "photons", choose_photons<kIndirect, false, false>},
     TechniqueChoice{"indirect", "splatting", choose_photons<kIndirect, true, false>},
     TechniqueChoice{"indirect", "pixel_radii", choose_photons<kIndirect, false, true>},

@@ -3,7 +3,7 @@
 // Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
 // and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
 // eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
-// axes makes of them. A ray goes into the sun's and one into another; what they meet on the way may be mirrors and
+// axes makes of them. A ray goes into the sun's and one into another, or out of glass one into any of them; what they meet on the way may be mirrors and
 // glass. Chance finds what comes by spheres, and out of glass by another face.
 #ifndef VX_PATH_SUN_GLSL
 #define VX_PATH_SUN_GLSL
@@ -28,7 +28,29 @@ vec3 image_direction(uint image) {
 }
 
 const uint kImages = 8u;       // the sun itself among them
-const uint kGlassImages = 24u;  // of them, by three axes
+const uint kAxes = 3u;
+const float kOwnShare = 0.75;  // of the rays out of glass: into the sun's own cone, where most of its light comes from
+
+// Probability with which a ray out of glass goes into a cone, by one of the axes.
+float glass_image_share(uint image) {
+    return (image == 0u ? kOwnShare : (1.0 - kOwnShare) / float(kImages - 1u)) / float(kAxes);
+}
+
+struct GlassImage {
+    uint image;
+    uint axis;
+};
+
+GlassImage draw_glass_image(float u) {
+    bool is_own = u < kOwnShare;
+    float rest = is_own ? u / kOwnShare : (u - kOwnShare) / (1.0 - kOwnShare);
+    uint images = is_own ? 1u : kImages - 1u;
+    uint drawn = min(uint(rest * float(kAxes * images)), kAxes * images - 1u);
+    GlassImage result;
+    result.image = is_own ? 0u : 1u + drawn % images;
+    result.axis = drawn / images;
+    return result;
+}
 
 // What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
 // Zero where it reflects all.
@@ -61,7 +83,9 @@ float samples_of_sun(vec3 direction, uint medium) {
     for (uint axis = 0u; axis < 3u; ++axis) {
         vec3 outside = across_face(direction, axis, 1.0 / ior);
         if (outside[axis] == 0.0) continue;
-        samples += images_in(outside, 0u) * ior * ior * abs(direction[axis] / outside[axis]) / float(kGlassImages);
+        float shares = is_in_cone(outside, sun_direction, sun_reach) ? glass_image_share(0u) : 0.0;
+        shares += images_in(outside, 1u) * glass_image_share(1u);
+        samples += shares * ior * ior * abs(direction[axis] / outside[axis]);
     }
     return samples;
 }

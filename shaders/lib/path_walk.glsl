@@ -4,8 +4,9 @@
 // Include lib/path.glsl, lib/lights.glsl and lib/photon_start.glsl first.
 //
 // Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
-// sun.trace and direct.trace, so the path leaves them out. By mirrors and glass alone to the visible point: by the
-// path where caustics are its own (finds_caustics), else by photons. All other light: by the path.
+// sun.trace and direct.trace, so the path leaves them out. From sun and emitters by mirrors and glass to a diffuse
+// surface, the visible point or a later one: by the path where it finds those (finds_sun_caustics,
+// finds_emitter_caustics), else by photons. All other light: by the path.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
@@ -17,7 +18,8 @@ VX_SPECIALIZED(uint, has_atmosphere, 0u);  // else the sky is constant
 VX_SPECIALIZED(uint, has_sun, 0u);
 VX_SPECIALIZED(uint, has_emitters, 0u);
 VX_SPECIALIZED(uint, has_specular, 0u);
-VX_SPECIALIZED(uint, finds_caustics, 0u);
+VX_SPECIALIZED(uint, finds_sun_caustics, 0u);
+VX_SPECIALIZED(uint, finds_emitter_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
 VX_SPECIALIZED(uint, min_surfaces, 4u);   // after the visible point, that roulette leaves alone
 
@@ -147,7 +149,7 @@ vec3 numbers_of(Walk walk, uint use) {
     return path_numbers(key, walk.surfaces + (use == kUseGlint ? walk.glints : 0u), use);
 }
 
-const bool has_glints = has_sun != 0u && has_specular != 0u;  // sunlight by way of mirrors and glass
+const bool has_glints = has_sun != 0u && finds_sun_caustics != 0u;
 
 void set_direction(inout Walk walk, vec3 direction) {
     if (has_specular != 0u) walk.ray = walk.vertex;
@@ -156,10 +158,9 @@ void set_direction(inout Walk walk, vec3 direction) {
 }
 
 // Of the light of sun and emitters that the path's own ray meets: 0 where others find it, 1 where nothing else does.
-float share_of_path(Walk walk, float emitter_pdf) {
-    bool is_first = walk.vertices == 1u;
-    if (!walk.is_straight) return is_first && finds_caustics == 0u ? 0.0 : 1.0;
-    if (is_first) return 0.0;
+float share_of_path(Walk walk, float emitter_pdf, uint finds_caustics) {
+    if (!walk.is_straight) return float(finds_caustics);
+    if (walk.vertices == 1u) return 0.0;
     return aims_at_emitters != 0u ? balance_weight(walk.pdf, emitter_pdf) : 1.0;
 }
 
@@ -168,7 +169,7 @@ void take_emission(inout Walk walk, PathHit found) {
     vec3 origin = local_position(walk.ray.cell, walk.ray.fraction);
     float emitter_pdf = light_pdf(origin, walk.ray.direction, found.hit, emission);
     if (!(emitter_pdf > 0.0)) return;
-    vec3 carried = walk.throughput * (walk.scale * share_of_path(walk, emitter_pdf));
+    vec3 carried = walk.throughput * (walk.scale * share_of_path(walk, emitter_pdf, finds_emitter_caustics));
     bool is_aimed = walk.kind == kRayEmitter && is_on_emitter(found.hit, walk.emitter);
     vec3 aimed = is_aimed ? walk.expected * balance_weight(emitter_pdf, walk.pdf) : vec3(0.0);
     walk.light += emission * (walk.kind == kRayOn ? carried : aimed);
@@ -188,7 +189,7 @@ void take_light(inout Walk walk, PathHit found) {
     if (!has_glints || walk.is_straight) return;
     // Rays to the sun end in its cone, but for rounding.
     if (!is_in_cone(walk.ray.direction, sun_direction, walk.kind == kRayOn ? sun_height : sun_reach)) return;
-    vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0));
+    vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0, finds_sun_caustics));
     walk.light += walk.image_share * (walk.kind == kRayOn ? carried : walk.expected);
 }
 
@@ -252,9 +253,9 @@ bool leave_to_sun(inout Walk walk, uint use) {
     bool is_in_glass = has_glass_voxels != 0u && walk.vertex.medium != kNoMedium;
     if (is_in_glass && use == kUseSun) return false;
     uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages - 1u)), kImages - 2u);
-    uint glass_image = min(uint(u.z * float(kGlassImages)), kGlassImages - 1u);
-    vec3 direction = uniform_cone(image_direction(is_in_glass ? glass_image & 7u : image), sun_height, u.xy);
-    if (is_in_glass) direction = across_face(direction, glass_image >> 3u, materials[walk.vertex.medium].ior);
+    GlassImage glass_image = draw_glass_image(u.z);
+    vec3 direction = uniform_cone(image_direction(is_in_glass ? glass_image.image : image), sun_height, u.xy);
+    if (is_in_glass) direction = across_face(direction, glass_image.axis, materials[walk.vertex.medium].ior);
     set_direction(walk, direction);
     walk.expected = walk.throughput * sun_irradiance * (walk.scale * walk.pdf);
     return walk.pdf > 0.0;

@@ -64,7 +64,7 @@ void main() {
         if (walk.kind == kRayNone) {
             if (next_id >= end) break;
             walk = first_walk(photon_start(next_id));
-            if (has_glints && finds_caustics != 0u && is_surface(hits[next_id])) {
+            if (has_glints && is_surface(hits[next_id])) {
                 walk.normal = surface_normal(hits[next_id]);
                 if (media_stride != 0u) walk.vertex.medium = media[next_id];
                 leave(walk, kRayNone);

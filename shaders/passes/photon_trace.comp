@@ -19,6 +19,7 @@
 
 VX_SPECIALIZED(uint, keeps_caustics, 1u);  // light that mirrors and glass alone have sent
 VX_SPECIALIZED(uint, keeps_indirect, 1u);  // light that a diffuse surface has sent
+VX_SPECIALIZED(uint, sends_caustics_on, 0u);  // of indirect light, that which mirrors or glass have sent first
 VX_SPECIALIZED(uint, lanes, 1u);           // invocations
 VX_SPECIALIZED(uint, depth_limit, 0u);     // surfaces that a photon meets; 0: roulette ends its path
 
@@ -30,6 +31,7 @@ struct Photon {
     uint bounces;       // surfaces
     bool has_passed;    // a border of glass that is no surface, behind which no shadow ray looks
     bool is_scattered;  // by a diffuse surface
+    bool is_caustic;    // mirrors or glass had sent it there
 };
 
 Photon start_photon(uint id) {
@@ -47,6 +49,7 @@ Photon start_photon(uint id) {
     photon.bounces = 0u;
     photon.has_passed = false;
     photon.is_scattered = false;
+    photon.is_caustic = false;
     return photon;
 }
 
@@ -66,8 +69,9 @@ bool bounce(inout Photon photon, PathHit found) {
     BsdfSample event = path_event(photon.path, found, draw_pair(photon));
     PathRay next = path_after(photon.path, found, event);
     bool is_diffuse = event.kind == kEventDiffuse;
-    bool is_caustic = (photon.bounces > 0u || photon.has_passed) && !photon.is_scattered;
-    bool is_kept = photon.is_scattered ? keeps_indirect != 0u : is_caustic && keeps_caustics != 0u;
+    if (!photon.is_scattered) photon.is_caustic = photon.bounces > 0u || photon.has_passed;
+    bool goes_on = keeps_indirect != 0u || (sends_caustics_on != 0u && photon.is_caustic);
+    bool is_kept = photon.is_scattered ? goes_on : photon.is_caustic && keeps_caustics != 0u;
     bool sends = max(event.albedo.x, max(event.albedo.y, event.albedo.z)) > 0.0;
     if (is_diffuse && is_kept && sends)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
@@ -81,7 +85,7 @@ bool bounce(inout Photon photon, PathHit found) {
     if (event.kind == kEventPass) return true;
     photon.throughput *= event.albedo;
     float survival = depth_limit == 0u ? roulette_survival(photon.throughput) : 1.0;
-    bool survives = draw(photon) < survival && (keeps_indirect != 0u || !is_diffuse);
+    bool survives = draw(photon) < survival && (goes_on || !is_diffuse);
     photon.throughput /= survives ? survival : 1.0;
     ++photon.bounces;
     return survives && (depth_limit == 0u || photon.bounces < depth_limit);

@@ -8,8 +8,7 @@ namespace {
 
 // Of visible points in glass, where paths aim at images of the sun from there.
 Plane media_plane(const RenderPlan& plan, Recording& recording) {
-    const bool are_needed =
-        plan.is_by_paths(Effect::caustics) && plan.has(Effect::sun) && plan.has_glass_voxels;
+    const bool are_needed = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
     if (!are_needed) return {placeholder_buffer(recording), 0};
     return {declare_plane<gpu::uint>(plan, "path.media", recording)};
 }
@@ -63,7 +62,8 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
          {"has_emitters", has_emitters ? 1u : 0u},
          {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
          {"has_images", plan.has(Effect::specular) && plan.has(Effect::voxels) ? 1u : 0u},
-         {"finds_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
+         {"finds_sun_caustics", plan.paths_find_sun_caustics ? 1u : 0u},
+         {"finds_emitter_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
          {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
          {"media_stride", media.stride},
          {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});

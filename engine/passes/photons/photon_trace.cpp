@@ -38,6 +38,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
     dispatch.constants.insert(dispatch.constants.end(),
                               {{"keeps_caustics", plan.is_by_photons(Effect::caustics) ? 1u : 0u},
                                {"keeps_indirect", plan.is_by_photons(Effect::indirect) ? 1u : 0u},
+                               {"sends_caustics_on", plan.sends_caustics_on() ? 1u : 0u},
                                {"sorts_photons", settings.scatter ? 0u : 1u},
                                {"lanes", plan.photons.lanes},
                                {"slots_at_once", plan.photons.slots_at_once},

@@ -138,7 +138,7 @@ TEST(TileGovernor, fewer_rows_may_be_asked_for) {
     EXPECT_EQ(governor.tile_at(0, 1000).row_count, std::min(governor.rows(), 80u));
     RenderPlan photons = plan_for(1280, {800, 800});
     photons.effects[static_cast<std::size_t>(Effect::caustics)] = {Effect::caustics, true};
-    photons.techniques = choose_techniques(photons.effects, photons.ao, photons.settings);
+    photons.techniques = choose_techniques(photons.effects, photons.ao, photons.settings, false);
     EXPECT_EQ(TileGovernor(photons, true).tile_at(0, 3).row_count, 800u);
 }
 

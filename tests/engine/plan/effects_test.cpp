@@ -12,7 +12,7 @@ SceneFacts rich() {
     facts.voxel_count = 7;
     facts.sphere_count = 2;
     facts.has_voxels = facts.has_spheres = facts.sun_reaches = facts.has_sky = facts.has_emitters = true;
-    facts.has_glass = facts.has_metal = true;
+    facts.has_glass = facts.has_metal = facts.has_reflectors = true;
     return facts;
 }
 
@@ -40,6 +40,12 @@ SceneFacts without_light() {
     return facts;
 }
 
+SceneFacts without_any_light() {
+    SceneFacts facts = without_light();
+    facts.has_sky = false;
+    return facts;
+}
+
 EffectState state(Effect effect, const SceneFacts& facts, Switch choice = Switch::automatic,
                   bool wants_aov = true) {
     EffectRequest request{.wants_aov = wants_aov};
@@ -61,7 +67,7 @@ TEST(Effects, every_row_gives_its_reason) {
         {"spheres needed", state(Effect::spheres, rich()), true, "2 analytic spheres"},
         {"spheres", state(Effect::spheres, without(&SceneFacts::has_spheres)), false,
          "the scene has no analytic spheres"},
-        {"ao needed", state(Effect::ao, rich()), true, "surfaces see the sky"},
+        {"ao needed", state(Effect::ao, without(&SceneFacts::has_reflectors)), true, "surfaces see the sky"},
         {"ao black", state(Effect::ao, without(&SceneFacts::has_sky)), false,
          "the sky is black: there is no light to occlude"},
         {"ao nothing", state(Effect::ao, without_surfaces()), false, "nothing casts or receives occlusion"},
@@ -83,18 +89,21 @@ TEST(Effects, every_row_gives_its_reason) {
         {"direct needed", state(Effect::direct, rich()), true, "emitters light surfaces"},
         {"direct", state(Effect::direct, without(&SceneFacts::has_emitters)), false,
          "no used material emits"},
-        {"caustics needed", state(Effect::caustics, rich()), true, "photons: glass and mirrors gather light"},
+        {"caustics needed", state(Effect::caustics, rich()), true, "glass and mirrors gather light"},
         {"caustics of the sun", state(Effect::caustics, without(&SceneFacts::has_emitters)), true,
-         "photons: glass and mirrors gather light"},
+         "glass and mirrors gather light"},
         {"caustics rough", state(Effect::caustics, without_polish()), false,
          "neither glass nor mirror is in the light's way"},
         {"caustics dark", state(Effect::caustics, without_light()), false, "neither emitter nor sun shines"},
-        {"indirect needed", state(Effect::indirect, rich()), true,
-         "photons: surfaces send the light of emitters on"},
-        {"indirect dark", state(Effect::indirect, without_light()), false, "neither emitter nor sun shines"},
+        {"indirect needed", state(Effect::indirect, rich()), true, "surfaces send light on"},
+        {"indirect of the sky", state(Effect::indirect, without_light()), true, "surfaces send light on"},
+        {"indirect dark", state(Effect::indirect, without_any_light()), false,
+         "neither emitter nor sun nor sky shines"},
+        {"indirect black", state(Effect::indirect, without(&SceneFacts::has_reflectors)), false,
+         "no surface reflects light"},
         {"indirect nothing", state(Effect::indirect, without_surfaces()), false, "there is nothing to light"},
-        {"indirect of the sun", state(Effect::indirect, without(&SceneFacts::has_emitters)), false,
-         "no emitters: occlusion of the sky stands for light between surfaces"},
+        {"ao beside paths", state(Effect::ao, rich()), false,
+         "paths find the light of the sky without a stand-in"},
         {"aov needed", state(Effect::aov, rich()), true, "the output is an EXR"},
         {"aov", state(Effect::aov, rich(), Switch::automatic, false), false, "the output holds colour only"},
     };
@@ -113,7 +122,7 @@ TEST(Effects, rows_are_in_the_order_of_the_enumerators) {
 }
 
 TEST(Effects, needed_effect_switched_off_says_who_did_it_and_what_it_was_for) {
-    const EffectState ao = state(Effect::ao, rich(), Switch::off);
+    const EffectState ao = state(Effect::ao, without(&SceneFacts::has_reflectors), Switch::off);
     EXPECT_FALSE(ao.on);
     EXPECT_EQ(ao.reason, "switched off by the user (surfaces see the sky)");
 }
@@ -122,6 +131,20 @@ TEST(Effects, unneeded_effect_switched_on_runs_and_says_so) {
     const EffectState ao = state(Effect::ao, without(&SceneFacts::has_sky), Switch::on);
     EXPECT_TRUE(ao.on);
     EXPECT_EQ(ao.reason, "switched on by the user, though the sky is black: there is no light to occlude");
+}
+
+// Who names a way of occlusion has it stand for light between surfaces. Photons do not start from the sky.
+TEST(Effects, indirect_light_is_left_out_where_occlusion_or_photons_without_a_light_are_asked_for) {
+    const auto indirect = [](const SceneFacts& facts, const EffectRequest& request) {
+        return decide_effects(facts, request)[static_cast<std::size_t>(Effect::indirect)];
+    };
+    const EffectState stood_for = indirect(rich(), {.wants_occlusion = true});
+    EXPECT_FALSE(stood_for.on);
+    EXPECT_TRUE(stood_for.by_choice);
+    EXPECT_EQ(stood_for.reason, "occlusion is asked for, which stands for light between surfaces");
+    EXPECT_TRUE(indirect(rich(), {.switches = {{Effect::indirect, Switch::on}}, .wants_occlusion = true}).on);
+    EXPECT_TRUE(indirect(without(&SceneFacts::has_emitters), {.traces_paths = false}).on) << "of the sun";
+    EXPECT_EQ(indirect(without_light(), {.traces_paths = false}).reason, "neither emitter nor sun shines");
 }
 
 // Light that is not let out needs no photons, whatever the scene has.
@@ -142,7 +165,7 @@ TEST(Effects, photons_need_emitters_or_sun_that_are_on) {
     const EffectStates dark = all_off({Effect::emission, Effect::sun});
     EXPECT_EQ(get(dark, Effect::direct).reason, "emitters are switched off");
     EXPECT_EQ(get(dark, Effect::caustics).reason, "neither emitter nor sun shines");
-    EXPECT_EQ(get(dark, Effect::indirect).reason, "neither emitter nor sun shines");
+    EXPECT_TRUE(get(dark, Effect::indirect).on) << "by the sky";
     const EffectStates dull = all_off({Effect::specular});
     EXPECT_EQ(get(dull, Effect::caustics).reason, "mirrors and glass are switched off");
     EXPECT_TRUE(get(dull, Effect::indirect).on);

@@ -58,8 +58,8 @@ TEST(PlanMemory, budget_refusal_names_the_sums_and_the_largest_buffer) {
     const Scene scene = test::repository_scene("night", {"render.size=[1024, 1024]"});
     const std::string message = memory_refusal(scene, with_budget(50 * kMiB));
     EXPECT_NE(message.find("MiB on the device, over the budget of 50 MiB"), std::string::npos) << message;
-    // A hit of 40 bytes for each of 2^20 pixels.
-    EXPECT_NE(message.find("the largest buffer is 'primary.hits' with 40 MiB"), std::string::npos) << message;
+    // A start of a path, 56 bytes, for each of 2^20 pixels.
+    EXPECT_NE(message.find("the largest buffer is 'path.starts' with 56 MiB"), std::string::npos) << message;
 }
 
 TEST(PlanMemory, binding_limit_is_kept_to_the_byte) {
@@ -185,10 +185,20 @@ TEST(PlanPhotons, large_picture_takes_as_many_photons_as_fit) {
 }
 
 TEST(PlanNotes, what_the_picture_lacks_is_said) {
-    const RenderPlan plan =
-        test::plan_of(test::repository_scene("spheres", {"material.red.surface=\"glass\""}));
-    ASSERT_EQ(plan.notes.size(), 1u);
-    EXPECT_EQ(plan.notes[0], "light of the sky reaches surfaces past glass and mirrors as through a wall");
+    const auto notes_of = [](const char* technique) {
+        return test::plan_of(test::repository_scene("spheres", {"material.red.surface=\"glass\"", technique}))
+            .notes;
+    };
+    EXPECT_TRUE(notes_of("technique.indirect=auto").empty());
+    EXPECT_EQ(notes_of("technique.indirect=photons"),
+              std::vector<std::string>{
+                  "light of the sky reaches surfaces past glass and mirrors as through a wall"});
+    EXPECT_EQ(notes_of("technique.caustics=paths"),
+              std::vector<std::string>{
+                  "sunlight by way of spheres of metal and glass is found by chance: it is noisy"});
+    ASSERT_EQ(notes_of("technique.indirect=none").size(), 2u);
+    EXPECT_EQ(notes_of("technique.indirect=none")[0],
+              "light between surfaces is left out; occlusion stands for it");
     EXPECT_TRUE(test::plan_of(test::repository_scene("night")).notes.empty());
 }
 

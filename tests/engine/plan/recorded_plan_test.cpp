@@ -136,10 +136,14 @@ void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request
         }
     }
     EXPECT_EQ(!found_traces(render, {"sky.", "sky_"}).empty(), prepared.plan.has_atmosphere());
-    const bool has_photons = prepared.plan.has(Effect::caustics) || prepared.plan.has(Effect::indirect);
-    EXPECT_EQ(!found_traces(render, {"photon.", "photon_"}).empty(), has_photons);
-    const bool needs_emitters =
-        prepared.plan.has(Effect::direct) || prepared.plan.photons.emitter_photons != 0;
+    const RenderPlan& plan = prepared.plan;
+    const auto is_found = [&](bool (RenderPlan::*by)(Effect) const) {
+        return (plan.*by)(Effect::caustics) || (plan.*by)(Effect::indirect);
+    };
+    EXPECT_EQ(!found_traces(render, {"photon.", "photon_"}).empty(), is_found(&RenderPlan::is_by_photons));
+    EXPECT_EQ(!found_traces(render, {"path.", "path_"}).empty(), is_found(&RenderPlan::is_by_paths));
+    const bool needs_emitters = plan.has(Effect::direct) || plan.photons.emitter_photons != 0 ||
+                                (plan.paths.runs() && plan.has(Effect::emission));
     EXPECT_EQ(!found_traces(render, {"light."}).empty(), needs_emitters);
 }
 
@@ -209,7 +213,7 @@ TEST(RecordedPlanOf, giving_up_cells_is_planned_once_a_frame_of_a_range) {
 // The radius of photons is found by an iteration whose buffers the device keeps.
 TEST(RecordedPlanOf, pilot_of_photons_is_held_but_not_run_in_the_frame) {
     const auto planned = [](const std::vector<std::string>& overrides) {
-        return footprint(test::plan_of(test::repository_scene("emitters", overrides)));
+        return footprint(test::plan_of(test::repository_scene("cornell", overrides)));
     };
     const Footprint known = planned({"photons.radius=1"}), piloted = planned({});
     EXPECT_EQ(piloted.passes, known.passes);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "formats/scene_toml.h"
-#include "plan/effects.h"
+#include "plan/techniques.h"
 #include "scene/facts.h"
 
 namespace voxilux {
@@ -14,7 +14,7 @@ namespace {
 // "voxels, ao, sky": the effects that a picture of colour alone needs.
 std::string effects_of(const Scene& scene) {
     std::string names;
-    for (const EffectState& state : decide_effects(measure_scene(scene), {}))
+    for (const EffectState& state : decide_effects(measure_scene(scene), with_techniques({}, scene.settings)))
         if (state.on) names += (names.empty() ? "" : ", ") + std::string(name_of(state.effect));
     return names;
 }

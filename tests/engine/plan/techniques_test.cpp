@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "engine/plan/plan_scenes.h"
+#include "formats/scene_toml.h"
 #include "jobs/report.h"
 #include "scene/technique_choice.h"
 
@@ -72,10 +73,11 @@ TEST(Techniques, older_keys_are_other_names_of_the_same_choice) {
         {"technique.ao=auto", "ao.method=auto"},
         {"technique.indirect=splatting", "photons.scatter=true"},
         {"technique.indirect=pixel_radii", "photons.classic=true"},
-        {"technique.indirect=photons", "photons.scatter=false"},
+        {"technique.indirect=photons", "paths.indirect=false"},
+        {"technique.indirect=auto", "photons.scatter=false"},
         {"technique.indirect=paths", "paths.indirect=true"}};
     for (const auto& [technique, older] : same)
-        EXPECT_EQ(plan_with({technique}), plan_with({older})) << technique;
+        EXPECT_EQ(describe(plan_with({technique})), describe(plan_with({older}))) << technique;
     EXPECT_NE(plan_with({"technique.ao=hash"}), plan_with({"technique.ao=brute"}));
 }
 
@@ -90,12 +92,12 @@ TEST(Techniques, none_leaves_the_effect_out) {
     EXPECT_EQ(chosen_by(none), chosen_by(off));
     const RenderPlan on = plan_with({"technique.indirect=none"},
                                     test::with_switch(test::exr_request(), Effect::indirect, Switch::on));
-    EXPECT_EQ(chosen_of(on, Effect::indirect).name, "photons");
+    EXPECT_EQ(chosen_of(on, Effect::indirect).name, "paths");
 }
 
 // Paths find the light of the sky, so that its stand-in has nothing to do; sky and sun alone call for them.
 TEST(Techniques, paths_take_the_place_of_occlusion_and_photons) {
-    const Scene scene = test::repository_scene("first_light", {"technique.indirect=paths"});
+    const Scene scene = test::repository_scene("first_light");
     const RenderPlan plan = test::plan_of(scene, {});
     EXPECT_TRUE(plan.is_by_paths(Effect::indirect));
     EXPECT_FALSE(plan.has(Effect::ao));
@@ -117,8 +119,57 @@ TEST(Techniques, photons_of_caustics_and_paths_of_indirect_light_go_together) {
     const RenderPlan paths = test::plan_of(
         test::repository_scene("cornell", {"technique.indirect=paths", "technique.caustics=paths"}), {});
     EXPECT_FALSE(paths.photons.runs());
-    EXPECT_THROW((void)test::plan_of(test::repository_scene("cornell", {"technique.caustics=paths"}), {}),
+    EXPECT_THROW((void)test::plan_of(test::repository_scene("cornell", {"technique.caustics=paths",
+                                                                        "technique.indirect=photons"}),
+                                     {}),
                  Error);
+}
+
+std::map<std::string, std::string> chosen_in(const std::string& name,
+                                             const std::vector<std::string>& overrides = {},
+                                             const PlanRequest& request = {}) {
+    return chosen_by(test::plan_of(test::repository_scene(name, overrides), request));
+}
+
+using Chosen = std::map<std::string, std::string>;
+
+// Photons take the time of their caustics alone where emitters are all the light; elsewhere paths do.
+TEST(Techniques, light_of_the_scene_decides_between_paths_and_photons) {
+    EXPECT_EQ(chosen_in("cornell"), (Chosen{{"caustics", "photons"}, {"indirect", "photons"}}));
+    EXPECT_EQ(chosen_in("cornell", {"sky.radiance=[1, 1, 1]"}),
+              (Chosen{{"caustics", "photons"}, {"indirect", "paths"}}));
+    EXPECT_EQ(chosen_in("cornell", {"technique.caustics=paths"}),
+              (Chosen{{"caustics", "paths"}, {"indirect", "paths"}}));
+    EXPECT_EQ(chosen_in("emitters"), (Chosen{{"caustics", "none"}, {"indirect", "paths"}}));
+    EXPECT_EQ(chosen_in("first_light", {"technique.ao=hash"}),
+              (Chosen{{"ao", "hash"}, {"caustics", "none"}, {"indirect", "none"}}));
+    EXPECT_EQ(chosen_in("mixed", {"technique.indirect=reference", "material.gold.surface=\"metal\""})
+                  .at("indirect"),
+              "reference");
+}
+
+// Sunlight by way of voxels comes from directions that paths know, by way of spheres it does not. Emitters do
+// not change who finds it, so a faint one changes the picture as little as it shines.
+TEST(Techniques, caustics_of_the_sun_are_left_to_paths_where_no_sphere_is_specular) {
+    const std::string voxels =
+        "[material.glass]\nsurface = \"glass\"\n[[shape]]\nshape = \"box\"\n"
+        "from = [0, 0, 0]\nto = [2, 2, 2]\nmaterial = \"glass\"\n";
+    const std::string sphere = "[[sphere]]\ncenter = [0, 0, 5]\nradius = 1\nmaterial = \"glass\"\n";
+    const std::string lamp =
+        "[material.lamp]\nemission = [1e-4, 1e-4, 1e-4]\n[[sphere]]\n"
+        "center = [9, 9, 9]\nradius = 1\nmaterial = \"lamp\"\n";
+    const auto plan = [](const std::string& text) { return test::plan_of(parse_scene(text, "s.toml"), {}); };
+    EXPECT_EQ(chosen_by(plan(voxels)), (Chosen{{"caustics", "paths"}, {"indirect", "paths"}}));
+    const RenderPlan lit = plan(voxels + lamp);
+    EXPECT_EQ(chosen_by(lit), (Chosen{{"caustics", "photons"}, {"indirect", "paths"}}));
+    EXPECT_TRUE(lit.paths_find_sun_caustics);
+    EXPECT_EQ(lit.photons.sun_photons, 0u);
+    EXPECT_NE(lit.photons.emitter_photons, 0u);
+    const RenderPlan round = plan(voxels + sphere);
+    EXPECT_EQ(chosen_by(round), (Chosen{{"caustics", "photons"}, {"indirect", "paths"}}));
+    EXPECT_FALSE(round.paths_find_sun_caustics);
+    EXPECT_NE(round.photons.sun_photons, 0u);
+    EXPECT_TRUE(round.sends_caustics_on());
 }
 
 // The longest paths decide how many dispatches a sample takes.
@@ -178,7 +229,8 @@ TEST(Techniques, technique_that_keeps_state_has_a_persistent_buffer_of_its_own) 
 }
 
 TEST(Techniques, plan_prints_each_with_its_reason_and_properties) {
-    const Scene scene = test::repository_scene("emitters", {"technique.ao=hash"});
+    const Scene scene =
+        test::repository_scene("emitters", {"technique.ao=hash", "technique.indirect=photons"});
     const RenderPlan plan = test::plan_of(scene);
     EXPECT_NE(describe(plan).find("technique ao         hash        asked for\n"), std::string::npos)
         << describe(plan);
