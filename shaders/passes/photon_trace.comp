@@ -9,10 +9,7 @@
 #include "lib/address.glsl"
 
 #include "lib/invocation.glsl"
-
 #include "lib/path.glsl"
-
-#include "lib/constants.glsl"
 #include "lib/loops.glsl"
 #include "lib/photon_start.glsl"
 #include "lib/photon_store.glsl"
@@ -75,8 +72,7 @@ bool bounce(inout Photon photon, PathHit found) {
     bool sends = max(event.albedo.x, max(event.albedo.y, event.albedo.z)) > 0.0;
     if (is_diffuse && is_kept && sends)
         store_photon(photon_position(found.hit), photon_surface(found.hit), photon.power * photon.throughput);
-    vec3 scattered = cosine_about(found.normal, draw_pair(photon));
-    PathRay off_surface = path_from(found.hit, scattered);
+    PathRay off_surface = path_from(found.hit, cosine_about(found.normal, draw_pair(photon)));
     off_surface.medium = photon.path.medium;
     if (is_diffuse) next = off_surface;
     photon.is_scattered = photon.is_scattered || is_diffuse;

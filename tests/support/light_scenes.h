@@ -8,13 +8,15 @@
 
 namespace voxilux::test {
 
-// `pixels` x `pixels`, so many photons in each iteration, and a radius that stays.
+// `pixels` x `pixels`, light between surfaces by so many photons in each iteration, and a radius that stays.
 [[nodiscard]] inline Scene dark_scene(int pixels, std::uint32_t photons, double radius) {
     Scene scene;
     scene.sun.on = false;
     scene.sky.radiance = glm::vec3(0.0f);
     scene.settings.size = {pixels, pixels};
     scene.settings.spp = 1;
+    scene.settings.paths.indirect = false;
+    scene.settings.paths.caustics = false;
     scene.settings.seed = 1;
     scene.settings.photons.count = photons;
     scene.settings.photons.radius = radius;

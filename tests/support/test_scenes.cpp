@@ -9,6 +9,7 @@ Scene white_scene() {
     scene.materials = {{.name = "white", .albedo = glm::vec3(1.0f)}};
     scene.sun.on = false;
     scene.sky.radiance = glm::vec3(1.0f);
+    scene.settings.ao.method = AoMethod::brute;
     scene.settings.size = {1, 1};
     scene.settings.spp = 1;
     scene.settings.seed = 1;

@@ -68,6 +68,7 @@ const std::string kTables[] = {
     table_of<CameraSettings>("[camera]"),
     table_of<AoSettings>("[ao]"),
     table_of<PhotonSettings>("[photons]"),
+    table_of<PathSettings>("[paths]"),
     table_of<Sun>("[sun]"),
     table_of<Sky>("[sky]"),
     table_of<Material>("[material.NAME]"),

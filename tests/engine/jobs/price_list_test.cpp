@@ -16,7 +16,7 @@ RenderPlan plan_with(std::initializer_list<Effect> effects) {
         plan.effects[i].effect = static_cast<Effect>(i);
     for (const Effect effect : effects)
         plan.effects[static_cast<std::size_t>(effect)].on = true;
-    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings);
+    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, false);
     plan.settings.size = plan.image_size = {4, 3};
     plan.film_tile_rows = plan.tile_rows = 3;
     plan.film_tile_count = 1;
@@ -38,6 +38,8 @@ TEST(Parameters, are_those_of_what_the_plan_uses) {
     EXPECT_EQ(parameters_of(design_parameters(plan_with({Effect::voxels, Effect::ao}), {})),
               (std::set<std::string>{"samples", "sequence", "traversal", "ao", "ao_cell", "ao_rays"}));
     RenderPlan photons = plan_with({Effect::spheres, Effect::indirect});
+    photons.settings.paths.indirect = false;
+    photons.techniques = choose_techniques(photons.effects, photons.ao, photons.settings, false);
     photons.photons.emitter_photons = 4096;
     photons.photons.radius = 2.0;
     EXPECT_EQ(parameters_of(design_parameters(photons, {.settings = {.photons = {.radius = 2.0}}})),

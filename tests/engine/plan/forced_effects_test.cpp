@@ -86,7 +86,7 @@ TEST_P(NeededEffect, switched_off_changes_the_picture) {
 
 INSTANTIATE_TEST_SUITE_P(effects, NeededEffect,
                          testing::Values(Needed{"overcast", Effect::voxels},
-                                         Needed{"spheres", Effect::spheres}, Needed{"overcast", Effect::ao},
+                                         Needed{"spheres", Effect::spheres}, Needed{"slit", Effect::ao},
                                          Needed{"black_sky", Effect::sun}, Needed{"overcast", Effect::sky},
                                          Needed{"emitters", Effect::emission}));
 
