@@ -144,9 +144,8 @@ void visit_settings(PhotonSettings& settings, auto&& visit) {
 
 void visit_settings(PathSettings& settings, auto&& visit) {
     auto& [indirect, caustics, plain] = settings;
-    visit({"indirect", {}, "light between surfaces: true: by paths, false: by photons; absent: chosen"},
-          indirect);
-    visit({"caustics", {}, "likewise caustics"}, caustics);
+    visit({"indirect", {}, "true: paths find it, false: photons; absent: chosen"}, indirect);
+    visit({"caustics", {}, "likewise; see Techniques"}, caustics);
     visit({"plain", {}, "true: they meet emitters by chance alone, as with the technique `reference`"},
           plain);
 }
