@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "frame/footprint.h"
 #include "jobs/report.h"
 #include "render/print_render.h"
@@ -16,24 +17,24 @@ void print_frame(const RenderCommand& command, std::int64_t frame, const std::ve
     if (!command.report.prints()) return;
     const std::string error =
         statistics.error.is_known() ? fmt::format("{:.3g}", statistics.error.estimate) : "unknown";
-    fmt::print("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
-               statistics.samples, error, fmt::join(files, " "));
+    print_result("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
+                 statistics.samples, error, fmt::join(files, " "));
     std::fflush(stdout);  // whoever waits for a frame reads it now
 }
 
 void print_end(const RenderCommand& command, const SequenceReport& report, std::size_t missed) {
     if (!command.report.quiet && missed != 0)
-        fmt::print(stderr, "warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
-                   report.frames.size(), target_text(command));
-    if (command.report.prints()) fmt::print("{}", describe(report.total));
+        print_message("warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
+                      report.frames.size(), target_text(command));
+    if (command.report.prints()) print_result("{}", describe(report.total));
 }
 
 // Says how to go on from an interrupted frame.
 void print_interruption(const FrameList& frames, std::int64_t index) {
-    fmt::print(stderr,
-               "voxilux: interrupted in frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
-               frames.at(index), index, frames.count(), frames.at(index), frames.last,
-               frames.step == 1 ? "" : fmt::format("x{}", frames.step));
+    print_message(
+        "voxilux: interrupted in frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
+        frames.at(index), index, frames.count(), frames.at(index), frames.last,
+        frames.step == 1 ? "" : fmt::format("x{}", frames.step));
 }
 
 // What the frames so far left behind.
@@ -56,7 +57,7 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
     pictures.files = files_of_frame(pictures.files, job.range.frames, frame);
     const std::vector<std::string>& files = pictures.files;
     write_pictures(pictures, session.scene(), outcome);
-    if (index == 0 && command.verbose && command.report.prints()) fmt::print("{}", describe(outcome.plan));
+    if (index == 0 && command.verbose && command.report.prints()) print_result("{}", describe(outcome.plan));
     print_validation(outcome);
     print_warnings(command, outcome, done.said);
     print_frame(command, frame, files, outcome.statistics);

@@ -230,11 +230,17 @@ TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;
     Words words = small_list(folder / "list", "2");
     std::erase(words, "--no-page");
-    const Ending ending = run(words, {.environment = {{"PYTHONHOME", "/nonexistent"}}});
+    // A folder that holds something is where the page should go, and a module of the library's name lies
+    // about.
+    std::filesystem::create_directories(folder / "list/tradeoff.html/kept");
+    write_text(folder / "matplotlib.py", "open('ran', 'w')");
+    const Ending ending = run(words, {.folder = folder.path()});
+    EXPECT_FALSE(std::filesystem::exists(folder / "ran")) << "the current folder is not ours";
     EXPECT_EQ(ending.code, 73);
     EXPECT_NE(ending.err.find("--no-page"), std::string::npos) << ending.err;
     EXPECT_EQ(std::ranges::count(ending.err, '\n'), 1) << ending.err;
-    EXPECT_EQ(names_in(folder / "list"), (Words{"pictures", "tradeoff.csv", "tradeoff.json"}));
+    EXPECT_EQ(names_in(folder / "list"),
+              (Words{"pictures", "tradeoff.csv", "tradeoff.html", "tradeoff.json"}));
 }
 
 }  // namespace
