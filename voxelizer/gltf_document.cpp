@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json.h"
 #include "base/printable.h"
 #include "voxelizer/gltf_form.h"
 #include "voxelizer/gltf_json.h"
@@ -68,11 +67,9 @@ GlbChunks split_glb(Bytes bytes) {
 }
 
 json parse_json(Bytes bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (json_depth(text) > kMaxJsonDepth)
-        throw MeshFault(fmt::format("its JSON is nested deeper than {} levels", kMaxJsonDepth));
+    const auto* first = reinterpret_cast<const char*>(bytes.data());
     try {
-        return json::parse(text);
+        return json::parse(first, first + bytes.size());
     } catch (const json::parse_error& error) {
         throw MeshFault(fmt::format("not valid JSON at byte {}", error.byte));
     } catch (const json::exception&) {

@@ -29,12 +29,11 @@ void print_end(const RenderCommand& command, const SequenceReport& report, std::
     if (command.report.prints()) print_result("{}", describe(report.total));
 }
 
-// Says how to go on from an interrupted frame.
-void print_interruption(const FrameList& frames, std::int64_t index) {
-    print_message(
-        "voxilux: interrupted in frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
-        frames.at(index), index, frames.count(), frames.at(index), frames.last,
-        frames.step == 1 ? "" : fmt::format("x{}", frames.step));
+// Says how to go on from the first frame that is not written.
+void print_rest(const FrameList& frames, std::int64_t index, const char* what_happened) {
+    print_message("voxilux: {} frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
+                  what_happened, frames.at(index), index, frames.count(), frames.at(index), frames.last,
+                  frames.step == 1 ? "" : fmt::format("x{}", frames.step));
 }
 
 // What the frames so far left behind.
@@ -42,6 +41,7 @@ struct Rendered {
     SequenceReport report;
     std::set<std::string> said;
     std::size_t missed = 0;  // frames over the error asked for
+    RenderStatistics last;   // of the frame that was rendered last
     ExitCode code = ExitCode::done;
 };
 
@@ -62,6 +62,7 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
     print_warnings(command, outcome, done.said);
     print_frame(command, frame, files, outcome.statistics);
     add_frame(done.report, frame, files, outcome);
+    done.last = outcome.statistics;
     if (missed_error(command, outcome)) ++done.missed;
     if (exit_code(command, outcome) == ExitCode::time_limit) done.code = ExitCode::time_limit;
     return true;
@@ -77,17 +78,22 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
 int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
     Rendered done;
     std::int64_t index = 0;
-    while (index < job.range.frames.count() && render_frame(command, session, job, index, done))
-        ++index;
-    const bool is_interrupted = index < job.range.frames.count();
+    const auto has_time = [&] { return fits_in_time(job.range, index, done.last.wall_s, done.last.samples); };
+    bool is_interrupted = false;
+    while (!is_interrupted && index < job.range.frames.count() && has_time()) {
+        is_interrupted = !render_frame(command, session, job, index, done);
+        if (!is_interrupted) ++index;
+    }
+    const bool has_rest = index < job.range.frames.count();
     if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
     SequenceReport& report = done.report;
     report.total.statistics.wall_s = seconds_since(job.range.started);
     print_faults(report.total);
     print_end(command, report, done.missed);
-    if (is_interrupted) print_interruption(job.range.frames, index);
+    if (has_rest) print_rest(job.range.frames, index, is_interrupted ? "interrupted in" : "no time left for");
     write_json(command.report.json, sequence_json(session.scene(), job.scene_hash, report));
-    return static_cast<int>(is_interrupted ? ExitCode::interrupted : done.code);
+    if (is_interrupted) return static_cast<int>(ExitCode::interrupted);
+    return static_cast<int>(has_rest ? ExitCode::time_limit : done.code);
 }
 
 }  // namespace voxilux

@@ -171,7 +171,7 @@ TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
     expect_a_front(made);
 }
 
-TEST(TradeoffReference, is_cached_and_rebuilt_when_the_file_is_damaged) {
+TEST(TradeoffReferenceNightly, is_cached_and_rebuilt_when_the_file_is_damaged) {
     const Made first("2");
     ASSERT_EQ(first.ending.code, 0);
     const fs::path references = first.folder / "cache" / "voxilux" / "references";

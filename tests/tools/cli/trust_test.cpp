@@ -95,6 +95,11 @@ std::string repeated(const std::string& text, int times) {
     return all;
 }
 
+TEST(Ranges, numbers_below_zero_are_refused) {
+    EXPECT_EQ(run({"plan", scene_file("one_voxel"), "--memory-budget", "-1"}).code, 2);
+    EXPECT_EQ(run({"plan", scene_file("one_voxel"), "--memory-budget", "0"}).code, 0);
+}
+
 TEST(Nesting, of_any_depth_is_refused_in_one_line) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
