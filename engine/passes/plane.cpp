@@ -71,6 +71,12 @@ std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording) {
     return use_constant("constant.spheres", gpu::kFewSpheres * sizeof(gpu::SphereRecord), 0, recording);
 }
 
+std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!plan.has_sphere_tree()) return placeholder_buffer(recording);
+    return declare<gpu::SphereNode>(recording, "sphere.tree", 2 * std::uint64_t{plan.sphere_count} - 1,
+                                    Lifetime::persistent);
+}
+
 std::string lights_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::LightRecord>(recording, "light.records", plan.world.lights.count,
                                      Lifetime::persistent);
@@ -128,6 +134,7 @@ Plane record_surface_pass(const RenderPlan& plan, const DispatchTile& tile, cons
                                    {"Counters", counters_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
+                                   {"SphereTree", sphere_tree_buffer(plan, recording)},
                                    {"Hits", hits.buffer},
                                    {pass.output_block, output.buffer}},
                       .constants = surface_constants(plan)};

@@ -88,6 +88,8 @@ struct DispatchTile {
 [[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);
 // The spheres as the uniform block SphereTable.
 [[nodiscard]] std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording);
+// The hierarchy over many spheres, or the placeholder where they are few.
+[[nodiscard]] std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording);
 
 // The lights, and the table that draws one by its power.
 [[nodiscard]] std::string lights_buffer(const RenderPlan& plan, Recording& recording);

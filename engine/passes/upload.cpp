@@ -7,6 +7,7 @@
 #include "passes/world.h"
 #include "plan/film_planes.h"
 #include "scene/lobe_weights.h"
+#include "world/sphere_tree.h"
 
 namespace voxilux {
 namespace {
@@ -23,16 +24,6 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
                         .ior = material.ior};
     }
     return materials;
-}
-
-// The sphere by its point nearest to the world's corner, in double until it is small.
-gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
-    const glm::dvec3 centre = sphere.centre - glm::dvec3(origin);
-    const double distance = glm::length(centre);
-    const glm::dvec3 normal = distance > 0.0 ? -centre / distance : glm::dvec3(0.0, 0.0, 1.0);
-    const gpu::Sphere shape{glm::vec3(centre + sphere.radius * normal),
-                            static_cast<float>(1.0 / sphere.radius), glm::vec3(normal)};
-    return {shape, sphere.material};
 }
 
 WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
@@ -57,10 +48,12 @@ void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::iv
                              const LightList& lights, Recording& recording) {
     record_sky_build(plan, scene, recording);
     if (plan.has(Effect::spheres)) {
-        std::vector<gpu::SphereRecord> records;
-        for (const std::uint32_t number : sphere_order(scene))
-            records.push_back(sphere_record(scene.spheres[number], origin));
+        const std::vector<gpu::SphereRecord> records = sphere_records(scene, origin);
         recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(records)));
+        if (plan.has_sphere_tree()) {
+            const std::vector<gpu::SphereNode> tree = build_sphere_tree(records);
+            recording.upload(sphere_tree_buffer(plan, recording), std::as_bytes(std::span(tree)));
+        }
     }
     if (plan.has(Effect::voxels) || plan.has(Effect::spheres)) {
         const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);

@@ -12,6 +12,7 @@ namespace {
 // that a small picture has work for all threads.
 constexpr double kPathsPerLane = 16.0;
 constexpr double kRaysOfVertex = 3.0;   // to the sun, to an emitter, on
+constexpr double kVisitsOfPaths = 2.0;  // to find a sphere, and the glass around the point on it
 constexpr double kTurnsOfMarch = 16.0;  // of all loops for a ray, where eight lanes wait for the slowest
 // Of what a surface receives. Palettes hold white that no voxel has, and whiter rooms have openings; where
 // they have none, no path ends.
@@ -24,7 +25,7 @@ constexpr double kMaxRounds = 16.0;
 }  // namespace
 
 PathPlan plan_paths(const PathNeeds& needs, const DeviceLimits& limits) {
-    const double spheres = needs.spheres > gpu::kFewSpheres ? 2.0 * needs.spheres : 0.0;
+    const double spheres = kVisitsOfPaths * needs.sphere_visits;
     const double turns =
         kRaysOfVertex * (1.0 + spheres + (needs.has_voxels ? kTurnsOfMarch : 0.0));  // of a surface
     const double albedo = std::min(needs.max_albedo, 1.0);

@@ -17,8 +17,8 @@ struct PathPlan {
 
 // What the plan of paths depends on.
 struct PathNeeds {
-    double max_albedo = 0.0;  // of a diffuse material
-    std::uint32_t spheres = 0;
+    double max_albedo = 0.0;     // of a diffuse material
+    double sphere_visits = 0.0;  // of a ray that looks for spheres
     bool has_voxels = false;
 };
 

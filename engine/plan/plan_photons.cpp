@@ -42,8 +42,8 @@ double stored_per_photon(double max_albedo, const PhotonSettings& settings, bool
 }
 
 std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
-    const double spheres = needs.spheres > gpu::kFewSpheres ? needs.spheres : 1.0;
-    const double turns = (spheres + (needs.has_voxels ? kMarchTurns : 0.0)) * segments;
+    const double turns =
+        (std::max(needs.sphere_visits, 1.0) + (needs.has_voxels ? kMarchTurns : 0.0)) * segments;
     return static_cast<std::uint32_t>(std::clamp(kLaneTurns / turns, 1.0, kPhotonsPerLane));
 }
 

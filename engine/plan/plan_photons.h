@@ -50,7 +50,7 @@ struct PhotonNeeds {
     bool keeps_indirect = false;
     glm::vec3 sun_irradiance{0.0f};
     std::uint64_t pixels = 0;
-    std::uint32_t spheres = 0;
+    double sphere_visits = 0.0;  // of a ray that looks for spheres
     bool has_voxels = false;
 };
 

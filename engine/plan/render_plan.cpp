@@ -207,13 +207,13 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                           .keeps_indirect = plan.is_by_photons(Effect::indirect) || plan.sends_caustics_on(),
                           .sun_irradiance = sunlight(scene),
                           .pixels = pixels_of(plan.settings),
-                          .spheres = plan.sphere_count,
+                          .sphere_visits = world.sphere_visits,
                           .has_voxels = plan.has(Effect::voxels)},
                          limits);
     }
     if (plan.any(&Technique::by_paths))
         plan.paths = plan_paths({.max_albedo = world.lights.max_albedo,
-                                 .spheres = plan.sphere_count,
+                                 .sphere_visits = world.sphere_visits,
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);
     check_paths(plan);

@@ -32,6 +32,7 @@ struct WorldFacts {
     std::uint64_t leaf_bytes = 0;
     GrowthNeeds growth;
     LightFacts lights;
+    double sphere_visits = 0.0;  // nodes of the hierarchy over spheres that a ray visits, 0 without one
 
     bool operator==(const WorldFacts&) const = default;
 };
@@ -86,6 +87,10 @@ struct RenderPlan {
     bool operator==(const RenderPlan&) const = default;
 
     [[nodiscard]] bool has(Effect effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+    // Whether rays find spheres by a hierarchy, not one after the other.
+    [[nodiscard]] bool has_sphere_tree() const {
+        return has(Effect::spheres) && sphere_count > gpu::kFewSpheres;
+    }
     [[nodiscard]] bool has_atmosphere() const { return has(Effect::sky) && sky_resolution != 0; }
     // Whether a technique of the plan has a property, such as &Technique::shares_samples.
     template <class Property>

@@ -181,13 +181,17 @@ GlassAround glass_around(vec3 point, uint but) {
     around.i = kNoSphere;
     around.material = kNoMedium;
     around.curvature = 0.0;
+    if (has_sphere_tree) {
+        if (glass_spheres == 0u) return around;
+        EnclosingSphere inmost = enclosing_in_tree(sphere_nodes, point, glass_spheres, but);
+        tree_steps += inmost.steps;
+        around.i = inmost.i;
+        if (inmost.i != kNoSphere) around.material = spheres[inmost.i].material;
+        around.curvature = inmost.curvature;
+        return around;
+    }
     for (uint i = 0u; i < glass_spheres; ++i) {
-        SphereRecord sphere;
-        if (sphere_count <= kFewSpheres) {
-            sphere = held_spheres[i];
-        } else {
-            sphere = spheres[i];
-        }
+        SphereRecord sphere = held_spheres[i];
         bool inner = i != but && sphere.shape.curvature >= around.curvature && is_in_sphere(sphere.shape, point);
         around.i = inner ? i : around.i;
         around.material = inner ? sphere.material : around.material;

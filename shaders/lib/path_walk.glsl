@@ -23,9 +23,6 @@ VX_SPECIALIZED(uint, finds_emitter_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
 VX_SPECIALIZED(uint, min_surfaces, 4u);   // after the visible point, that roulette leaves alone
 
-// Turns of loops over spheres for a ray, where they are not unrolled.
-const uint sphere_turns = sphere_count <= kFewSpheres ? 0u : sphere_count + glass_spheres;
-
 const uint kRayNone = 0u;  // no path is under way
 const uint kRayOn = 1u;
 const uint kRaySun = 2u;

@@ -29,8 +29,6 @@ void load_spheres() {
         held_spheres[i] = sphere_table[i];
 }
 
-const uint kNoSphere = 0xFFFFFFFFu;
-
 bool is_surface(Hit hit) {
     return hit.face <= kFaceSphereInside;
 }

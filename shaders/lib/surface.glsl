@@ -23,25 +23,40 @@ void init_scene() {
     if (sphere_count != 0u && sphere_count <= kFewSpheres) load_spheres();
 }
 
-struct NearestSphere {
-    uint i;  // kNoSphere: none before t
-    float t;
+layout(scalar) readonly buffer SphereTree {
+    SphereNode sphere_tree[];
 };
+
+#define VX_SPHERES_PARAM
+#define VX_SPHERES_ARG
+
+SphereNode load_sphere_node(uint i) {
+    return sphere_tree[i];
+}
+
+Sphere load_sphere(uint i) {
+    return spheres[i].shape;
+}
+
+#include "shared/sphere_tree.h"
+
+const bool has_sphere_tree = sphere_count > kFewSpheres;
+const uint sphere_nodes = 2u * sphere_count - 1u;
+
+uint tree_steps = 0u;  // of the last ray
 
 // The first sphere that a ray crosses before t_max. `own` is the sphere that the ray starts on.
 NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own) {
     NearestSphere nearest;
     nearest.i = kNoSphere;
     nearest.t = t_max;
-    if (sphere_count <= kFewSpheres) {
-        for (uint i = 0u; i < sphere_count; ++i) {
-            float t = sphere_time(held_spheres[i].shape, origin, direction, nearest.t, i == own);
-            nearest.i = t < nearest.t ? i : nearest.i;
-            nearest.t = t;
-        }
+    nearest.steps = 0u;
+    if (has_sphere_tree) {
+        nearest = nearest_in_tree(sphere_nodes, origin, direction, t_max, own);
+        tree_steps = nearest.steps;
     } else {
         for (uint i = 0u; i < sphere_count; ++i) {
-            float t = sphere_time(spheres[i].shape, origin, direction, nearest.t, i == own);
+            float t = sphere_time(held_spheres[i].shape, origin, direction, nearest.t, i == own);
             nearest.i = t < nearest.t ? i : nearest.i;
             nearest.t = t;
         }

@@ -73,7 +73,6 @@ void main() {
         }
         PathHit found = next_hit(walk.ray);
         ++segments;
-        turns += 2u + subgroupMax(march_steps) + sphere_turns;
         take_light(walk, found);
         uint last = walk.kind;
         bool is_own = last == kRayOn;
@@ -81,6 +80,7 @@ void main() {
         too_long += walk.surfaces + walk.glints == kMaxPathSurfaces ? 1u : 0u;
         vec3 u = numbers_of(walk, is_own ? kUseEvent : kUseGlint);
         BsdfSample event = event_at(walk, found, u.xy);
+        turns += 2u + subgroupMax(march_steps) + (has_sphere_tree ? subgroupMax(tree_steps) : 0u);
         bool is_sent = has_glints && (last == kRaySun || last == kRayImage) && meets && glint(walk, found, event);
         bool goes_on = !is_own || (meets && scatter(walk, found, event, u.z));
         if (goes_on && !is_sent && (!is_own || walk.is_straight)) leave(walk, is_own ? kRayNone : last);

@@ -71,6 +71,16 @@ struct SphereRecord {
     uint material;
 };
 
+VX_CONST(uint, kNoSphere, 0xFFFFFFFFu);
+
+// A node of the hierarchy over spheres (sphere_tree.h): a box, local to the world, voxels.
+struct SphereNode {
+    vec3 low;
+    uint next;  // number of the node behind all that this one holds
+    vec3 high;
+    uint sphere;  // of a leaf; kNoSphere of the others
+};
+
 // What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
 // the whole image or a window of it.
 struct FrameParams {

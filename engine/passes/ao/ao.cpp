@@ -139,6 +139,7 @@ void record_ao_sample(const RenderPlan& plan, const DispatchTile& tile, const Pl
                              {{"LastSlots", planes.last},
                               {"Spheres", spheres_buffer(plan, recording)},
                               {"SphereTable", sphere_table_buffer(plan, recording)},
+                              {"SphereTree", sphere_tree_buffer(plan, recording)},
                               {"Opens", table_array(plan, "ao.unoccluded", recording)},
                               {"Located", merged ? unused : planes.now},
                               {"Own", declare_plane<float>(plan, "ao.own", recording)}});

@@ -13,6 +13,7 @@ Plane record_sphere_trace(const RenderPlan& plan, const DispatchTile& tile, cons
                         .bindings = {{"Frame", frame_buffer(recording)},
                                      {"Spheres", spheres_buffer(plan, recording)},
                                      {"SphereTable", sphere_table_buffer(plan, recording)},
+                                     {"SphereTree", sphere_tree_buffer(plan, recording)},
                                      {"VoxelHits", voxel_hits.buffer},
                                      {"Hits", hits.buffer}},
                         .constants = std::move(constants)});

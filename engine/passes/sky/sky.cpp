@@ -117,6 +117,7 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                                    {"Counters", counters_buffer(recording)},
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
+                                   {"SphereTree", sphere_tree_buffer(plan, recording)},
                                    {"Sky", params_buffer(recording)},
                                    {"SkyView", view_buffer(plan, recording)},
                                    {"SkyShares", shares_buffer(recording)},

@@ -7,6 +7,7 @@ std::vector<Binding> path_bindings(const RenderPlan& plan, Recording& recording)
             {"Counters", counters_buffer(recording)},
             {"Spheres", spheres_buffer(plan, recording)},
             {"SphereTable", sphere_table_buffer(plan, recording)},
+            {"SphereTree", sphere_tree_buffer(plan, recording)},
             {"Materials", materials_buffer(plan, recording)}};
 }
 
