@@ -146,8 +146,7 @@ void visit_settings(PathSettings& settings, auto&& visit) {
     auto& [indirect, caustics, plain] = settings;
     visit({"indirect", {}, "true: paths find it, false: photons; absent: chosen"}, indirect);
     visit({"caustics", {}, "likewise; see Techniques"}, caustics);
-    visit({"plain", {}, "true: they meet emitters by chance alone, as with the technique `reference`"},
-          plain);
+    visit({"plain", {}, "true: they meet emitters by chance alone, as `reference` does"}, plain);
 }
 
 void visit_settings(Sun& sun, auto&& visit) {
