@@ -1,5 +1,6 @@
-// A bounding volume hierarchy over spheres, its nodes in depth-first order: a ray that meets a box goes on with the next
-// node, one that misses it with the node behind all that the box holds. So a walk needs no stack and is one flat loop.
+// A bounding volume hierarchy over spheres, its nodes in depth-first order: a ray that meets a box goes on
+// with the next node, one that misses it with the node behind all that the box holds. So a walk needs no
+// stack and is one flat loop.
 //
 // The including side defines VX_SPHERES_PARAM, VX_SPHERES_ARG, load_sphere_node() and load_sphere().
 #ifndef VX_SPHERE_TREE_H
@@ -51,10 +52,10 @@ VX_FN bool is_node_met(SphereNode node, vec3 origin, vec3 scale, float t_max) {
     return enters <= leaves;
 }
 
-// The first sphere that a ray crosses before t_max, of equal times that of the smallest number. `own` is the sphere
-// that the ray starts on.
-VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origin, vec3 direction, float t_max,
-                                    uint own) {
+// The first sphere that a ray crosses before t_max, of equal times that of the smallest number. `own` is the
+// sphere that the ray starts on.
+VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origin, vec3 direction,
+                                    float t_max, uint own) {
     NearestSphere nearest;
     nearest.i = kNoSphere;
     nearest.t = t_max;
@@ -67,8 +68,8 @@ VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origi
         place = is_met ? place + 1u : node.next;
         ++nearest.steps;
         if (is_met && node.sphere != kNoSphere) {
-            const float t =
-                sphere_time(load_sphere(VX_SPHERES_ARG node.sphere), origin, direction, t_max, node.sphere == own);
+            const float t = sphere_time(load_sphere(VX_SPHERES_ARG node.sphere), origin, direction, t_max,
+                                        node.sphere == own);
             const bool is_first = t < nearest.t || (t == nearest.t && t < t_max && node.sphere < nearest.i);
             nearest.i = is_first ? node.sphere : nearest.i;
             nearest.t = is_first ? t : nearest.t;
@@ -78,7 +79,8 @@ VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origi
 }
 
 // The smallest of the first `glass_count` spheres around a point, other than `but`. Of equal ones the later.
-VX_FN EnclosingSphere enclosing_in_tree(VX_SPHERES_PARAM uint node_count, vec3 point, uint glass_count, uint but) {
+VX_FN EnclosingSphere enclosing_in_tree(VX_SPHERES_PARAM uint node_count, vec3 point, uint glass_count,
+                                        uint but) {
     EnclosingSphere around;
     around.i = kNoSphere;
     around.curvature = 0.0f;
@@ -91,9 +93,9 @@ VX_FN EnclosingSphere enclosing_in_tree(VX_SPHERES_PARAM uint node_count, vec3 p
         ++around.steps;
         if (is_met && node.sphere < glass_count && node.sphere != but) {
             Sphere sphere = load_sphere(VX_SPHERES_ARG node.sphere);
-            const bool is_smaller = sphere.curvature > around.curvature ||
-                                    (sphere.curvature == around.curvature &&
-                                     (around.i == kNoSphere || node.sphere > around.i));
+            const bool is_smaller =
+                sphere.curvature > around.curvature ||
+                (sphere.curvature == around.curvature && (around.i == kNoSphere || node.sphere > around.i));
             const bool is_inner = is_smaller && is_in_sphere(sphere, point);
             around.i = is_inner ? node.sphere : around.i;
             around.curvature = is_inner ? sphere.curvature : around.curvature;
