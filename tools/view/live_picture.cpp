@@ -1,5 +1,7 @@
 #include "view/live_picture.h"
 
+#include <algorithm>
+
 #include "base/clock.h"
 
 namespace voxilux {
@@ -83,21 +85,22 @@ bool LivePicture::is_done() const {
     return !is_moving() && samples() >= max_samples_;
 }
 
-LiveFrame LivePicture::advance(double budget_s) {
+LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
     const auto start = std::chrono::steady_clock::now();
     if (is_moving() && --moving_frames_ == 0) end_motion();
     LiveFrame frame{.size = renderer_.plan().settings.size};
     if (is_moving()) {
         const std::uint32_t before = samples();
         while (samples() == before)
-            (void)renderer_.step(budget_s);
+            (void)renderer_.step(budget_s, before + 1);
         frame.step_s = seconds_since(start);
         if (resolution_.learn(frame.step_s)) apply_motion();
         frame.samples = before + 1;
         return frame;
     }
-    if (!is_done()) {
-        const StepResult step = renderer_.step(budget_s);
+    const std::uint32_t end = std::min(end_samples, max_samples_);
+    if (samples() < end) {
+        const StepResult step = renderer_.step(budget_s, end);
         add_times(passes_, step.passes);
         sampling_s_ += seconds_since(start);
     }

@@ -33,8 +33,8 @@ class LivePicture {
     void edit(std::span<const BoxEdit> edits);
     void set_max_samples(std::uint32_t samples) { max_samples_ = samples; }
 
-    // Takes samples for about so long. Nothing to do at rest when all samples are taken.
-    LiveFrame advance(double budget_s);
+    // Takes samples for about so long, at rest until there are `end_samples` whole ones, or all.
+    LiveFrame advance(double budget_s, std::uint32_t end_samples = kNoEnd);
 
     // What there is to show: the picture of the last whole sample; size 0 before the first.
     [[nodiscard]] DisplayBuffer display();

@@ -11,7 +11,8 @@ namespace voxilux {
 namespace {
 
 constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                    ImGuiWindowFlags_NoMove;
 
 void text(const std::string& line) {
     ImGui::TextUnformatted(line.c_str());

@@ -122,6 +122,12 @@ class Session {
         return events;
     }
 
+    // The film that the script waits for is not to grow beyond.
+    [[nodiscard]] std::uint32_t awaited_samples() const {
+        return next_step_ < script_.steps.size() ? script_.steps[next_step_].samples.value_or(kNoEnd)
+                                                 : kNoEnd;
+    }
+
     [[nodiscard]] bool is_due(const ScriptStep& step) {
         if (step.frame > shown_frames_) return false;
         return !step.samples ||
@@ -164,7 +170,7 @@ class Session {
         }
         fly(seconds, state_);
         apply_changes(size);
-        if (picture_.is_loaded()) frame_ = picture_.advance(command_.frame_ms / 1000.0);
+        if (picture_.is_loaded()) frame_ = picture_.advance(command_.frame_ms / 1000.0, awaited_samples());
         draw_panels(state_);
         return present(interface_.end(), size);
     }
