@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/print.h"
 #include "bench/bench.h"
 #include "compare/compare.h"
 #include "devices/devices.h"
@@ -41,7 +42,7 @@ constexpr const char* kFooter =
 constexpr int kHelpColumn = 30;
 
 int usage_error(const std::string& message, const std::string& command) {
-    fmt::print(stderr, "voxilux: {}\nsee {} --help\n", message, command);
+    print_message("voxilux: {}\nsee {} --help\n", message, command);
     return static_cast<int>(ExitCode::usage);
 }
 
@@ -111,7 +112,7 @@ int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
 // A first word that is no subcommand, or no word at all; nothing when the rest can be parsed.
 std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* const* argv) {
     if (argc < 2) {
-        fmt::print(stderr, "{}", app.help());
+        print_message("{}", app.help());
         return static_cast<int>(ExitCode::usage);
     }
     const std::string word = argv[1];

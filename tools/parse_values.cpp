@@ -159,8 +159,9 @@ Shard parse_shard(std::string_view text) {
     const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
     const auto second = has_slash ? std::from_chars(first.ptr + 1, end, count) : first;
     const bool is_read = has_slash && second.ec == std::errc() && second.ptr == end;
-    if (!is_read || number < 1 || number > count)
-        refuse(fmt::format("--shard: '{}' is not I/N with I from 1 to N, such as 2/4", text));
+    if (!is_read || number < 1 || number > count || count > kMaxShards)
+        refuse(fmt::format("--shard: '{}' is not I/N with I from 1 to N, such as 2/4, and N up to {}", text,
+                           kMaxShards));
     return {number - 1, count};
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/json.h"
+#include "base/print.h"
 #include "jobs/forecast_report.h"
 
 namespace voxilux {
@@ -56,7 +58,7 @@ std::string progress_json(const Progress& progress) {
     }
     if (progress.error) json["error"] = *progress.error;
     if (progress.error_at_end) json["error_at_end"] = *progress.error_at_end;
-    return json.dump();
+    return json_text(json);
 }
 
 ProgressLine::ProgressLine(ProgressMode mode, bool quiet) {
@@ -76,9 +78,9 @@ void ProgressLine::show(double done, double elapsed_s, const std::function<std::
     if (form_ == Form::nothing || (elapsed_s - last_s_ < kPrintEvery_s && done < 1.0)) return;
     last_s_ = elapsed_s;
     if (form_ == Form::json) {
-        fmt::print(stderr, "{}\n", text(true));
+        print_message("{}\n", text(true));
     } else {
-        fmt::print(stderr, "\r{}\x1b[K", text(false).substr(0, terminal_columns() - 1));
+        print_message("\r{}\x1b[K", text(false).substr(0, terminal_columns() - 1));
         std::fflush(stderr);
         is_shown_ = true;
     }

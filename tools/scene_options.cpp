@@ -4,6 +4,7 @@
 
 #include "base/checked_cast.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "formats/scene_toml.h"
 #include "in_range.h"
 #include "parse_values.h"
@@ -198,8 +199,8 @@ void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& re
 void print_frame_note(const SceneOptions& options, const Scene& scene) {
     const std::optional<FrameRange> all = frames_of(scene);
     if (!all || options.frame || options.frames) return;
-    fmt::print(stderr, "note: this is frame {0} of an animation; --frames {0}-{1} renders all {2}\n",
-               all->first, all->last, all->last - all->first + 1);
+    print_message("note: this is frame {0} of an animation; --frames {0}-{1} renders all {2}\n", all->first,
+                  all->last, all->last - all->first + 1);
 }
 
 }  // namespace voxilux

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint64_t kMaxMib = std::numeric_limits<std::uint64_t>::max() >> 20;
+constexpr std::int64_t kMaxMib = std::int64_t{1} << 40;
 
 }  // namespace
 
@@ -59,9 +59,12 @@ void add_device_flags(Flags& flags, DeviceOptions& options, std::uint64_t& memor
                       const std::string& caches) {
     flags.begin_group("Device");
     add_device_flag(flags, options.selector);
-    flags.on<std::uint64_t>(
+    flags.on<std::int64_t>(
         "--memory-budget", "N",
-        [&memory_budget_bytes](std::uint64_t mib) { memory_budget_bytes = std::min(mib, kMaxMib) << 20; },
+        [&memory_budget_bytes](std::int64_t mib) {
+            const std::int64_t checked = checked_range("--memory-budget", mib, 0, kMaxMib);
+            memory_budget_bytes = static_cast<std::uint64_t>(checked) << 20;
+        },
         "most memory on the device, in MiB; 0 is no limit (default 0)");
     flags.add_switch("--no-cache", options.no_cache, fmt::format("neither read nor write {}", caches));
     flags.add_switch("--validation", options.validation, "run under the Vulkan validation layers");

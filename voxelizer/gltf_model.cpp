@@ -10,6 +10,7 @@
 #include <charconv>
 #include <limits>
 
+#include "base/json.h"
 #include "base/printable.h"
 #include "voxelizer/load_mesh.h"
 
@@ -66,7 +67,7 @@ void reserve_lists(const json& form, tinygltf::Model& model) {
 }  // namespace
 
 tinygltf::Model parse_model(json form, const BufferReader& read_buffer) {
-    const std::string text = form.dump();
+    const std::string text = json_text(form);
     if (text.size() > std::numeric_limits<unsigned>::max()) throw MeshFault("over 4 GiB of JSON");
     tinygltf::Model model;
     reserve_lists(form, model);

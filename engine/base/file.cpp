@@ -1,12 +1,20 @@
 #include "base/file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <random>
+#include <set>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.h"
@@ -18,6 +26,10 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
     std::error_code status;
     if (fs::is_directory(path, status))
         throw Error(ExitCode::input_refused, fmt::format("{}: is a folder, not a file", path.string()));
+    if (fs::is_fifo(path, status))
+        throw Error(
+            ExitCode::input_refused,
+            fmt::format("{}: is a pipe, which cannot be sought: save it as a file first", path.string()));
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     if (!in) {
         throw Error(ExitCode::input_refused,
@@ -38,11 +50,19 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
 
 namespace {
 
-// The file that a name stands for: what a link points to, so that the link stays a link.
-fs::path resolved(const fs::path& path) {
+constexpr int kMaxLinks = 40;  // as the kernel follows
+constexpr std::string_view kTemporaryPrefix = ".voxilux-", kTemporaryEnding = ".tmp";
+constexpr auto kStaleAfter = std::chrono::hours(1);
+
+// The file that a name stands for: what a chain of links points to, there or not, so that the links stay.
+fs::path resolved(fs::path path) {
     std::error_code failed;
-    const fs::path target = fs::canonical(path, failed);
-    return failed ? path : target;
+    for (int links = 0; links < kMaxLinks && fs::is_symlink(path, failed); ++links) {
+        const fs::path target = fs::read_symlink(path, failed);
+        if (failed) break;
+        path = path.parent_path() / target;  // an absolute target replaces the folder
+    }
+    return path;
 }
 
 // A device or a pipe cannot be replaced by a renamed file, only written to.
@@ -51,19 +71,80 @@ bool is_written_in_place(const fs::path& path) {
     return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored);
 }
 
+[[noreturn]] void throw_errno() {
+    throw std::runtime_error(std::strerror(errno));
+}
+
+// A new, empty file beside `target` and with its mode; removed with the object unless renamed before.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& target) {
+        std::random_device random;
+        const std::uint64_t name = std::uint64_t{random()} << 32 | random();
+        path_ = target.parent_path() /
+                fmt::format("{}{}-{:016x}{}", kTemporaryPrefix, ::getpid(), name, kTemporaryEnding);
+        struct stat old {};
+        const bool is_there = ::stat(target.c_str(), &old) == 0;
+        const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file < 0) throw_errno();
+        if (is_there) (void)::fchmod(file, old.st_mode & 07777);
+        ::close(file);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() { (void)::unlink(path_.c_str()); }
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+    void rename_to(const fs::path& target) const {
+        sync(path_, O_RDONLY);
+        if (::rename(path_.c_str(), target.c_str()) != 0) throw_errno();
+        try {  // the picture is there; some file systems cannot sync a folder
+            sync(target.has_parent_path() ? target.parent_path() : ".", O_RDONLY | O_DIRECTORY);
+        } catch (const std::runtime_error&) {
+        }
+    }
+
+  private:
+    static void sync(const fs::path& path, int flags) {
+        const int file = ::open(path.c_str(), flags | O_CLOEXEC);
+        if (file < 0) throw_errno();
+        const int failure = ::fsync(file) == 0 ? 0 : errno;
+        ::close(file);
+        errno = failure;
+        if (failure != 0) throw_errno();
+    }
+
+    fs::path path_;
+};
+
+// Those that killed processes have left: their process is gone, and nobody has touched them for an hour (a
+// folder may be shared with other machines).
+void remove_stale_temporaries(const fs::path& folder) {
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        int process = 0;
+        if (!name.starts_with(kTemporaryPrefix) || !name.ends_with(kTemporaryEnding)) continue;
+        if (std::sscanf(name.c_str() + kTemporaryPrefix.size(), "%d", &process) != 1 || process <= 0)
+            continue;
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        const auto written = entry.last_write_time(failed);
+        if (!failed && fs::file_time_type::clock::now() - written > kStaleAfter)
+            fs::remove(entry.path(), failed);
+    }
+}
+
 }  // namespace
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    const fs::path target = resolved(path);
-    fs::path temporary = target;
-    temporary += fmt::format(".{}.tmp", ::getpid());
     try {
+        const fs::path target = resolved(path);
+        if (fs::is_symlink(target)) throw std::runtime_error(std::strerror(ELOOP));
         if (is_written_in_place(target)) return write(target);
-        write(temporary);
-        fs::rename(temporary, target);
+        const TemporaryFile temporary(target);
+        write(temporary.path());
+        temporary.rename_to(target);
     } catch (const std::exception& cause) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
         throw Error(ExitCode::cannot_write, fmt::format("{}: cannot write: {}", path.string(), cause.what()));
     }
 }
@@ -90,14 +171,43 @@ void check_writable(const fs::path& file) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ExitCode::cannot_write, fmt::format("{}: cannot write: {}", file.string(), why));
     };
+    struct stat found {};
+    if (::stat(file.c_str(), &found) != 0 && (errno == ENAMETOOLONG || errno == ELOOP))
+        refuse(std::strerror(errno));
+    const fs::path target = resolved(file);
     std::error_code ignored;
-    if (fs::is_directory(file, ignored)) refuse("it is a folder");
-    const bool is_device = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (fs::is_directory(target, ignored)) refuse("it is a folder");
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : ".";
     if (!fs::is_directory(folder, ignored)) refuse(fmt::format("there is no folder {}", folder.string()));
-    const fs::path& written = is_device ? file : folder;
+    const fs::path& written = is_written_in_place(target) ? target : folder;
     if (::access(written.c_str(), W_OK) != 0)
         refuse(fmt::format("{}: {}", written.string(), std::strerror(errno)));
+}
+
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    const auto place = [](const std::string& name) {
+        std::error_code failed;
+        const fs::path known = fs::weakly_canonical(fs::absolute(resolved(name)), failed);
+        return failed ? fs::path(name) : known;
+    };
+    std::set<fs::path> read, written, folders;
+    for (const std::string& input : inputs) {
+        if (!input.empty()) read.insert(place(input));
+    }
+    for (const std::string& output : outputs) {
+        check_writable(output);
+        const bool is_file = !output.empty() && output != "-" && !is_written_in_place(resolved(output));
+        if (!is_file) continue;
+        const fs::path target = place(output);
+        if (read.contains(target))
+            throw Error(ExitCode::usage, fmt::format("{}: is an input; write to another file", output));
+        if (!written.insert(target).second)
+            throw Error(ExitCode::usage,
+                        fmt::format("{}: is written twice; give each output a name", output));
+        folders.insert(target.parent_path());
+    }
+    for (const fs::path& folder : folders)
+        remove_stale_temporaries(folder);
 }
 
 }  // namespace voxilux

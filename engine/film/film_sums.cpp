@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
+#include "base/printable.h"
 #include "film/film.h"
 #include "formats/exr.h"
 
@@ -151,6 +152,30 @@ void load_first(const Image& image, const std::string& name, std::size_t compone
     film.firsts[name] = std::move(values);
 }
 
+// Why the planes cannot be those of one film; empty when they can. A plane has one component or three, a half
+// has its other half, and pictures and merging rely on both.
+std::string damage_of(const FilmSums& film) {
+    for (const auto& [name, sums] : film.sums) {
+        const std::size_t components = sums.size() / pixels_of(film);
+        if (components != 1 && components != 3)
+            return fmt::format("its plane {} is damaged", quoted_name(name));
+        if (!is_half(name)) continue;
+        const auto other =
+            film.sums.find(name.substr(0, name.size() - 1) + (name.ends_with("a") ? "b" : "a"));
+        if (other == film.sums.end() || other->second.size() != sums.size())
+            return fmt::format("its plane {} lacks the other half", quoted_name(name));
+    }
+    const auto is_colour = [&](const char* name) {
+        const auto plane = film.sums.find(name);
+        return plane != film.sums.end() && plane->second.size() == 3 * pixels_of(film);
+    };
+    if (!is_colour("beauty_a")) return "it has no sums of the beauty";
+    for (const char* name : {kSquaresPlane, "bias_a"}) {
+        if (film.sums.contains(name) && !is_colour(name)) return fmt::format("its plane {} is damaged", name);
+    }
+    return "";
+}
+
 }  // namespace
 
 FilmHalves::FilmHalves(const FilmSums& film)
@@ -213,13 +238,7 @@ Result<FilmSums> load_sums(const Image& image) {
         const std::size_t components = stored_components(image, plane);
         if (components > 0) film.sums[plane] = joined_words(image, plane, components);
     }
-    for (const char* half : {"beauty_a", "beauty_b"}) {
-        if (!film.sums.contains(half) || film.sums.at(half).size() != 3 * pixel_count(image))
-            return Failure{fmt::format("it has no sums of {}", half)};
-    }
-    const auto squares = film.sums.find(kSquaresPlane);
-    if (squares != film.sums.end() && squares->second.size() != 3 * pixel_count(image))
-        return Failure{"its squares are damaged"};
+    if (const std::string damage = damage_of(film); !damage.empty()) return Failure{damage};
     load_first(image, "position", 3, film);
     load_first(image, "depth", 1, film);
     return film;

@@ -19,7 +19,28 @@ namespace {
 
 constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;  // a person's file is a thousandth of it
 
+constexpr int kMaxDottedKeys = 32, kMaxBrackets = 32;
+
+// The library's tables are copied and destroyed recursively, and a dotted key makes one a dot: what would
+// nest deeper than a scene ever does is refused before it is parsed. Dots count from one delimiter to the
+// next, comments and texts included.
+void check_nesting(std::string_view text, const std::string& path) {
+    int dots = 0, brackets = 0;
+    char before = '\n';
+    for (const char c : text) {
+        if (c == '.') dots = before == '.' ? 0 : dots + 1;
+        if (c == '=' || c == ',' || c == '\n') dots = 0;
+        if (c == '[' || c == '{') ++brackets;
+        if (c == ']' || c == '}') --brackets;
+        if (dots > kMaxDottedKeys || brackets > kMaxBrackets)
+            throw Error(ExitCode::input_refused,
+                        fmt::format("{}: nested deeper than {} levels", path, kMaxDottedKeys));
+        before = c;
+    }
+}
+
 toml::table parse_toml(std::string_view text, const std::string& path) {
+    check_nesting(text, path);
     try {
         return toml::parse(text, path);
     } catch (const toml::parse_error& error) {
@@ -36,6 +57,7 @@ toml::table parse_override(const std::string& option) {
         refuse_at({{}, {}, std::make_shared<const std::string>(path)},
                   "must be key=value, for example sun.elevation=10");
     const std::string key = option.substr(0, equals), value = option.substr(equals + 1);
+    check_nesting(key + " = " + value, path);
     try {
         return toml::parse(key + " = " + value, path);
     } catch (const toml::parse_error&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <utility>
 
 #include "base/error.h"
@@ -18,14 +19,18 @@ bool is_finished(const RenderOutcome& outcome) {
 
 // The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that depend
 // on those before cannot be resumed.
-void save_checkpoint(const Checkpoint& checkpoint, const Scene& scene, RenderOutcome outcome) {
-    if (outcome.plan.any(&Technique::keeps_state)) return;
+void save_checkpoint(const Checkpoint& checkpoint, const Scene& scene,
+                     const std::function<RenderOutcome()>& so_far) {
     try {
+        RenderOutcome outcome = so_far();
+        if (outcome.plan.any(&Technique::keeps_state)) return;
         FilmPart part = part_to_write(checkpoint.pictures, scene, std::move(outcome));
         const ExrOptions options = part.file;
         (void)write_exr(checkpoint.file, image_of(std::move(part)), options);
     } catch (const Error& error) {
         checkpoint.warn(fmt::format("no checkpoint: {}", error.what()));
+    } catch (const std::bad_alloc&) {
+        checkpoint.warn("no checkpoint: out of memory");
     }
 }
 
@@ -48,7 +53,8 @@ FilmStart resume_from(const Checkpoint& checkpoint, const Scene& scene, const Re
         if (!chosen.technique->mergeable())
             throw Error(ExitCode::usage, fmt::format("--resume: {}", chosen.technique->state));
     }
-    if (!fs::exists(checkpoint.file)) {
+    std::error_code ignored;
+    if (!fs::exists(checkpoint.file, ignored)) {
         checkpoint.note(fmt::format("there is no {}: the render starts anew", checkpoint.file.string()));
         return {};
     }
@@ -70,17 +76,18 @@ void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& o
     options.rehearse_end = [&](const Scene& scene, RenderOutcome strip) {
         rehearse_output(checkpoint, scene, std::move(strip));
     };
+    std::error_code ignored;
     if (checkpoint.file.empty()) return;
     options.checkpoint_s = checkpoint.every_s;
-    options.on_checkpoint = [&](const Scene& scene, RenderOutcome outcome) {
-        save_checkpoint(checkpoint, scene, std::move(outcome));
+    options.on_checkpoint = [&](const Scene& scene, const std::function<RenderOutcome()>& so_far) {
+        save_checkpoint(checkpoint, scene, so_far);
     };
-    options.keeps_film = !options.plan.shard.is_whole() || checkpoint.every_s > 0.0;
+    options.keeps_film = checkpoint.pictures.is_part || checkpoint.every_s > 0.0;
     if (resumes) {
         options.resume = [&](const Scene& scene, const RenderPlan& plan) {
             return resume_from(checkpoint, scene, plan);
         };
-    } else if (fs::exists(checkpoint.file)) {
+    } else if (fs::exists(checkpoint.file, ignored)) {
         checkpoint.note(
             fmt::format("there is a checkpoint, {}; --resume goes on from it", checkpoint.file.string()));
     }
@@ -88,7 +95,7 @@ void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& o
 
 void leave_checkpoint(const Checkpoint& checkpoint, const Scene& scene, const RenderOutcome& outcome) {
     if (!checkpoint.file.empty() && checkpoint.every_s > 0.0 && !is_finished(outcome))
-        save_checkpoint(checkpoint, scene, outcome);
+        save_checkpoint(checkpoint, scene, [&] { return outcome; });
 }
 
 void remove_checkpoint(const Checkpoint& checkpoint, const RenderOutcome& outcome) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/printable.h"
 #include "base/statistics.h"
 #include "formats/image_file.h"
@@ -107,8 +108,8 @@ void add_channel(const Image& image, const std::string& name, FileFacts& facts) 
 
 // A text attribute that holds JSON, as our report does, stays JSON.
 SortedJson attribute_json(const std::string& text) {
-    const SortedJson parsed = SortedJson::parse(text, nullptr, false);
-    return parsed.is_object() ? parsed : SortedJson(printable(text));
+    const std::optional<SortedJson> parsed = parse_json<SortedJson>(text);
+    return parsed && parsed->is_object() ? *parsed : SortedJson(printable(text));
 }
 
 // What `render` would say of the file: its warnings, and what is shown as something simpler.

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "base/error.h"
+#include "base/fnv.h"
+#include "base/json.h"
 #include "scene/scene_hash.h"
 
 namespace voxilux {
@@ -12,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 2;  // of the attribute; another one is refused
+constexpr int kFormat = 3;  // of the attribute; another one is refused
 
 Json matrix_json(const std::optional<glm::mat4>& matrix) {
     if (!matrix) return nullptr;
@@ -41,8 +44,18 @@ Json file_json(const ExrOptions& file) {
             {"world_to_ndc", matrix_json(file.world_to_ndc)}};
 }
 
-ExrOptions file_of(const Json& json) {
+void check(bool is_sound, const char* what) {
+    if (!is_sound) throw std::runtime_error(what);
+}
+
+// `film` gives the size of the picture, which lies inside the window's frame.
+ExrOptions file_of(const Json& json, const FilmSums& film) {
     const auto window = json.at("window").get<std::array<int, 4>>();
+    const auto is_inside = [](int begin, int size, int full) {
+        return full == 0 ? begin == 0 : begin >= 0 && full <= kMaxExrSide && begin <= full - size;
+    };
+    check(is_inside(window[0], film.width, window[2]) && is_inside(window[1], film.height, window[3]),
+          "its window is damaged");
     return {.window = {window[0], window[1], window[2], window[3]},
             .comments = json.at("comments").get<std::string>(),
             .world_to_camera = matrix_of(json.at("world_to_camera")),
@@ -64,17 +77,13 @@ Json part_json(const FilmPart& part) {
             {"file", file_json(part.file)}};
 }
 
-void check(bool is_sound, const char* what) {
-    if (!is_sound) throw std::runtime_error(what);
-}
-
 void read_json(const Json& json, FilmPart& part) {
     check(json.at("format") == kFormat, "it has another format, of another version");
     part.render = json.at("render");
     check(part.render.is_object(), "its description is damaged");
     part.spp = json.at("spp").get<std::uint32_t>();
     part.shards = json.at("shards").get<std::uint32_t>();
-    check(part.shards >= 1, "it has no shards");
+    check(part.shards >= 1 && part.shards <= kMaxShards, "its number of shards is damaged");
     for (const Json& row : json.at("done")) {
         const auto shard = row.at("shard").get<std::uint32_t>();
         const auto samples = row.at("samples").get<std::uint32_t>();
@@ -87,7 +96,7 @@ void read_json(const Json& json, FilmPart& part) {
     check(!part.done.empty() && (part.rows_ahead == 0 || part.done.size() == 1), "its samples are damaged");
     check(part.rows_ahead < static_cast<std::uint32_t>(part.film.height), "its rows are damaged");
     part.film.is_independent = json.at("independent").get<bool>();
-    part.file = file_of(json.at("file"));
+    part.file = file_of(json.at("file"), part.film);
 }
 
 // The samples of each row follow from those of the shards.
@@ -105,6 +114,30 @@ void count_rows(FilmPart& part) {
     }
 }
 
+std::uint64_t hash_of_text(std::uint64_t hash, const std::string& text) {
+    for (const char c : text)
+        hash = fnv1a(hash, static_cast<unsigned char>(c));
+    return fnv1a(hash, text.size());
+}
+
+std::string checksum_of(const Image& image) {
+    std::uint64_t hash = kFnvStart;
+    for (const char* name : {kPartAttribute, kReportAttribute})
+        hash = hash_of_text(hash, image.attributes.at(name));
+    for (const auto& [name, words] : image.words) {
+        hash = hash_of_text(hash, name);
+        for (const std::uint32_t word : words)
+            hash = fnv1a(hash, word);
+    }
+    for (const char* name : {"P.X", "P.Y", "P.Z", "Z"}) {
+        const auto plane = image.channels.find(name);
+        if (plane == image.channels.end()) continue;
+        for (const float value : plane->second.pixels)
+            hash = fnv1a(hash, std::bit_cast<std::uint32_t>(value));
+    }
+    return fmt::format("{:016x}", hash);
+}
+
 std::map<std::string, std::uint64_t> counts_of(const Json& json) {
     std::map<std::string, std::uint64_t> counts;
     for (const auto& [name, count] : json.items())
@@ -112,17 +145,26 @@ std::map<std::string, std::uint64_t> counts_of(const Json& json) {
     return counts;
 }
 
+Json parsed(const std::string& text) {
+    std::optional<Json> json = parse_json<Json>(text);
+    check(json.has_value(), "its description is no JSON");
+    return *std::move(json);
+}
+
 FilmPart decode(const Image& image) {
     const auto description = image.attributes.find(kPartAttribute);
     const auto report = image.attributes.find(kReportAttribute);
     check(description != image.attributes.end() && report != image.attributes.end(),
           "it is a picture without sums; parts are written by render --shard");
+    const auto checksum = image.attributes.find(kChecksumAttribute);
+    check(checksum != image.attributes.end(), "it has another format, of another version");
+    check(checksum->second == checksum_of(image), "it is damaged: its checksum is not that of its contents");
     FilmPart part;
     part.film = load_sums(image).value_or_throw(ExitCode::input_refused);
-    part.report = Json::parse(report->second);
+    part.report = parsed(report->second);
     (void)counts_of(part.report.at("work"));
     (void)counts_of(part.report.at("faults"));
-    read_json(Json::parse(description->second), part);
+    read_json(parsed(description->second), part);
     count_rows(part);
     return part;
 }
@@ -161,10 +203,15 @@ FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const E
 
 Image image_of(FilmPart part) {
     Image image = picture_of(part.film);
-    image.attributes[kPartAttribute] = part_json(part).dump();
-    image.attributes[kReportAttribute] = part.report.dump();
+    image.attributes[kPartAttribute] = json_text(part_json(part));
+    image.attributes[kReportAttribute] = json_text(part.report);
     store_sums(std::move(part.film), image);
+    seal(image);
     return image;
+}
+
+void seal(Image& image) {
+    image.attributes[kChecksumAttribute] = checksum_of(image);
 }
 
 FilmPart read_part(const fs::path& path) {
@@ -180,7 +227,8 @@ FilmPart read_part(const fs::path& path) {
 std::optional<std::string> difference(const Json& render, const Json& other) {
     for (const auto& [key, value] : other.items()) {
         const Json own = render.contains(key) ? render.at(key) : Json(nullptr);
-        if (own != value) return fmt::format("its {} is {} and not {}", key, own.dump(), value.dump());
+        if (own != value)
+            return fmt::format("its {} is {} and not {}", key, json_text(own), json_text(value));
     }
     if (render.size() != other.size()) return "it has other settings";
     return std::nullopt;

@@ -28,6 +28,7 @@ struct FilmPart {
 
 inline constexpr const char* kPartAttribute = "voxilux.part";
 inline constexpr const char* kReportAttribute = "voxilux.report";
+inline constexpr const char* kChecksumAttribute = "voxilux.checksum";
 
 // The part that an outcome holds, which must have kept its film. `report` is that of the outcome.
 [[nodiscard]] FilmPart part_of(const Scene& scene, RenderOutcome outcome, nlohmann::ordered_json report,
@@ -39,7 +40,11 @@ inline constexpr const char* kReportAttribute = "voxilux.report";
 // The picture of a part with everything that read_part() needs.
 [[nodiscard]] Image image_of(FilmPart part);
 
-// Throws Error(input_refused) for a file that is no part, or one of an unknown or inconsistent form.
+// Gives an image the checksum of all that read_part() uses of it: both texts, sums, positions and depths.
+void seal(Image& image);
+
+// Throws Error(input_refused) for a file that is no part, one of an unknown or inconsistent form, or a
+// damaged one.
 [[nodiscard]] FilmPart read_part(const std::filesystem::path& path);
 
 // The first setting in which two renders differ, as a clause: "its seed is 2 and not 1". Nothing when they

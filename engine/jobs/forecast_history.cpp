@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "base/json.h"
 #include "base/median.h"
 #include "base/user_folders.h"
 #include "jobs/forecast_report.h"
@@ -66,8 +67,8 @@ void make_room(const fs::path& file, int descriptor) {
 void read_lines(const fs::path& file, std::vector<Json>& entries) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
-        Json entry = Json::parse(line, nullptr, false);
-        if (entry.is_object()) entries.push_back(std::move(entry));
+        std::optional<Json> entry = parse_json<Json>(line);
+        if (entry && entry->is_object()) entries.push_back(*std::move(entry));
     }
 }
 
@@ -119,7 +120,7 @@ bool append_history(const fs::path& file, const Json& entry) {
     fs::create_directories(file.parent_path(), ignored);
     const Descriptor out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (out.number() < 0) return false;
-    const std::string line = entry.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string line = json_text(entry) + "\n";
     const bool is_written =
         ::write(out.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size());
     struct stat status {};

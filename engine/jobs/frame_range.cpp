@@ -19,6 +19,12 @@ std::optional<double> time_limit_of_frame(const FrameRangeJob& job, std::int64_t
     return std::max(left, 0.0) / static_cast<double>(job.frames.count() - index);
 }
 
+bool fits_in_time(const FrameRangeJob& job, std::int64_t index, double before_s,
+                  std::uint32_t before_samples) {
+    if (!job.time_limit_s || index == 0) return true;
+    return seconds_since(job.started) + before_s / std::max(before_samples, 1u) <= *job.time_limit_s;
+}
+
 std::function<void(const Progress&)> progress_of_range(const FrameRangeJob& job, std::int64_t index,
                                                        const std::function<void(const Progress&)>& show) {
     if (!show) return {};

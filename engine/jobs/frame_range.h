@@ -20,6 +20,11 @@ struct FrameRangeJob {
 // The time limit of the frame at `index`: each of those to come gets an equal part of the time that is left.
 [[nodiscard]] std::optional<double> time_limit_of_frame(const FrameRangeJob& job, std::int64_t index);
 
+// Whether the frame at `index` can still be rendered in time, when the one before took `before_s` for its
+// `before_samples`: one sample has to fit. The first frame always is.
+[[nodiscard]] bool fits_in_time(const FrameRangeJob& job, std::int64_t index, double before_s,
+                                std::uint32_t before_samples);
+
 // Calls `show` with the progress of the frame at `index` as that of the whole range. Empty where `show` is.
 [[nodiscard]] std::function<void(const Progress&)> progress_of_range(
     const FrameRangeJob& job, std::int64_t index, const std::function<void(const Progress&)>& show);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/file.h"
+#include "base/json.h"
 #include "formats/png.h"
 #include "jobs/report.h"
 #include "scene/scene_camera.h"
@@ -72,12 +73,12 @@ void write_picture(const std::filesystem::path& file, const Image& exr, const Ex
 }
 
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome) {
-    outcome.image.attributes[kReportAttribute] = report_of_picture(pictures, scene, outcome).dump();
-    const bool is_whole = outcome.plan.shard.is_whole();
-    const Image part = is_whole ? Image{} : image_of(part_to_write(pictures, scene, outcome));
+    outcome.image.attributes[kReportAttribute] = json_text(report_of_picture(pictures, scene, outcome));
+    const Image part = pictures.is_part ? image_of(part_to_write(pictures, scene, outcome)) : Image{};
     for (const std::string& file : pictures.files)
-        write_picture(file, is_whole ? outcome.image : part, exr_options(pictures, scene, outcome.plan),
-                      outcome.image, pictures.tone, outcome.statistics.faults);
+        write_picture(file, pictures.is_part ? part : outcome.image,
+                      exr_options(pictures, scene, outcome.plan), outcome.image, pictures.tone,
+                      outcome.statistics.faults);
 }
 
 FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome) {

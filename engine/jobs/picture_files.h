@@ -17,6 +17,7 @@ struct PictureFiles {
     std::vector<std::string> files;  // .exr or .png
     ToneMapOptions tone;             // of PNGs
     bool reproducible = false;       // no date and no times: equal runs give equal bytes
+    bool is_part = false;            // EXRs have the exact sums, for merging
     std::string scene_name;          // for people: the name of the scene's file
 };
 
@@ -30,7 +31,7 @@ using WriteFaults = std::map<std::string, std::uint64_t>;
 void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
                    const Image& png, const ToneMapOptions& tone, WriteFaults& faults);
 
-// Writes the picture into every file, a shard with its exact sums, and counts what did not fit their formats
+// Writes the picture into every file and counts what did not fit their formats
 // among the faults. `scene` is the still one that was rendered.
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome);
 

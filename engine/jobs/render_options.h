@@ -33,10 +33,11 @@ struct RenderOptions {
     std::optional<double> time_limit_s;  // of render_scene; a whole first sample is finished all the same
     std::optional<double> error_target;  // stop when the error estimate is below; relative, 0.01 is 1 %
     const std::atomic<bool>* interrupted = nullptr;
+    std::atomic<bool>* checkpoint_wanted = nullptr;  // on_checkpoint is called soon, and this is cleared
     // The film that the frame of this plan goes on from, asked once per frame; a new one when there is none.
     std::function<FilmStart(const Scene&, const RenderPlan&)> resume;
-    // Gets what is rendered so far, as if the render ended now.
-    std::function<void(const Scene&, RenderOutcome)> on_checkpoint;
+    // May ask for what is rendered so far, as if the render ended now: that takes memory.
+    std::function<void(const Scene&, const std::function<RenderOutcome()>& so_far)> on_checkpoint;
     // With a time limit: gets a strip of the picture and does to it what will be done to the picture at the
     // end, without leaving anything behind. How long that takes is what the limit has to leave room for.
     std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;

@@ -139,9 +139,11 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                              .shares = shares_};
     SampleLoop loop(inputs);
     FrameCalls calls{.on_progress = on_progress, .save = [&] {
-                         RenderOutcome so_far = loop.outcome();
-                         complete(so_far, load_s, start);
-                         options_.on_checkpoint(*scene_, std::move(so_far));
+                         options_.on_checkpoint(*scene_, [&] {
+                             RenderOutcome so_far = loop.outcome();
+                             complete(so_far, load_s, start);
+                             return so_far;
+                         });
                      }};
     if (options_.rehearse_end)
         calls.rehearse = [&](RenderOutcome strip) { options_.rehearse_end(*scene_, std::move(strip)); };

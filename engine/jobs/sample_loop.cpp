@@ -81,13 +81,18 @@ bool SampleLoop::take_sample(const FrameCalls& calls) {
         clock_.end_slice(begin_s, rows);
         report_progress(calls.on_progress);
         const double save_s = clock_.now_s();
-        if (checkpoints_.is_due(save_s)) {
+        if (checkpoints_.is_due(save_s) || is_checkpoint_wanted()) {
             calls.save();
             checkpoints_.saved(save_s, clock_.now_s());
         }
         has_ended = step.samples > 0;
     }
     return true;
+}
+
+bool SampleLoop::is_checkpoint_wanted() const {
+    std::atomic<bool>* const wanted = inputs_.options.checkpoint_wanted;
+    return wanted != nullptr && inputs_.options.keeps_film && wanted->exchange(false);
 }
 
 ErrorEstimate SampleLoop::measure_error() {

@@ -50,6 +50,7 @@ class SampleLoop {
 
   private:
     [[nodiscard]] bool take_sample(const FrameCalls& calls);
+    [[nodiscard]] bool is_checkpoint_wanted() const;
     [[nodiscard]] ErrorEstimate measure_error();
     void rehearse_end(const std::function<void(RenderOutcome)>& rehearse);
     void report_progress(const std::function<void(const Progress&)>& on_progress);

@@ -4,6 +4,8 @@
 
 namespace voxilux {
 
+inline constexpr std::uint32_t kMaxShards = 1u << 20;
+
 // A share of a render: of its samples 0, 1, 2, ... every `count`th one from number `index` on. A render that
 // is not shared is shard 0 of 1. Samples depend on their number alone, so the sums of all shards add up to
 // those of the whole render.

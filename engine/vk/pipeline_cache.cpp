@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/fnv.h"
 #include "vk/check.h"
 
 namespace voxilux {
@@ -16,11 +17,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxCacheBytes = std::size_t{256} << 20;
 constexpr std::size_t kHashBytes = 8;
 
-// FNV-1a, 64 bits (Fowler, Noll, Vo): finds damage, not malice.
-std::uint64_t fnv1a(std::span<const std::byte> bytes) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
+std::uint64_t hash_of(std::span<const std::byte> bytes) {
+    std::uint64_t hash = kFnvStart;
     for (const std::byte byte : bytes)
-        hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
+        hash = fnv1a(hash, std::to_integer<std::uint64_t>(byte));
     return hash;
 }
 
@@ -47,7 +47,7 @@ std::vector<std::byte> read_cache(const DeviceState& device, const fs::path& fol
         if (file.size() < kHashBytes) return {};
         std::memcpy(&hash, file.data(), kHashBytes);
         const auto data = std::span(file).subspan(kHashBytes);
-        if (hash != fnv1a(data) || !is_for(device, data)) return {};
+        if (hash != hash_of(data) || !is_for(device, data)) return {};
         return {data.begin(), data.end()};
     } catch (const Error&) {
         return {};
@@ -73,7 +73,7 @@ void save_pipeline_cache(const DeviceState& device, VkPipelineCache cache, const
     std::vector<std::byte> file(kHashBytes + size);
     if (vkGetPipelineCacheData(device.handle, cache, &size, file.data() + kHashBytes) != VK_SUCCESS) return;
     file.resize(kHashBytes + size);
-    const std::uint64_t hash = fnv1a(std::span(file).subspan(kHashBytes));
+    const std::uint64_t hash = hash_of(std::span(file).subspan(kHashBytes));
     std::memcpy(file.data(), &hash, kHashBytes);
     std::error_code status;
     fs::create_directories(folder, status);

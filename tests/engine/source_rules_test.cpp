@@ -60,6 +60,18 @@ std::vector<std::string> hand_kept_copies(const SourceFile& file) {
     return faults;
 }
 
+// Calls with a form of ours that cannot fail where the library's throws, and what to write instead.
+std::vector<std::string> calls_that_throw(const SourceFile& file) {
+    const Pattern print(R"(\b(fmt|std)::print(ln)?\()"), dump(R"(\.dump\()");
+    std::vector<std::string> faults;
+    for (const std::string& line : test::lines_of(file.text)) {
+        if (!print.find(line).empty()) faults.push_back(file.path + ": print_result, print_message: " + line);
+        if (!dump.find(line).empty() && file.path != "engine/base/json.h")
+            faults.push_back(file.path + ": json_text: " + line);
+    }
+    return faults;
+}
+
 // Lines that a file may have.
 std::size_t longest_file(const std::string& path) {
     if (path.starts_with("shaders/shared/")) return 250;
@@ -160,6 +172,19 @@ TEST(SourceText, copy_kept_by_hand_is_found) {
     EXPECT_EQ(hand_kept_copies({"a.h", "// Must match gpu_types.h\n"}).size(), 1u);
     EXPECT_EQ(hand_kept_copies({"a.h", "// keep in sync with the shader\n"}).size(), 1u);
     EXPECT_EQ(hand_kept_copies({"a.h", "// the matching state\n"}).size(), 0u);
+}
+
+TEST(SourceText, what_is_printed_and_written_as_json_cannot_throw) {
+    for (const char* folder : {"engine", "tools", "voxelizer"}) {
+        for (const SourceFile& file : test::source_files(folder, {".cpp", ".h"}))
+            EXPECT_EQ(test::joined(calls_that_throw(file)), "");
+    }
+}
+
+TEST(SourceText, call_that_throws_is_found) {
+    EXPECT_EQ(calls_that_throw({"a.cpp", "    fmt::print(stderr, \"a\");\n"}).size(), 1u);
+    EXPECT_EQ(calls_that_throw({"a.cpp", "    text = json.dump();\n"}).size(), 1u);
+    EXPECT_EQ(calls_that_throw({"a.cpp", "    print_result(\"a\");\n"}).size(), 0u);
 }
 
 TEST(SourceText, files_stay_short) {

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "formats/image_file.h"
 #include "formats/scene_toml.h"
 #include "write_json.h"
@@ -24,7 +25,7 @@ void print_rows(const std::vector<Row>& rows, const std::string& file, Json& jso
     for (const Row& row : rows)
         json.push_back(to_json(row));
     if (file == "-") return;
-    fmt::print("{}\n", describe(rows));
+    print_result("{}\n", describe(rows));
     std::fflush(stdout);
 }
 
@@ -50,7 +51,7 @@ Scene photon_scene(const BenchPhotonsCommand& command, const std::string& file) 
 void bench_march_scenes(const BenchMarchCommand& command,
                         const std::function<std::vector<BenchRow>(const BenchScene&)>& measure) {
     const BenchInputs& inputs = command.inputs;
-    check_writable(inputs.json);
+    check_outputs({inputs.json}, inputs.files);
     Json json = Json::array();
     std::vector<int> extents = command.extents;
     if (extents.empty() && inputs.files.empty()) extents = {256, 512};
@@ -72,7 +73,7 @@ int run_bench_march(const BenchMarchCommand& command) {
 
 int run_bench_ao(const BenchAoCommand& command) {
     const BenchInputs& inputs = command.inputs;
-    check_writable(inputs.json);
+    check_outputs({inputs.json}, inputs.files);
     Device device = open_device({.selector = inputs.device});
     Json json = Json::array();
     const auto run = [&](const std::string& name, Scene scene) {
@@ -96,7 +97,7 @@ int run_bench_photons(const BenchPhotonsCommand& command) {
         options.reference = read_image(command.reference);
     else if (options.box)
         throw Error(ExitCode::usage, "--box: there is nothing to compare with; --reference names a picture");
-    check_writable(inputs.json);
+    check_outputs({inputs.json}, inputs.files);
     Json json = {{"rows", Json::array()}, {"growth", Json::array()}};
     std::vector<std::string> files = inputs.files;
     if (files.empty()) files.emplace_back(kPhotonScene);

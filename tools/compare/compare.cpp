@@ -4,6 +4,8 @@
 #include <cstdio>
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/print.h"
 #include "estimators/compare_images.h"
 #include "formats/image_file.h"
 #include "jobs/or_null.h"
@@ -38,19 +40,19 @@ nlohmann::ordered_json json_of(const ImageComparison& c) {
 
 void print_facts(const ImageComparison& c) {
     const Metrics& m = c.metrics;
-    fmt::print("rmse {:.6g}\nmae {:.6g}\nrelmse {:.6g}\n", m.rmse, m.mae, m.relmse);
-    fmt::print("relmse without the worst 0.1% of pixels {:.6g}\nsmape {:.6g}\n", m.trimmed_relmse, m.smape);
+    print_result("rmse {:.6g}\nmae {:.6g}\nrelmse {:.6g}\n", m.rmse, m.mae, m.relmse);
+    print_result("relmse without the worst 0.1% of pixels {:.6g}\nsmape {:.6g}\n", m.trimmed_relmse, m.smape);
     if (c.flip_mean && c.flip->exposures > 0) {
-        fmt::print("flip {:.6g} (HDR, {} exposures)\n", *c.flip_mean, c.flip->exposures);
+        print_result("flip {:.6g} (HDR, {} exposures)\n", *c.flip_mean, c.flip->exposures);
     } else if (c.flip_mean) {
-        fmt::print("flip {:.6g} (LDR)\n", *c.flip_mean);
+        print_result("flip {:.6g} (LDR)\n", *c.flip_mean);
     } else {
-        fmt::print("flip cannot be computed: a value is not finite, or the reference is black\n");
+        print_result("flip cannot be computed: a value is not finite, or the reference is black\n");
     }
-    fmt::print("psnr {}\n", m.psnr ? fmt::format("{:.6g} dB (peak {})", *m.psnr, kPsnrPeak) : "infinite");
-    fmt::print("mean_ref {:.6g} {:.6g} {:.6g}\n", m.mean_ref[0], m.mean_ref[1], m.mean_ref[2]);
-    fmt::print("mean_test {:.6g} {:.6g} {:.6g}\n", m.mean_test[0], m.mean_test[1], m.mean_test[2]);
-    fmt::print("max_abs {:.6g}\npixels {}\n", m.max_abs, m.pixels);
+    print_result("psnr {}\n", m.psnr ? fmt::format("{:.6g} dB (peak {})", *m.psnr, kPsnrPeak) : "infinite");
+    print_result("mean_ref {:.6g} {:.6g} {:.6g}\n", m.mean_ref[0], m.mean_ref[1], m.mean_ref[2]);
+    print_result("mean_test {:.6g} {:.6g} {:.6g}\n", m.mean_test[0], m.mean_test[1], m.mean_test[2]);
+    print_result("max_abs {:.6g}\npixels {}\n", m.max_abs, m.pixels);
 }
 
 std::optional<double> metric_named(const ImageComparison& c, const std::string& name) {
@@ -68,7 +70,7 @@ int check_limits(const ImageComparison& comparison, const std::map<std::string, 
         const std::optional<double> value = metric_named(comparison, name);
         if (value && *value <= limit) continue;  // written so that a NaN does not pass
         const std::string shown = value ? fmt::format("is {:.6g}, ", *value) : "cannot be computed, ";
-        fmt::print(stderr, "{} {}over --max-{} {}\n", name, shown, name, limit);
+        print_message("{} {}over --max-{} {}\n", name, shown, name, limit);
         code = static_cast<int>(ExitCode::over_threshold);
     }
     return code;
@@ -99,19 +101,20 @@ void add_compare_flags(Flags& flags, CompareOptions& options) {
 }
 
 int run_compare(const CompareOptions& options) {
+    check_outputs({options.diff, options.json}, {options.ref, options.test, options.mask});
     const ImageComparison comparison = compare(options);
     if (const auto& box = comparison.common) {
         const std::string words =
             fmt::format("an image lacks pixels: compared in the window {},{},{},{} of both", box->x0, box->y0,
                         box->x1, box->y1);
         if (options.strict) throw Error(ExitCode::input_refused, words + " (--strict)");
-        fmt::print(stderr, "voxilux: note: {}\n", words);
+        print_message("voxilux: note: {}\n", words);
     }
     if (options.json != "-") print_facts(comparison);
     write_json(options.json, json_of(comparison));
     if (comparison.metrics.non_finite > 0) {
-        fmt::print(stderr, "{} of {} pixels hold a NaN or an infinity: no metric is defined\n",
-                   comparison.metrics.non_finite, comparison.metrics.pixels);
+        print_message("{} of {} pixels hold a NaN or an infinity: no metric is defined\n",
+                      comparison.metrics.non_finite, comparison.metrics.pixels);
     }
     if (!options.diff.empty())
         write_image(options.diff,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/print.h"
 #include "shared_flags.h"
 #include "vk/device.h"
 #include "write_json.h"
@@ -30,10 +31,10 @@ int run_devices(const DevicesCommand& command) {
     write_json(command.json, rows);
     if (command.json != "-") {
         for (const DeviceInfo& device : devices) {
-            fmt::print("{} {}  {}  ({}, {}){}\n", device.would_use ? "*" : " ", device.index, device.name,
-                       device.type, device.driver, device.usable ? "" : "  not usable");
+            print_result("{} {}  {}  ({}, {}){}\n", device.would_use ? "*" : " ", device.index, device.name,
+                         device.type, device.driver, device.usable ? "" : "  not usable");
             for (const std::string& lack : device.lacks)
-                fmt::print("       {}\n", lack);
+                print_result("       {}\n", lack);
         }
     }
     const bool any = std::ranges::any_of(devices, &DeviceInfo::usable);

@@ -1,6 +1,8 @@
 #include "info/info.h"
 
 #include "base/error.h"
+#include "base/file.h"
+#include "base/print.h"
 #include "jobs/file_facts.h"
 #include "shared_flags.h"
 #include "write_json.h"
@@ -13,8 +15,9 @@ void add_info_flags(Flags& flags, InfoOptions& options) {
 }
 
 int run_info(const InfoOptions& options) {
+    check_outputs({options.json}, {options.file});
     const FileFacts facts = file_facts(options.file);
-    if (options.json != "-") fmt::print("{}", facts.text);
+    if (options.json != "-") print_result("{}", facts.text);
     write_json(options.json, facts.json);
     return static_cast<int>(ExitCode::done);
 }

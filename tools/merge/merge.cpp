@@ -1,12 +1,25 @@
 #include "merge/merge.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/file.h"
+#include "base/json.h"
+#include "base/print.h"
 #include "jobs/merge_parts.h"
 #include "write_json.h"
 
 namespace voxilux {
 namespace {
+
+constexpr std::size_t kNamedShards = 10;
+
+std::string first_names(const std::vector<std::string>& names) {
+    const std::size_t named = std::min(names.size(), kNamedShards);
+    const std::string text =
+        fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(named), ", "));
+    return named == names.size() ? text : fmt::format("{} and {} more", text, names.size() - named);
+}
 
 FilmPart read_and_add(const MergeCommand& command) {
     PartSum sum;
@@ -17,7 +30,7 @@ FilmPart read_and_add(const MergeCommand& command) {
         throw Error(
             ExitCode::input_refused,
             fmt::format("the picture is not complete: shard {} is missing; --partial merges what is there",
-                        fmt::join(missing, ", ")));
+                        first_names(missing)));
     }
     return std::move(sum.total);
 }
@@ -26,7 +39,7 @@ FilmPart read_and_add(const MergeCommand& command) {
 Image picture_to_write(const FilmPart& part) {
     if (!missing_shards(part).empty()) return image_of(part);
     Image image = picture_of(part.film);
-    image.attributes[kReportAttribute] = part.report.dump();
+    image.attributes[kReportAttribute] = json_text(part.report);
     return image;
 }
 
@@ -42,14 +55,14 @@ void write_outputs(const PictureFiles& pictures, const FilmPart& part) {
 
 void print_merge(const MergeCommand& command, const FilmPart& part) {
     for (const auto& [name, count] : part.report.at("faults").items()) {
-        if (count != 0) fmt::print(stderr, "warning: fault {} counted {} times\n", name, count.dump());
+        if (count != 0) print_message("warning: fault {} counted {} times\n", name, json_text(count));
     }
     if (!command.report.prints()) return;
-    fmt::print("merged    {} of {} shards, {} of {} samples per pixel\n", part.done.size(), part.shards,
-               part.report.at("samples").dump(), part.spp);
-    fmt::print("error     {}\n", part.report.at("error").at("estimate").dump());
+    print_result("merged    {} of {} shards, {} of {} samples per pixel\n", part.done.size(), part.shards,
+                 json_text(part.report.at("samples")), part.spp);
+    print_result("error     {}\n", json_text(part.report.at("error").at("estimate")));
     for (const std::string& file : command.pictures.files)
-        fmt::print("wrote     {}\n", file);
+        print_result("wrote     {}\n", file);
 }
 
 }  // namespace
@@ -67,11 +80,16 @@ void add_merge_flags(Flags& flags, MergeCommand& command) {
 }
 
 int run_merge(const MergeCommand& command) {
-    for (const std::string& file : command.pictures.files)
-        check_writable(file);
-    check_writable(command.report.json);
+    std::vector<std::string> outputs = command.pictures.files;
+    outputs.push_back(command.report.json);
+    check_outputs(outputs, command.parts);
     FilmPart part = read_and_add(command);
-    part.report = merged_report(part, command.pictures.reproducible);
+    try {
+        part.report = merged_report(part, command.pictures.reproducible);
+    } catch (const nlohmann::json::exception& cause) {
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: its report is damaged: {}", command.parts.front(), cause.what()));
+    }
     write_outputs(command.pictures, part);
     print_merge(command, part);
     write_json(command.report.json, part.report);

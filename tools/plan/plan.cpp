@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "jobs/forecast_history.h"
@@ -41,23 +42,23 @@ int print_plan(const RenderCommand& command, const FrameList& frames, const Rend
     if (frames.is_sequence) json["frames"] = frames_json(frames);
     write_json(command.report.json, json);
     if (!command.report.prints()) return 0;
-    fmt::print("{}", describe(plan));
+    print_result("{}", describe(plan));
     if (frames.is_sequence)
-        fmt::print("frames    {}, this is the plan of frame {}\n", frames.count(), frames.first);
-    fmt::print("{}", more);
+        print_result("frames    {}, this is the plan of frame {}\n", frames.count(), frames.first);
+    print_result("{}", more);
     return 0;
 }
 
 void print_scene_messages(const RenderCommand& command, const Scene& scene) {
     print_frame_note(command.scene, scene);
     for (const std::string& warning : scene.warnings)
-        fmt::print(stderr, "warning: {}\n", warning);
+        print_message("warning: {}\n", warning);
 }
 
 int print_history(const RenderCommand& command) {
     const nlohmann::ordered_json judged = judge_history(read_history(history_file()), kHistoryRows);
     write_json(command.report.json, judged);
-    if (command.report.prints()) fmt::print("{}", describe_history(judged));
+    if (command.report.prints()) print_result("{}", describe_history(judged));
     return 0;
 }
 
@@ -72,7 +73,7 @@ void add_plan_flags(Flags& flags, PlanCommand& command) {
 
 int run_plan(const PlanCommand& plan_command) {
     const RenderCommand& command = plan_command.render;
-    check_writable(command.report.json);
+    check_outputs({command.report.json}, {command.scene.input});
     if (plan_command.history) return print_history(command);
     if (command.scene.input.empty()) throw Error(ExitCode::usage, "INPUT is required");
     const Checkpoint checkpoint = checkpoint_of(command);

@@ -1,6 +1,7 @@
 #include "render/print_render.h"
 
 #include "base/error.h"
+#include "base/print.h"
 #include "frame/footprint.h"
 #include "jobs/report.h"
 
@@ -16,41 +17,41 @@ std::string target_text(const RenderCommand& command) {
 
 void print_validation(const RenderOutcome& outcome) {
     for (const std::string& message : outcome.statistics.validation)
-        fmt::print(stderr, "validation: {}\n", message);
+        print_message("validation: {}\n", message);
 }
 
 void print_faults(const RenderOutcome& outcome) {
     for (const auto& [name, count] : outcome.statistics.faults) {
-        if (count != 0) fmt::print(stderr, "warning: fault {} counted {} times\n", name, count);
+        if (count != 0) print_message("warning: fault {} counted {} times\n", name, count);
     }
 }
 
 void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said) {
     if (command.report.quiet) return;
     for (const std::string& warning : outcome.statistics.warnings) {
-        if (said.insert(warning).second) fmt::print(stderr, "warning: {}\n", warning);
+        if (said.insert(warning).second) print_message("warning: {}\n", warning);
     }
     if (command.verbose) return;  // the plan that is printed has them
     for (const std::string& note : outcome.plan.notes) {
-        if (said.insert(note).second) fmt::print(stderr, "note: {}\n", note);
+        if (said.insert(note).second) print_message("note: {}\n", note);
     }
 }
 
 void print_missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
     if (command.report.quiet || !missed_error(command, outcome)) return;
     const RenderStatistics& statistics = outcome.statistics;
-    fmt::print(stderr,
-               "warning: stopped after {} samples with an error of up to {:.3g} %, over the {} asked for\n",
-               statistics.samples, 100.0 * statistics.error.high, target_text(command));
+    print_message(
+        "warning: stopped after {} samples with an error of up to {:.3g} %, over the {} asked for\n",
+        statistics.samples, 100.0 * statistics.error.high, target_text(command));
 }
 
 void print_outcome(const RenderCommand& command, const std::vector<std::string>& outputs,
                    const RenderOutcome& outcome) {
     if (!command.report.prints()) return;
-    if (command.verbose) fmt::print("{}", describe(outcome.plan));
-    fmt::print("{}", describe(outcome));
+    if (command.verbose) print_result("{}", describe(outcome.plan));
+    print_result("{}", describe(outcome));
     for (const std::string& file : outputs)
-        fmt::print("wrote     {}\n", file);
+        print_result("wrote     {}\n", file);
 }
 
 ExitCode exit_code(const RenderCommand& command, const RenderOutcome& outcome) {

@@ -19,7 +19,8 @@ namespace voxilux {
 namespace {
 
 // A picture that nobody named must not replace one that somebody kept.
-void check_outputs(const RenderCommand& command, const std::vector<std::string>& outputs) {
+void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
+    std::vector<std::string> files = {command.report.json};
     const FrameList frames = command.scene.frames.value_or(FrameList{});
     for (std::int64_t i = 0; i < frames.count(); ++i) {
         for (const std::string& file : files_of_frame(outputs, frames, frames.at(i))) {
@@ -29,10 +30,10 @@ void check_outputs(const RenderCommand& command, const std::vector<std::string>&
                     fmt::format("render: no -o was given and {} is there already; -o {} overwrites it", file,
                                 outputs.front()));
             }
-            check_writable(file);
+            files.push_back(file);
         }
     }
-    check_writable(command.report.json);
+    check_outputs(files, {command.scene.input});
 }
 
 int render_picture(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
@@ -66,8 +67,9 @@ int run_render(const RenderCommand& command) {
     RenderOptions options = render_options(command);
     use_checkpoint(checkpoint, command.resume, options);
     options.interrupted = &interrupted_by_signal();
+    options.checkpoint_wanted = &checkpoint_wanted_by_signal();
     ProgressLine progress(command.progress, command.report.quiet);
-    check_outputs(command, checkpoint.pictures.files);
+    check_outputs_of(command, checkpoint.pictures.files);
     Scene scene = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, scene);
     if (!command.report.quiet) print_frame_note(command.scene, scene);

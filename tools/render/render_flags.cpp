@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/print.h"
 #include "parse_values.h"
 #include "render/render.h"
 
@@ -86,6 +87,7 @@ Flag add_render_flags(Flags& flags, RenderCommand& command) {
 PictureFiles pictures_of(const RenderCommand& command) {
     PictureFiles pictures = command.pictures;
     const std::filesystem::path input = command.scene.input;
+    pictures.is_part = command.shard.has_value();
     pictures.scene_name = input.filename().string();
     if (pictures.files.empty()) pictures.files = {input.stem().string() + ".png"};
     return pictures;
@@ -95,9 +97,9 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
     Checkpoint checkpoint{.pictures = pictures_of(command),
                           .every_s = command.checkpoint_s.value_or(kCheckpointEvery_s)};
     checkpoint.note = [quiet = command.report.quiet](const std::string& line) {
-        if (!quiet) fmt::print(stderr, "note: {}\n", line);
+        if (!quiet) print_message("note: {}\n", line);
     };
-    checkpoint.warn = [](const std::string& line) { fmt::print(stderr, "warning: {}\n", line); };
+    checkpoint.warn = [](const std::string& line) { print_message("warning: {}\n", line); };
     check_part_flags(command, std::ranges::any_of(checkpoint.pictures.files, is_exr));
     if (!command.scene.frames) checkpoint.file = checkpoint_file(checkpoint.pictures);
     return checkpoint;

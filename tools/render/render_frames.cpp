@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "frame/footprint.h"
 #include "jobs/report.h"
 #include "render/print_render.h"
@@ -16,24 +17,23 @@ void print_frame(const RenderCommand& command, std::int64_t frame, const std::ve
     if (!command.report.prints()) return;
     const std::string error =
         statistics.error.is_known() ? fmt::format("{:.3g}", statistics.error.estimate) : "unknown";
-    fmt::print("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
-               statistics.samples, error, fmt::join(files, " "));
+    print_result("frame     {:<6} {:.2f} s, {} samples, error {}  {}\n", frame, statistics.wall_s,
+                 statistics.samples, error, fmt::join(files, " "));
     std::fflush(stdout);  // whoever waits for a frame reads it now
 }
 
 void print_end(const RenderCommand& command, const SequenceReport& report, std::size_t missed) {
     if (!command.report.quiet && missed != 0)
-        fmt::print(stderr, "warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
-                   report.frames.size(), target_text(command));
-    if (command.report.prints()) fmt::print("{}", describe(report.total));
+        print_message("warning: {} of {} frames stopped with an error over the {} asked for\n", missed,
+                      report.frames.size(), target_text(command));
+    if (command.report.prints()) print_result("{}", describe(report.total));
 }
 
-// Says how to go on from an interrupted frame.
-void print_interruption(const FrameList& frames, std::int64_t index) {
-    fmt::print(stderr,
-               "voxilux: interrupted in frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
-               frames.at(index), index, frames.count(), frames.at(index), frames.last,
-               frames.step == 1 ? "" : fmt::format("x{}", frames.step));
+// Says how to go on from the first frame that is not written.
+void print_rest(const FrameList& frames, std::int64_t index, const char* what_happened) {
+    print_message("voxilux: {} frame {}; {} of {} frames are written; go on with --frames {}-{}{}\n",
+                  what_happened, frames.at(index), index, frames.count(), frames.at(index), frames.last,
+                  frames.step == 1 ? "" : fmt::format("x{}", frames.step));
 }
 
 // What the frames so far left behind.
@@ -41,6 +41,7 @@ struct Rendered {
     SequenceReport report;
     std::set<std::string> said;
     std::size_t missed = 0;  // frames over the error asked for
+    RenderStatistics last;   // of the frame that was rendered last
     ExitCode code = ExitCode::done;
 };
 
@@ -56,11 +57,12 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
     pictures.files = files_of_frame(pictures.files, job.range.frames, frame);
     const std::vector<std::string>& files = pictures.files;
     write_pictures(pictures, session.scene(), outcome);
-    if (index == 0 && command.verbose && command.report.prints()) fmt::print("{}", describe(outcome.plan));
+    if (index == 0 && command.verbose && command.report.prints()) print_result("{}", describe(outcome.plan));
     print_validation(outcome);
     print_warnings(command, outcome, done.said);
     print_frame(command, frame, files, outcome.statistics);
     add_frame(done.report, frame, files, outcome);
+    done.last = outcome.statistics;
     if (missed_error(command, outcome)) ++done.missed;
     if (exit_code(command, outcome) == ExitCode::time_limit) done.code = ExitCode::time_limit;
     return true;
@@ -76,17 +78,22 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
 int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
     Rendered done;
     std::int64_t index = 0;
-    while (index < job.range.frames.count() && render_frame(command, session, job, index, done))
-        ++index;
-    const bool is_interrupted = index < job.range.frames.count();
+    const auto has_time = [&] { return fits_in_time(job.range, index, done.last.wall_s, done.last.samples); };
+    bool is_interrupted = false;
+    while (!is_interrupted && index < job.range.frames.count() && has_time()) {
+        is_interrupted = !render_frame(command, session, job, index, done);
+        if (!is_interrupted) ++index;
+    }
+    const bool has_rest = index < job.range.frames.count();
     if (index == 0) throw Error(ExitCode::interrupted, "interrupted in the first frame; nothing was written");
     SequenceReport& report = done.report;
     report.total.statistics.wall_s = seconds_since(job.range.started);
     print_faults(report.total);
     print_end(command, report, done.missed);
-    if (is_interrupted) print_interruption(job.range.frames, index);
+    if (has_rest) print_rest(job.range.frames, index, is_interrupted ? "interrupted in" : "no time left for");
     write_json(command.report.json, sequence_json(session.scene(), job.scene_hash, report));
-    return static_cast<int>(is_interrupted ? ExitCode::interrupted : done.code);
+    if (is_interrupted) return static_cast<int>(ExitCode::interrupted);
+    return static_cast<int>(has_rest ? ExitCode::time_limit : done.code);
 }
 
 }  // namespace voxilux

@@ -17,8 +17,8 @@ struct RenderJob {
 };
 
 // Renders a frame range and writes each frame as it ends; every frame gets an equal share of the time that is
-// left. An interrupted frame is not written. Returns done, time_limit (some frame ended before its error
-// target) or interrupted.
+// left. An interrupted frame is not written, and none begins that has no time for a sample. Returns done,
+// time_limit (a frame ended before its error target, or was not begun) or interrupted.
 [[nodiscard]] int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job);
 
 }  // namespace voxilux

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -50,8 +49,6 @@ struct Pipe {
 };
 
 void feed(Pipe& pipe, std::string_view text) {
-    // A child that ends early must not end us.
-    const auto before = std::signal(SIGPIPE, SIG_IGN);
     std::size_t done = 0;
     while (done < text.size()) {
         const ssize_t n = ::write(pipe.write, text.data() + done, text.size() - done);
@@ -60,7 +57,6 @@ void feed(Pipe& pipe, std::string_view text) {
         done += static_cast<std::size_t>(n);
     }
     Pipe::close_end(pipe.write);
-    std::signal(SIGPIPE, before);
 }
 
 struct FileActions {
@@ -95,10 +91,11 @@ int run_program(std::vector<std::string> words, std::string_view text, bool is_s
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-// The first Python that has matplotlib; empty without one.
+// The first Python that has matplotlib; empty without one. It is isolated (-I): else a matplotlib.py that
+// lies in the current folder would run.
 std::string python_with_matplotlib() {
     for (const char* python : kPythons)
-        if (run_program({python, "-c", "import matplotlib"}, "", true) == 0) return python;
+        if (run_program({python, "-I", "-c", "import matplotlib"}, "", true) == 0) return python;
     return "";
 }
 
@@ -113,7 +110,8 @@ void make_page(const fs::path& json, const fs::path& page) {
     const std::string python = python_with_matplotlib();
     if (python.empty()) refuse("there is no python3 with matplotlib: apt-get install python3-matplotlib");
     const fs::path temporary = page.string() + ".part";
-    const int code = run_program({python, "-", json.string(), temporary.string()}, page_source(), false);
+    const int code =
+        run_program({python, "-I", "-", json.string(), temporary.string()}, page_source(), false);
     std::error_code failure;
     if (code == 0) fs::rename(temporary, page, failure);
     if (code == 0 && !failure) return;

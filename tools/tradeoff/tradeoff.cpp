@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "estimators/difference_estimate.h"
 #include "jobs/effect_price.h"
 #include "jobs/price_list/make_price_list.h"
@@ -28,9 +29,9 @@ void prepare_folder(const TradeoffCommand& command) {
     if (failure)
         throw Error(ExitCode::cannot_write,
                     fmt::format("{}: cannot make the folder: {}", pictures.string(), failure.message()));
-    check_writable(fs::path(command.output) / "tradeoff.json");
-    check_writable(pictures / "reference.png");
-    check_writable(command.report.json);
+    check_outputs(
+        {fs::path(command.output) / "tradeoff.json", pictures / "reference.png", command.report.json},
+        {command.scene.input});
 }
 
 RenderOptions render_options(const TradeoffCommand& command) {
@@ -44,11 +45,11 @@ void warn(const PriceList& list) {
         for (const ParameterSetting& setting : parameter.settings) {
             const MeasuredConfiguration& configuration = list.configurations[setting.configuration];
             if (!configuration.refusal.empty())
-                fmt::print(stderr, "note: {} {} is left out: {}\n", parameter.label, setting.name,
-                           configuration.refusal);
+                print_message("note: {} {} is left out: {}\n", parameter.label, setting.name,
+                              configuration.refusal);
             if (configuration.configuration.traversal && configuration.other_pixels.value_or(0) != 0)
-                fmt::print(stderr, "warning: traversal {} changes {} pixels\n", setting.name,
-                           *configuration.other_pixels);
+                print_message("warning: traversal {} changes {} pixels\n", setting.name,
+                              *configuration.other_pixels);
         }
     }
 }
@@ -101,11 +102,11 @@ int run_tradeoff(const TradeoffCommand& command) {
     const fs::path folder = command.output;
     write_price_list(list, folder);
     write_json(command.report.json, to_json(list));
-    if (command.report.prints()) fmt::print("{}", describe(list));
+    if (command.report.prints()) print_result("{}", describe(list));
     if (!command.no_page) make_page(folder / "tradeoff.json", folder / "tradeoff.html");
     if (command.report.prints())
-        fmt::print("wrote     {}\n",
-                   (folder / (command.no_page ? "tradeoff.json" : "tradeoff.html")).string());
+        print_result("wrote     {}\n",
+                     (folder / (command.no_page ? "tradeoff.json" : "tradeoff.html")).string());
     return static_cast<int>(ExitCode::done);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "interrupt.h"
 #include "parse_values.h"
 #include "voxelize/voxelize_report.h"
@@ -121,8 +122,7 @@ int run_voxelize(const VoxelizeCommand& command) {
     if (command.parity && !request.is_solid) refuse("--parity: it is for --solid");
     if (command.parity) request.inside = InsideRule::parity;
     const std::string output = output_of(command);
-    check_writable(output);
-    check_writable(command.report.json);
+    check_outputs({output, command.report.json}, {command.mesh});
     ProgressLine progress(command.progress, command.report.quiet);
     const std::atomic<bool>& is_interrupted = interrupted_by_signal();
     request.progress = [&](double done) {
@@ -146,8 +146,8 @@ int run_voxelize(const VoxelizeCommand& command) {
 
     const VoxelizeFacts facts{command, mesh, set, palette, written, times, warnings, output};
     for (const std::string& warning : warnings)
-        fmt::print(stderr, "voxilux: warning: {}\n", warning);
-    if (command.report.prints()) fmt::print("{}", describe(facts));
+        print_message("voxilux: warning: {}\n", warning);
+    if (command.report.prints()) print_result("{}", describe(facts));
     write_json(command.report.json, report_json(facts));
     return static_cast<int>(ExitCode::done);
 }

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "base/file.h"
+#include "base/json.h"
 #include "film/tonemap.h"
 #include "formats/png.h"
 #include "jobs/price_list/difference_map.h"
@@ -41,7 +42,7 @@ void write_price_list(const PriceList& list, const fs::path& folder) {
     write_row(list, runs, list.equal_error, "equal-error", folder);
     const std::string csv = to_csv(list);
     write_file_atomically(folder / "tradeoff.csv", std::as_bytes(std::span(csv)));
-    const std::string json = to_json(list).dump(2) + "\n";
+    const std::string json = json_text(to_json(list), 2) + "\n";
     write_file_atomically(folder / "tradeoff.json", std::as_bytes(std::span(json)));
 }
 

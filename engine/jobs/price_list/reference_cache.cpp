@@ -8,6 +8,8 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/fnv.h"
+#include "base/json.h"
 #include "formats/exr.h"
 
 namespace voxilux {
@@ -17,21 +19,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAttribute = "voxilux.reference";
 constexpr std::array<const char*, 3> kColours = {"R", "G", "B"};
-constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325u;
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo): finds damage, not malice.
-std::uint64_t fnv1a(std::uint64_t hash, std::uint8_t byte) {
-    return (hash ^ byte) * 0x100000001b3u;
-}
 
 std::string hash_of(const Image& image) {
     std::uint64_t hash = kFnvStart;
     for (const char* name : kColours) {
-        for (const float value : image.channels.at(name).pixels) {
-            const auto bits = std::bit_cast<std::uint32_t>(value);
-            for (int shift = 0; shift < 32; shift += 8)
-                hash = fnv1a(hash, static_cast<std::uint8_t>(bits >> shift));
-        }
+        for (const float value : image.channels.at(name).pixels)
+            hash = fnv1a(hash, std::bit_cast<std::uint32_t>(value));
     }
     return fmt::format("{:016x}", hash);
 }
@@ -55,7 +48,8 @@ std::optional<CachedPicture> load_cached(const fs::path& folder, const std::stri
     if (folder.empty() || !fs::is_regular_file(file_of(folder, key), ignored)) return {};
     try {
         CachedPicture cached{.image = read_exr(file_of(folder, key))};
-        cached.facts = nlohmann::ordered_json::parse(cached.image.attributes.at(kAttribute));
+        cached.facts =
+            parse_json<nlohmann::ordered_json>(cached.image.attributes.at(kAttribute)).value_or(nullptr);
         if (cached.image.width != width || cached.image.height != height || !colour_planes(cached.image))
             return {};
         if (cached.facts.at("key") != key || cached.facts.at("colours") != hash_of(cached.image)) return {};
@@ -75,7 +69,7 @@ bool store_cached(const fs::path& folder, const std::string& key, const CachedPi
     nlohmann::ordered_json facts = picture.facts;
     facts["key"] = key;
     facts["colours"] = hash_of(image);
-    image.attributes[kAttribute] = facts.dump();
+    image.attributes[kAttribute] = json_text(facts);
     std::error_code failure;
     fs::create_directories(folder, failure);
     try {

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "base/error.h"
 #include "estimators/film_error.h"
@@ -188,6 +190,7 @@ TEST(FilmPart, damaged_description_is_refused) {
         const std::size_t at = text.find(from);
         EXPECT_NE(at, std::string::npos) << from;
         if (at != std::string::npos) text.replace(at, from.size(), to);
+        seal(image);
         (void)write_exr(scratch / "p.exr", image);
         try {
             (void)read_part(scratch / "p.exr");
@@ -197,15 +200,85 @@ TEST(FilmPart, damaged_description_is_refused) {
         }
         return std::string();
     };
-    EXPECT_EQ(refusal("\"format\":2", "\"format\":2"), "");
-    EXPECT_NE(refusal("\"format\":2", "\"format\":1"), "");
+    EXPECT_EQ(refusal("\"format\":3", "\"format\":3"), "");
+    EXPECT_NE(refusal("\"format\":3", "\"format\":2"), "");
     EXPECT_NE(refusal("\"shards\":3", "\"shards\":0"), "");
     EXPECT_NE(refusal("\"shards\":3", "\"shards\":1"), "") << "shard 2 of 1";
     EXPECT_NE(refusal("\"samples\":4", "\"samples\":5"), "") << "more than a shard has";
     EXPECT_NE(refusal("\"samples\":4", "\"samples\":-4"), "");
     EXPECT_NE(refusal("\"rows_ahead\":0", "\"rows_ahead\":3"), "") << "as many as there are rows";
     EXPECT_NE(refusal("\"done\":[{", "\"done\":[{\"shard\":2,\"samples\":1},{"), "") << "a shard twice";
+    EXPECT_NE(refusal("\"shards\":3", "\"shards\":4294967295"), "");
+    EXPECT_NE(refusal("\"window\":[0,0,0,0]", "\"window\":[0,0,2147483647,3]"), "");
+    EXPECT_NE(refusal("\"window\":[0,0,0,0]", "\"window\":[-1,0,5,3]"), "");
+    EXPECT_NE(refusal("\"window\":[0,0,0,0]", "\"window\":[1,0,5,3]"), "");
     EXPECT_NE(refusal("{", "["), "");
+}
+
+// An image with planes that no film has is refused, and not read past its end.
+TEST(FilmPart, planes_of_other_forms_are_refused) {
+    const ScratchFolder scratch;
+    const Image sound = image_of(part_of_shard({1, 3}));
+    const auto is_refused = [&](const std::function<void(Image&)>& damage) {
+        Image image = sound;
+        damage(image);
+        seal(image);
+        (void)write_exr(scratch / "p.exr", image);
+        try {
+            (void)read_part(scratch / "p.exr");
+        } catch (const Error& error) {
+            return error.code() == ExitCode::input_refused;
+        }
+        return false;
+    };
+    const auto add = [](Image& image, const std::string& name, int components) {
+        for (int i = 0; i < components; ++i) {
+            for (const char* half : {"lo", "hi"})
+                image.words[fmt::format("sums.{}.{}.{}", name, i, half)].resize(5 * 3);
+        }
+    };
+    EXPECT_FALSE(is_refused([](Image&) {}));
+    EXPECT_FALSE(is_refused([&](Image& image) { add(image, "normal", 3); }));
+    for (const int components : {2, 4})
+        EXPECT_TRUE(is_refused([&](Image& image) { add(image, "normal", components); }));
+    EXPECT_TRUE(is_refused([&](Image& image) { add(image, "bias_a", 3); })) << "one half";
+    EXPECT_TRUE(is_refused([&](Image& image) {
+        add(image, "bias_a", 1);
+        add(image, "bias_b", 3);
+    }));
+    EXPECT_TRUE(is_refused([&](Image& image) { add(image, "squares", 1); }));
+    for (const auto& [name, words] : sound.words)
+        EXPECT_TRUE(!name.starts_with("sums.beauty") || is_refused([&, gone = name](Image& image) {
+            image.words.erase(gone);
+        })) << name;
+}
+
+// Any single bit of what is read, at random places.
+TEST(FilmPart, flipped_bit_is_noticed) {
+    const ScratchFolder scratch;
+    const Image sound = image_of(part_of_shard({1, 3}));
+    std::mt19937 random(1);
+    const auto flip = [&](auto& container) {
+        auto& unit = container[random() % container.size()];
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &unit, sizeof unit);
+        bits ^= 1u << random() % (8 * sizeof unit);
+        std::memcpy(&unit, &bits, sizeof unit);
+    };
+    for (int round = 0; round < 100; ++round) {
+        Image image = sound;
+        if (round % 3 == 0) {
+            flip(image.channels.at("Z").pixels);
+        } else if (round % 3 == 1) {
+            flip(std::next(image.words.begin(), static_cast<std::ptrdiff_t>(random() % image.words.size()))
+                     ->second);
+        } else {
+            std::string& report = image.attributes.at(kReportAttribute);
+            report[random() % report.size()] ^= 1;
+        }
+        (void)write_exr(scratch / "p.exr", image);
+        EXPECT_THROW((void)read_part(scratch / "p.exr"), Error) << round;
+    }
 }
 
 // All orders of the shards, added one by one, and in groups that are written and read in between.

@@ -21,6 +21,13 @@ TEST(FrameRange, frames_to_come_share_the_time_that_is_left) {
     EXPECT_FALSE(time_limit_of_frame(four_frames(std::nullopt, 20.0), 0));
 }
 
+TEST(FrameRange, frame_begins_only_with_time_for_a_sample) {
+    EXPECT_TRUE(fits_in_time(four_frames(100.0, 50.0), 1, 80.0, 2));
+    EXPECT_FALSE(fits_in_time(four_frames(100.0, 70.0), 1, 80.0, 2));
+    EXPECT_TRUE(fits_in_time(four_frames(100.0, 200.0), 0, 0.0, 0)) << "one frame is better than none";
+    EXPECT_TRUE(fits_in_time(four_frames(std::nullopt, 200.0), 1, 80.0, 2));
+}
+
 TEST(FrameRange, progress_counts_frames_and_adds_those_to_come) {
     std::optional<Progress> shown;
     const auto show = [&](const Progress& progress) { shown = progress; };

@@ -41,9 +41,10 @@ Pipe make_pipe() {
     ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // drivers leak, and are gone when leaks are traced
     for (const auto& [name, value] : surroundings.environment)
         ::setenv(name.c_str(), value.c_str(), 1);
+    for (const int signal : surroundings.ignored_signals)
+        ::signal(signal, SIG_IGN);
     if (surroundings.largest_file > 0) {
         const rlimit limit{surroundings.largest_file, surroundings.largest_file};
-        ::signal(SIGXFSZ, SIG_IGN);  // then the write fails, as on a full disk
         ::setrlimit(RLIMIT_FSIZE, &limit);
     }
     std::vector<char*> words{const_cast<char*>(VX_BINARY)};
@@ -62,19 +63,25 @@ bool read_some(int descriptor, std::string& text) {
     return count > 0;
 }
 
+// -1 without a name.
+int open_to_write(const fs::path& file) {
+    return file.empty() ? -1 : ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
     const Pipe out = make_pipe();
     const Pipe err = make_pipe();
-    const int file = surroundings.output_file.empty()
-                         ? -1
-                         : ::open(surroundings.output_file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    const int out_file = open_to_write(surroundings.output_file);
+    const int err_file = open_to_write(surroundings.error_file);
     pid_ = ::fork();
-    if (pid_ == 0) become(arguments, surroundings, file >= 0 ? file : out.write, err.write);
-    ::close(out.write);
-    ::close(err.write);
-    if (file >= 0) ::close(file);
+    if (pid_ == 0)
+        become(arguments, surroundings, out_file >= 0 ? out_file : out.write,
+               err_file >= 0 ? err_file : err.write);
+    for (const int end : {out.write, err.write, out_file, err_file}) {
+        if (end >= 0) ::close(end);
+    }
     if (pid_ < 0) throw std::runtime_error("cannot start a process");
     out_ = out.read;
     err_ = err.read;

@@ -15,6 +15,8 @@ struct Surroundings {
     std::filesystem::path folder;                    // current folder; empty: that of the test
     std::map<std::string, std::string> environment;  // set on top of the test's own
     std::filesystem::path output_file;               // where standard output goes; empty: a pipe that is read
+    std::filesystem::path error_file;                // likewise of standard error
+    std::vector<int> ignored_signals;
     std::uint64_t largest_file = 0;  // bytes a written file may have, as on a full disk; 0: no limit
 };
 

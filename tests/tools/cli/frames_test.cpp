@@ -122,11 +122,24 @@ TEST(Frames, time_limit_is_shared_and_every_frame_is_whole) {
 TEST(Frames, error_missed_in_time_ends_with_4) {
     const ScratchFolder scratch;
     const Ending ending = run({"render", scene_file("turntable"), "--size", "32x18", "--frames", "1-2",
-                               "--error", "0.0001%", "--time-limit", "0.5s", "-o", scratch / "a.png"});
+                               "--error", "0.0001%", "--time-limit", "3s", "-o", scratch / "a.png"});
     EXPECT_EQ(ending.code, 4) << ending.err;
     EXPECT_NE(ending.err.find("2 of 2 frames stopped with an error over the 0.0001% asked for"),
               std::string::npos)
         << ending.err;
+}
+
+// One sample of a frame takes longer than all frames may.
+TEST(Frames, that_have_no_time_are_not_begun_and_named) {
+    const ScratchFolder scratch;
+    const Ending ending =
+        run({"render", scene_file("turntable"), "--size", "640x360", "--ao", "brute", "--ao-rays", "64",
+             "--frames", "1-9", "--time-limit", "0.2s", "-q", "-o", "a.png"},
+            {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 4) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), Words{"a.0001.png"});
+    EXPECT_EQ(ending.err,
+              "voxilux: no time left for frame 2; 1 of 9 frames are written; go on with --frames 2-9\n");
 }
 
 // The first frame takes its share of the time; the signal comes in the second.

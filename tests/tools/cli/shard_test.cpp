@@ -69,6 +69,17 @@ TEST(Merge, crops_and_parts_with_times_merge_to_the_same_bytes) {
     EXPECT_EQ(timed.channels.at("R").pixels, read_exr(scratch / "whole.exr").channels.at("R").pixels);
 }
 
+TEST(Merge, one_shard_of_one_is_the_picture) {
+    const ScratchFolder scratch;
+    const Surroundings here{.folder = scratch.path()};
+    const Words job = {"render", scene_file("mixed"), "--size", "32x18", "--spp",
+                       "3",      "--reproducible",    "-q"};
+    ASSERT_EQ(run(with(job, {"-o", "a.exr"}), here).code, 0);
+    ASSERT_EQ(run(with(job, {"-o", "part.exr", "--shard", "1/1"}), here).code, 0);
+    ASSERT_EQ(run({"merge", "part.exr", "-o", "b.exr", "--reproducible"}, here).code, 0);
+    EXPECT_TRUE(bytes_of(scratch / "a.exr") == bytes_of(scratch / "b.exr"));
+}
+
 TEST(Merge, another_seed_gives_other_bytes) {
     const ScratchFolder scratch;
     EXPECT_EQ(run(mixed_of_7({"--reproducible", "-o", "whole.exr"}), {.folder = scratch.path()}).code, 0);

@@ -171,7 +171,7 @@ TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
     expect_a_front(made);
 }
 
-TEST(TradeoffReference, is_cached_and_rebuilt_when_the_file_is_damaged) {
+TEST(TradeoffReferenceNightly, is_cached_and_rebuilt_when_the_file_is_damaged) {
     const Made first("2");
     ASSERT_EQ(first.ending.code, 0);
     const fs::path references = first.folder / "cache" / "voxilux" / "references";
@@ -230,11 +230,17 @@ TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;
     Words words = small_list(folder / "list", "2");
     std::erase(words, "--no-page");
-    const Ending ending = run(words, {.environment = {{"PYTHONHOME", "/nonexistent"}}});
+    // A folder that holds something is where the page should go, and a module of the library's name lies
+    // about.
+    std::filesystem::create_directories(folder / "list/tradeoff.html/kept");
+    write_text(folder / "matplotlib.py", "open('ran', 'w')");
+    const Ending ending = run(words, {.folder = folder.path()});
+    EXPECT_FALSE(std::filesystem::exists(folder / "ran")) << "the current folder is not ours";
     EXPECT_EQ(ending.code, 73);
     EXPECT_NE(ending.err.find("--no-page"), std::string::npos) << ending.err;
     EXPECT_EQ(std::ranges::count(ending.err, '\n'), 1) << ending.err;
-    EXPECT_EQ(names_in(folder / "list"), (Words{"pictures", "tradeoff.csv", "tradeoff.json"}));
+    EXPECT_EQ(names_in(folder / "list"),
+              (Words{"pictures", "tradeoff.csv", "tradeoff.html", "tradeoff.json"}));
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST_P(VoxelizeExternal, voxels_are_those_of_the_oracle_at_32_and_64) {
 INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternal,
                          testing::Values("AlphaBlendModeTest.glb", "BoxInterleaved.glb",
                                          "BoxVertexColors.glb", "CubeImageUriSpaces/CubeImageUriSpaces.gltf",
-                                         "Duck.glb", "Mesh_PrimitiveMode_04/Mesh_PrimitiveMode_04.gltf",
+                                         "Mesh_PrimitiveMode_04/Mesh_PrimitiveMode_04.gltf",
                                          "Mesh_PrimitiveMode_12/Mesh_PrimitiveMode_12.gltf",
                                          "TextureTransformTest/TextureTransformTest.gltf",
                                          "box_sparse/box_sparse.gltf", "cornell-box.glb",
