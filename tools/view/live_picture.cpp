@@ -51,11 +51,6 @@ void LivePicture::edit(std::span<const BoxEdit> edits) {
     renderer_.edit(edits);
 }
 
-void LivePicture::restart() {
-    renderer_.restart();
-    forget();
-}
-
 void LivePicture::begin_motion() {
     if (!is_moving()) apply_motion();
     moving_frames_ = kRestFrames;
@@ -77,7 +72,6 @@ void LivePicture::end_motion() {
 }
 
 void LivePicture::forget() {
-    sampling_s_ = 0.0;
     passes_.clear();
 }
 
@@ -102,7 +96,6 @@ LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
     if (samples() < end) {
         const StepResult step = renderer_.step(budget_s, end);
         add_times(passes_, step.passes);
-        sampling_s_ += seconds_since(start);
     }
     frame.samples = samples();
     frame.step_s = seconds_since(start);

@@ -44,8 +44,6 @@ class LivePicture {
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] std::uint32_t samples() const { return renderer_.film().position().samples; }
     [[nodiscard]] std::uint32_t max_samples() const { return max_samples_; }
-    // Seconds that the samples at rest have taken so far.
-    [[nodiscard]] double sampling_s() const { return sampling_s_; }
     // Of the picture at rest.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] const PlanRequest& request() const { return request_; }
@@ -55,9 +53,6 @@ class LivePicture {
     [[nodiscard]] const Executor& executor() { return renderer_.executor(); }
 
     void set_frame_time(double seconds) { resolution_.set_target(seconds); }
-
-    // The film was overwritten by others: it starts again.
-    void restart();
 
   private:
     void begin_motion();
@@ -72,7 +67,6 @@ class LivePicture {
     std::uint32_t max_samples_ = 1;
     int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
     DisplayBuffer shown_;
-    double sampling_s_ = 0.0;
     std::vector<PassTime> passes_;
 };
 

@@ -112,7 +112,10 @@ class Session {
     std::vector<InputEvent> take_input() {
         std::vector<InputEvent> events = window_.poll(is_idle() ? kIdleWait_s : 0.0);
         while (next_step_ < script_.steps.size() && is_due(script_.steps[next_step_])) {
-            const ScriptAction& action = script_.steps[next_step_++].action;
+            const ScriptAction& action = script_.steps[next_step_].action;
+            // A screenshot is of this frame: what comes after it waits.
+            if (!state_.screenshots.empty() && !std::holds_alternative<ScreenshotAction>(action)) break;
+            ++next_step_;
             if (const auto* event = std::get_if<InputEvent>(&action)) events.push_back(*event);
             if (const auto* resize = std::get_if<ResizeAction>(&action)) resize_window(resize->size);
             if (const auto* shot = std::get_if<ScreenshotAction>(&action))

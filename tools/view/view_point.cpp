@@ -89,13 +89,4 @@ ViewPoint flown(const ViewPoint& view, glm::dvec3 way) {
     return next;
 }
 
-ViewPoint centred(const ViewPoint& view, glm::dvec3 centre) {
-    ViewPoint next = view;
-    next.centre = centre;
-    const YawPitch direction = yaw_pitch_of(centre - view.camera.position);
-    next.camera.yaw_deg = direction.yaw_deg;
-    next.camera.pitch_deg = direction.pitch_deg;
-    return next;
-}
-
 }  // namespace voxilux

@@ -32,7 +32,5 @@ struct ViewPoint {
 [[nodiscard]] ViewPoint looked(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);
 // Flies along the camera's axes (right, up, forward), by voxels.
 [[nodiscard]] ViewPoint flown(const ViewPoint& view, glm::dvec3 way);
-// Looks at a point from where it is.
-[[nodiscard]] ViewPoint centred(const ViewPoint& view, glm::dvec3 centre);
 
 }  // namespace voxilux

@@ -161,8 +161,4 @@ void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(state_->handle, title.c_str());
 }
 
-void Window::copy_text(const std::string& text) {
-    glfwSetClipboardString(state_->handle, text.c_str());
-}
-
 }  // namespace voxilux

@@ -45,11 +45,5 @@ TEST(ViewPoint, zoom_keeps_what_is_under_the_pointer) {
     EXPECT_LT(glm::length(after.camera.position - point), glm::length(before.camera.position - point));
 }
 
-TEST(ViewPoint, centred_looks_at_the_point) {
-    const ViewPoint after = centred(start(), {3.0, 4.0, 5.0});
-    EXPECT_LT(glm::length(place_of(after.camera, {3.0, 4.0, 5.0}) - 0.5 * kSize), 1e-6);
-    EXPECT_EQ(after.camera.position, start().camera.position);
-}
-
 }  // namespace
 }  // namespace voxilux

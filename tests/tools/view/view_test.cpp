@@ -12,7 +12,7 @@
 namespace voxilux::test {
 namespace {
 
-#define SKIP_WITHOUT_DISPLAY() \
+#define SKIP_UNLESS_DISPLAY() \
     if (std::string_view(VX_BINARY).empty()) GTEST_SKIP() << "no xvfb-run (Debian: apt install xvfb)"
 
 // The colours of an image.
@@ -51,7 +51,7 @@ std::string film(int frame, const std::string& file) {
 }
 
 TEST(WindowFilm, at_rest_it_is_that_of_render) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     play(scratch, film(0, "first.exr") + orbit(5, 20) + film(12, "turned.exr") + "[[step]]\nkey = 'Enter'\n" +
                       film(22, "again.exr"));
@@ -66,7 +66,7 @@ TEST(WindowFilm, at_rest_it_is_that_of_render) {
 }
 
 TEST(WindowFilm, motion_is_coarser_than_rest) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     play(scratch, orbit(3, 10) + film(12, "film.exr"));
     std::set<int> widths;
@@ -78,7 +78,7 @@ TEST(WindowFilm, motion_is_coarser_than_rest) {
 }
 
 TEST(WindowEdit, shows_and_its_way_back_is_the_first_picture) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const auto edit = [](const std::string& material) {
         return "[[step]]\nedit = { from = [40, -64, 38], to = [50, -54, 43]" + material + " }\n";
@@ -91,7 +91,7 @@ TEST(WindowEdit, shows_and_its_way_back_is_the_first_picture) {
 }
 
 TEST(WindowSize, resizes_are_followed_without_a_message) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     std::string script;
     for (int i = 0; i < 8; ++i)
@@ -106,7 +106,7 @@ TEST(WindowSize, resizes_are_followed_without_a_message) {
 }
 
 TEST(WindowDrop, broken_file_leaves_the_picture) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     write_text(scratch / "broken.toml", "[sun\n");
     play(scratch, film(0, "before.exr") + "[[step]]\ndrop = 'broken.toml'\n" + film(6, "after.exr"));
@@ -114,7 +114,7 @@ TEST(WindowDrop, broken_file_leaves_the_picture) {
 }
 
 TEST(WindowFlags, frames_and_screenshot_need_no_script) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const Ending ending = run({"view", scene_file("first_light"), "--size", "96x54", "--frames", "4",
                                "--screenshot", "a.png", "--report", "report.json"},
@@ -125,7 +125,7 @@ TEST(WindowFlags, frames_and_screenshot_need_no_script) {
 }
 
 TEST(WindowFlags, bad_script_is_refused_with_its_line) {
-    SKIP_WITHOUT_DISPLAY();
+    SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     write_text(scratch / "script.toml", "[[step]]\nkey = 'Hyper'\n");
     const Ending ending =
