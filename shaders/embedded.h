@@ -15,6 +15,9 @@ struct EmbeddedShader {
 // Entry points of shaders/passes.
 [[nodiscard]] std::span<const EmbeddedShader> pass_shaders();
 
+// Entry points of shaders/window, of the stages that draw.
+[[nodiscard]] std::span<const EmbeddedShader> window_shaders();
+
 // Entry points of shaders/probe; only tests link them.
 [[nodiscard]] std::span<const EmbeddedShader> probe_shaders();
 

@@ -16,6 +16,7 @@
 #include "plan/plan.h"
 #include "render/render.h"
 #include "tradeoff/tradeoff.h"
+#include "view/view.h"
 #include "voxelize/voxelize.h"
 
 namespace voxilux {
@@ -186,6 +187,8 @@ int run_command_line(int argc, const char* const* argv) {
     commands.add<TradeoffCommand>(app, "tradeoff",
                                   "the price list: error against time for each setting that approximates",
                                   add_tradeoff_flags, run_tradeoff);
+    commands.add<ViewCommand>(app, "view", "show a scene in a window while it is rendered", add_view_flags,
+                              run_view);
     commands.add<InfoOptions>(app, "info", "what is in a .vox file, a scene file, an EXR or a PNG",
                               add_info_flags, run_info);
     commands.add<DevicesCommand>(app, "devices", "Vulkan devices, which would be used, what each lacks",

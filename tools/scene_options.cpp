@@ -113,7 +113,7 @@ void add_photon_flags(Flags& flags, SettingsChanges& changes) {
              "how slowly that radius declines, above 0 and up to 1, where it stays");
 }
 
-Flag add_scene_flags(Flags& flags, SceneOptions& options) {
+Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges) {
     PlanRequest& request = options.request;
     const Flag input = flags.add("INPUT", "", options.input, "a .vox file, or a scene file .toml");
     flags.begin_group("Scene");
@@ -128,10 +128,11 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options) {
     flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
                      "render columns X0 to X1-1 and rows Y0 to Y1-1 only");
     flags.add("--frame", "N", options.frame, "one picture, of this frame of an animated scene").from_zero();
-    flags
-        .add_parsed("--frames", "A-B[xS]", options.frames, parse_frames,
-                    "a picture for each frame from A to B, every Sth: x.png gives x.0001.png, ...")
-        .excludes("--frame");
+    if (renders_ranges)
+        flags
+            .add_parsed("--frames", "A-B[xS]", options.frames, parse_frames,
+                        "a picture for each frame from A to B, every Sth: x.png gives x.0001.png, ...")
+            .excludes("--frame");
     flags.on<std::vector<std::string>>(
         "--effect", "NAME=STATE",
         [&request](const std::vector<std::string>& texts) {

@@ -34,8 +34,8 @@ struct SceneOptions {
     PlanRequest request;                // the caller knows which channels its outputs hold
 };
 
-// Returns the flag of INPUT.
-Flag add_scene_flags(Flags& flags, SceneOptions& options);
+// Returns the flag of INPUT. `renders_ranges`: with --frames, a picture for each.
+Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges = true);
 
 // --photons, --radius and --alpha.
 void add_photon_flags(Flags& flags, SettingsChanges& changes);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "frame/footprint.h"
+#include "jobs/effect_time.h"
 #include "jobs/forecast_report.h"
 #include "jobs/occlusion_report.h"
 #include "jobs/photon_report.h"
@@ -15,36 +16,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Passes that every picture has: no effect pays for them.
-bool is_of_frame(const std::string& stem) {
-    return stem == "shade" || stem == "film" || stem == "world";
-}
-
-// The effect whose time a pass is. Photons of indirect light and of caustics are the same ones.
-Effect payer_of(const RenderPlan& plan, const std::string& stem) {
-    if (stem == "primary") return Effect::voxels;
-    if (stem == "sphere") return Effect::spheres;
-    if (stem == "photon") return plan.is_by_photons(Effect::indirect) ? Effect::indirect : Effect::caustics;
-    if (stem == "path") return Effect::indirect;
-    for (const EffectState& state : plan.effects) {
-        if (name_of(state.effect) == stem) return state.effect;
-    }
-    return Effect::aov;
-}
-
 Json effects_json(const RenderPlan& plan, const RenderStatistics* statistics) {
     Json rows = Json::array();
     for (const EffectState& state : plan.effects) {
         const std::string name(name_of(state.effect));
         Json row = {{"name", name}, {"on", state.on}, {"reason", state.reason}};
         if (statistics != nullptr) {
-            double ms = 0.0;
-            for (const PassTime& pass : statistics->passes) {
-                const std::string stem = pass.label.substr(0, pass.label.find('.'));
-                if (is_of_frame(stem)) continue;
-                if (payer_of(plan, stem) == state.effect) ms += pass.ms;
-            }
-            row["ms"] = ms;
+            row["ms"] = effect_ms(plan, statistics->passes, state.effect);
         }
         rows.push_back(row);
     }

@@ -51,7 +51,7 @@ StepResult FilmSteps::step_tile() {
     return done;
 }
 
-StepResult FilmSteps::step(double budget_s) {
+StepResult FilmSteps::step(double budget_s, std::uint32_t end_samples) {
     const auto start = Clock::now();
     clear_film();
     StepResult done;
@@ -61,7 +61,7 @@ StepResult FilmSteps::step(double budget_s) {
         (void)take(next, done);
         left_s = budget_s - seconds_since(start);
         next = next_tile(left_s);
-    } while (row_s_ * next.row_count <= left_s);
+    } while (position_.samples < end_samples && row_s_ * next.row_count <= left_s);
     return done;
 }
 

@@ -28,6 +28,9 @@ struct FilmPosition {
     }
 };
 
+// Of FilmSteps::step: only the time ends it.
+inline constexpr std::uint32_t kNoEnd = 0xFFFFFFFF;
+
 // What was done in a step.
 struct StepResult {
     std::uint32_t tiles = 0;
@@ -54,8 +57,9 @@ class FilmSteps {
     // Renders one tile, as large as the device should take at once.
     StepResult step_tile();
 
-    // Renders tiles until `budget_s` is over: one at least, and no other that is expected to end later.
-    StepResult step(double budget_s);
+    // Renders tiles until `budget_s` is over: one at least, and no other that is expected to end later, nor
+    // any after the sample that makes `end_samples` whole ones.
+    StepResult step(double budget_s, std::uint32_t end_samples = kNoEnd);
 
     // Renders this tile, which begins at the position, into a film that need not be empty; what it did is
     // added to `done`. `kept`: buffers to read back when it is rendered.

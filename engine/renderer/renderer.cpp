@@ -143,8 +143,8 @@ FilmSteps& Renderer::ready_film() {
     return *steps_;
 }
 
-StepResult Renderer::step(double budget_s) {
-    return with_uploads(ready_film().step(budget_s));
+StepResult Renderer::step(double budget_s, std::uint32_t end_samples) {
+    return with_uploads(ready_film().step(budget_s, end_samples));
 }
 
 StepResult Renderer::step_tile() {

@@ -48,7 +48,7 @@ class Renderer {
     void restart(FilmPosition start = {});
 
     // The steps of the film (film_steps.h), uploads included. prepare() comes first.
-    StepResult step(double budget_s);
+    StepResult step(double budget_s, std::uint32_t end_samples = kNoEnd);
     StepResult step_tile();
 
     // The film so far, read from the device.

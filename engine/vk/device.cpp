@@ -80,9 +80,20 @@ std::vector<DeviceInfo> describe_all(const std::vector<VkPhysicalDevice>& device
     return infos;
 }
 
+bool has_swapchains(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vk_check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "count the extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    vk_check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
+             "list the extensions");
+    return std::ranges::any_of(extensions, [](const auto& one) {
+        return std::string_view(one.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    });
+}
+
 // Enables every known feature that the device has, and notes what shaders must not use. Bounds-checked
 // buffers go with validation: they cost time on GPUs and turn a stray access into a defined one.
-void create_logical_device(DeviceState& state, bool validation) {
+void create_logical_device(DeviceState& state, bool validation, bool presents) {
     FeatureChain offered;
     query_features(state.physical, offered);
     FeatureChain enabled;
@@ -100,10 +111,15 @@ void create_logical_device(DeviceState& state, bool validation) {
                                         .queueFamilyIndex = state.family,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
+    if (presents && !has_swapchains(state.physical))
+        throw Error(ExitCode::no_device, fmt::format("device '{}' cannot present", state.info.name));
+    const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &enabled.base,
                                   .queueCreateInfoCount = 1,
-                                  .pQueueCreateInfos = &queue};
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = presents ? 1u : 0u,
+                                  .ppEnabledExtensionNames = &swapchain};
     vk_check(vkCreateDevice(state.physical, &info, nullptr, &state.handle),
              fmt::format("open the device '{}'", state.info.name));
     vkGetDeviceQueue(state.handle, state.family, 0, &state.queue);
@@ -171,14 +187,16 @@ std::size_t pick_device(std::span<const DeviceInfo> devices, std::string_view se
 Device open_device(const DeviceRequest& request) {
     auto state = std::make_unique<DeviceState>();
     state->sink.on_message = request.on_message;
-    state->instance = create_instance(request.validation, &state->sink);
+    std::vector<std::string> extensions;
+    if (request.surface != nullptr) extensions = request.surface->instance_extensions;
+    state->instance = create_instance(request.validation, &state->sink, extensions);
     const auto devices = physical_devices(state->instance.get());
     const auto infos = describe_all(devices);
     const std::size_t chosen = pick_device(infos, request.selector);
     state->physical = devices[chosen];
     state->info = infos[chosen];
     note_properties(*state);
-    create_logical_device(*state, request.validation);
+    create_logical_device(*state, request.validation, request.surface != nullptr);
     return Device(std::move(state));
 }
 

@@ -25,11 +25,19 @@ struct DeviceInfo {
     DeviceLimits limits;
 };
 
+// A window's side of Vulkan, for a device that presents to it.
+struct SurfaceSource {
+    std::vector<std::string> instance_extensions;
+    // Makes the window's surface (VkSurfaceKHR) of an instance (VkInstance). Throws Error(no_device).
+    std::function<std::uint64_t(void* instance)> create;
+};
+
 // Which device to open and how.
 struct DeviceRequest {
     std::string selector;                              // index, or part of the name in any case; empty: best
     bool validation = false;                           // Khronos validation and synchronization validation
     std::function<void(std::string_view)> on_message;  // each validation message as it comes; may be empty
+    const SurfaceSource* surface = nullptr;            // the device is to present to this window
 };
 
 struct DeviceState;

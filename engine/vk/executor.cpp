@@ -282,6 +282,10 @@ std::vector<MemoryRow> Executor::needed_memory() const {
     return with_staging(state_->buffers.declared(), state_->stream.staging_bytes());
 }
 
+const Buffer& Executor::buffer(std::string_view name) const {
+    return state_->buffers.at(name);
+}
+
 std::uint64_t Executor::pipelines_created() const {
     return state_->programs.pipelines_created();
 }

@@ -49,6 +49,7 @@ struct MemoryRow {
     std::uint64_t bytes = 0;
 };
 
+struct Buffer;
 struct ExecutorState;
 
 // Runs Recordings on a device: makes the buffers they declare, the pipelines they name, the barriers between
@@ -76,6 +77,9 @@ class Executor {
 
     // Pipelines made since construction.
     [[nodiscard]] std::uint64_t pipelines_created() const;
+
+    // For this room only: a buffer that is alive.
+    [[nodiscard]] const Buffer& buffer(std::string_view name) const;
 
   private:
     std::unique_ptr<ExecutorState> state_;

@@ -49,6 +49,11 @@ using UniquePipelineCache = UniqueHandle<VkPipelineCache, vkDestroyPipelineCache
 using UniqueDescriptorPool = UniqueHandle<VkDescriptorPool, vkDestroyDescriptorPool>;
 using UniqueCommandPool = UniqueHandle<VkCommandPool, vkDestroyCommandPool>;
 using UniqueFence = UniqueHandle<VkFence, vkDestroyFence>;
+using UniqueSwapchain = UniqueHandle<VkSwapchainKHR, vkDestroySwapchainKHR>;
+using UniqueImageView = UniqueHandle<VkImageView, vkDestroyImageView>;
+using UniqueRenderPass = UniqueHandle<VkRenderPass, vkDestroyRenderPass>;
+using UniqueFramebuffer = UniqueHandle<VkFramebuffer, vkDestroyFramebuffer>;
+using UniqueSemaphore = UniqueHandle<VkSemaphore, vkDestroySemaphore>;
 using UniqueQueryPool = UniqueHandle<VkQueryPool, vkDestroyQueryPool>;
 
 }  // namespace voxilux

@@ -1,7 +1,6 @@
 #include "vk/instance.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "base/error.h"
@@ -66,12 +65,14 @@ void check_created(VkResult result) {
                     "no Vulkan driver on this machine; the software one always works (Debian: apt install "
                     "mesa-vulkan-drivers)");
     }
+    if (result == VK_ERROR_EXTENSION_NOT_PRESENT)
+        throw Error(ExitCode::no_device, "the Vulkan loader cannot present to this window system");
     vk_check(result, "create the Vulkan instance");
 }
 
 }  // namespace
 
-Instance create_instance(bool validation, MessageSink* sink) {
+Instance create_instance(bool validation, MessageSink* sink, std::span<const std::string> more_extensions) {
     load_loader();
     if (validation && !has_layer(kValidationLayer)) {
         throw Error(ExitCode::no_device,
@@ -91,13 +92,17 @@ Instance create_instance(bool validation, MessageSink* sink) {
                                            .pNext = &messenger,
                                            .enabledValidationFeatureCount = 1,
                                            .pEnabledValidationFeatures = &synchronization};
-    const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    std::vector<const char*> extensions;
+    if (instance.has_debug_utils_) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validation) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    for (const std::string& name : more_extensions)
+        extensions.push_back(name.c_str());
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pNext = validation ? &features : nullptr;
     info.pApplicationInfo = &application;
     info.enabledLayerCount = validation ? 1 : 0;
     info.ppEnabledLayerNames = &kValidationLayer;
-    info.enabledExtensionCount = validation ? 2 : (instance.has_debug_utils_ ? 1 : 0);
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     check_created(vkCreateInstance(&info, nullptr, &instance.handle_));
     volkLoadInstance(instance.handle_);

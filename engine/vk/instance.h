@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,8 @@ class Instance {
     [[nodiscard]] bool has_debug_utils() const { return has_debug_utils_; }
 
   private:
-    friend Instance create_instance(bool validation, MessageSink* sink);
+    friend Instance create_instance(bool validation, MessageSink* sink,
+                                    std::span<const std::string> more_extensions);
 
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
@@ -39,7 +41,8 @@ class Instance {
 
 // Loads the Vulkan loader and makes an instance of version 1.3 (drivers of 1.2 are welcome in it). Throws
 // Error(no_device) when there is no loader or driver, or no validation layer although `validation` asks for
-// it.
-[[nodiscard]] Instance create_instance(bool validation, MessageSink* sink);
+// it, or none of the `more_extensions`.
+[[nodiscard]] Instance create_instance(bool validation, MessageSink* sink,
+                                       std::span<const std::string> more_extensions = {});
 
 }  // namespace voxilux

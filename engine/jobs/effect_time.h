@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+
+#include "plan/render_plan.h"
+#include "vk/pass_time.h"
+
+namespace voxilux {
+
+// Milliseconds of the passes that are there for an effect.
+[[nodiscard]] double effect_ms(const RenderPlan& plan, std::span<const PassTime> passes, Effect effect);
+
+}  // namespace voxilux

@@ -1,0 +1,319 @@
+#include "vk/presenter.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "base/error.h"
+#include "vk/buffer.h"
+#include "vk/check.h"
+#include "vk/device_state.h"
+#include "vk/swapchain.h"
+#include "vk/window_programs.h"
+
+namespace voxilux {
+namespace {
+
+constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMinBytes = 64;
+
+UniqueCommandPool create_command_pool(const DeviceState& device) {
+    const VkCommandPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .queueFamilyIndex = device.family};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    vk_check(vkCreateCommandPool(device.handle, &info, nullptr, &pool), "create the window's command pool");
+    return {device.handle, pool};
+}
+
+VkCommandBuffer allocate_commands(const DeviceState& device, VkCommandPool pool) {
+    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                           .commandPool = pool,
+                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                           .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    vk_check(vkAllocateCommandBuffers(device.handle, &info, &commands), "allocate the window's commands");
+    return commands;
+}
+
+UniqueFence create_window_fence(const DeviceState& device) {
+    const VkFenceCreateInfo info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    vk_check(vkCreateFence(device.handle, &info, nullptr, &fence), "create the window's fence");
+    return {device.handle, fence};
+}
+
+}  // namespace
+
+// Ends before its instance.
+struct WindowSurface {
+    WindowSurface(VkInstance of, VkSurfaceKHR handle) : instance(of), get(handle) {}
+    WindowSurface(const WindowSurface&) = delete;
+    WindowSurface& operator=(const WindowSurface&) = delete;
+    ~WindowSurface() { vkDestroySurfaceKHR(instance, get, nullptr); }
+
+    VkInstance instance;
+    VkSurfaceKHR get;
+};
+
+struct PresenterState {
+    PresenterState(DeviceState& opened, VkSurfaceKHR window, std::span<const EmbeddedShader> shaders)
+        : device(opened),
+          surface(opened.instance.get(), window),
+          format(choose_surface_format(opened, window)),
+          pass(create_window_pass(opened, format.format)),
+          programs(create_window_programs(opened, shaders, pass.get())),
+          pool(create_command_pool(opened)),
+          commands(allocate_commands(opened, pool.get())),
+          fence(create_window_fence(opened)),
+          acquired(create_semaphore(opened)) {}
+
+    // Copies to a buffer of the host that grows when it is short.
+    void fill(WindowBuffer which, std::span<const std::byte> bytes) {
+        Buffer& buffer = buffers[static_cast<std::size_t>(which)];
+        const std::uint64_t wanted = std::max<std::uint64_t>(bytes.size(), kMinBytes);
+        if (buffer.bytes < wanted) {
+            buffer = {};
+            buffer = create_staging_buffer(device, "window.buffer", wanted + wanted / 2);
+        }
+        if (!bytes.empty()) std::memcpy(buffer.mapped, bytes.data(), bytes.size());
+    }
+
+    DeviceState& device;
+    WindowSurface surface;
+    VkSurfaceFormatKHR format;
+    UniqueRenderPass pass;
+    WindowPrograms programs;
+    UniqueCommandPool pool;
+    VkCommandBuffer commands;
+    UniqueFence fence;
+    UniqueSemaphore acquired;
+    std::optional<Swapchain> swapchain;
+    bool is_stale = true;       // the swapchain is not that of the window
+    glm::ivec2 window_size{0};  // pixels when it was made
+    std::array<Buffer, kWindowBuffers> buffers;
+    Buffer captured;
+    glm::ivec2 reference{0};
+};
+
+namespace {
+
+void bind_buffers(const PresenterState& state, const Buffer& picture) {
+    std::array<VkDescriptorBufferInfo, kWindowBuffers> infos{};
+    std::array<VkWriteDescriptorSet, kWindowBuffers> writes{};
+    for (std::uint32_t i = 0; i < kWindowBuffers; ++i) {
+        const Buffer& buffer = i == 0 ? picture : state.buffers[i];
+        infos[i] = {buffer.handle.get(), 0, VK_WHOLE_SIZE};
+        writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                     .dstSet = state.programs.set,
+                     .dstBinding = i,
+                     .descriptorCount = 1,
+                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                     .pBufferInfo = &infos[i]};
+    }
+    vkUpdateDescriptorSets(state.device.handle, kWindowBuffers, writes.data(), 0, nullptr);
+}
+
+void draw_overlay(const PresenterState& state, const Overlay& overlay) {
+    const glm::ivec2 window(state.swapchain->extent.width, state.swapchain->extent.height);
+    vkCmdBindPipeline(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, state.programs.overlay.get());
+    for (const OverlayDraw& draw : overlay.draws) {
+        const glm::ivec2 first = glm::clamp(draw.first, glm::ivec2(0), window);
+        const glm::ivec2 extent = glm::clamp(draw.end, first, window) - first;
+        if (extent.x <= 0 || extent.y <= 0) continue;
+        const VkRect2D scissor{{first.x, first.y},
+                               {static_cast<std::uint32_t>(extent.x), static_cast<std::uint32_t>(extent.y)}};
+        vkCmdSetScissor(state.commands, 0, 1, &scissor);
+        vkCmdDraw(state.commands, draw.index_count, 1, draw.first_index, 0);
+    }
+}
+
+void draw_window(const PresenterState& state, std::uint32_t image, const gpu::WindowPush& push,
+                 const Overlay& overlay) {
+    const VkExtent2D extent = state.swapchain->extent;
+    const VkRenderPassBeginInfo begin{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                      .renderPass = state.pass.get(),
+                                      .framebuffer = state.swapchain->framebuffers[image].get(),
+                                      .renderArea = {{0, 0}, extent}};
+    vkCmdBeginRenderPass(state.commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                              0.0f, 1.0f};
+    const VkRect2D whole{{0, 0}, extent};
+    vkCmdSetViewport(state.commands, 0, 1, &viewport);
+    vkCmdSetScissor(state.commands, 0, 1, &whole);
+    const VkPipelineLayout layout = state.programs.layout.get();
+    vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+                            &state.programs.set, 0, nullptr);
+    vkCmdPushConstants(state.commands, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
+                       sizeof push, &push);
+    if (push.size.x > 0) {
+        vkCmdBindPipeline(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, state.programs.picture.get());
+        vkCmdDraw(state.commands, 3, 1, 0, 0);
+    }
+    draw_overlay(state, overlay);
+    vkCmdEndRenderPass(state.commands);
+}
+
+VkImageMemoryBarrier image_barrier(VkImage image, VkImageLayout from, VkImageLayout to) {
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT,
+            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT,
+            .oldLayout = from,
+            .newLayout = to,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
+}
+
+void record_capture(PresenterState& state, std::uint32_t image) {
+    const VkExtent2D extent = state.swapchain->extent;
+    const std::uint64_t bytes = std::uint64_t{4} * extent.width * extent.height;
+    if (state.captured.bytes < bytes)
+        state.captured = create_staging_buffer(state.device, "window.capture", bytes);
+    const VkImage from = state.swapchain->images[image];
+    const auto move_to = [&](VkImageLayout old_layout, VkImageLayout new_layout) {
+        const VkImageMemoryBarrier barrier = image_barrier(from, old_layout, new_layout);
+        vkCmdPipelineBarrier(state.commands,
+                             VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                             VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    };
+    move_to(VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    const VkBufferImageCopy region{
+        .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+        .imageExtent = {extent.width, extent.height, 1}};
+    vkCmdCopyImageToBuffer(state.commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           state.captured.handle.get(), 1, &region);
+    move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    const VkMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                  .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                  .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    vkCmdPipelineBarrier(state.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                         &to_host, 0, nullptr, 0, nullptr);
+}
+
+WindowCapture copy_capture(const PresenterState& state) {
+    const VkExtent2D extent = state.swapchain->extent;
+    WindowCapture capture{.size = {extent.width, extent.height}};
+    const std::size_t pixels = std::size_t{extent.width} * extent.height;
+    const std::size_t red = state.format.format == VK_FORMAT_B8G8R8A8_UNORM ? 2 : 0;
+    capture.rgb.resize(3 * pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::byte* const pixel = state.captured.mapped + 4 * i;
+        capture.rgb[3 * i] = static_cast<std::uint8_t>(pixel[red]);
+        capture.rgb[3 * i + 1] = static_cast<std::uint8_t>(pixel[1]);
+        capture.rgb[3 * i + 2] = static_cast<std::uint8_t>(pixel[2 - red]);
+    }
+    return capture;
+}
+
+// The swapchain of the window as it is now; false while that has no pixels.
+bool renew_swapchain(PresenterState& state, glm::ivec2 window) {
+    if (!std::exchange(state.is_stale, false) && window == state.window_size)
+        return state.swapchain.has_value();
+    vk_check(vkDeviceWaitIdle(state.device.handle), "wait for the window");
+    state.window_size = window;
+    const VkSwapchainKHR old = state.swapchain ? state.swapchain->handle.get() : VK_NULL_HANDLE;
+    state.swapchain =
+        create_swapchain(state.device, state.surface.get, state.format, state.pass.get(), window, old);
+    return state.swapchain.has_value();
+}
+
+// The number of the image to draw; nothing when the swapchain is out of date.
+std::optional<std::uint32_t> acquire(PresenterState& state) {
+    std::uint32_t image = 0;
+    const VkResult result = vkAcquireNextImageKHR(state.device.handle, state.swapchain->handle.get(), kNever,
+                                                  state.acquired.get(), VK_NULL_HANDLE, &image);
+    state.is_stale = result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR;
+    if (result == VK_ERROR_OUT_OF_DATE_KHR) return std::nullopt;
+    if (result != VK_SUBOPTIMAL_KHR) vk_check(result, "acquire an image of the window");
+    return image;
+}
+
+void submit_and_present(PresenterState& state, std::uint32_t image) {
+    const VkSemaphore acquired = state.acquired.get();
+    const VkSemaphore rendered = state.swapchain->rendered[image].get();
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                              .waitSemaphoreCount = 1,
+                              .pWaitSemaphores = &acquired,
+                              .pWaitDstStageMask = &stage,
+                              .commandBufferCount = 1,
+                              .pCommandBuffers = &state.commands,
+                              .signalSemaphoreCount = 1,
+                              .pSignalSemaphores = &rendered};
+    const VkFence fence = state.fence.get();
+    vk_check(vkQueueSubmit(state.device.queue, 1, &submit, fence), "draw the window");
+    const VkSwapchainKHR swapchain = state.swapchain->handle.get();
+    const VkPresentInfoKHR present{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                                   .waitSemaphoreCount = 1,
+                                   .pWaitSemaphores = &rendered,
+                                   .swapchainCount = 1,
+                                   .pSwapchains = &swapchain,
+                                   .pImageIndices = &image};
+    const VkResult result = vkQueuePresentKHR(state.device.queue, &present);
+    if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR)
+        state.is_stale = true;
+    else
+        vk_check(result, "present the window");
+    vk_check(vkWaitForFences(state.device.handle, 1, &fence, VK_TRUE, kNever), "wait for the window");
+    vk_check(vkResetFences(state.device.handle, 1, &fence), "reset the window's fence");
+}
+
+}  // namespace
+
+Presenter::Presenter(Device& device, const SurfaceSource& surface, std::span<const EmbeddedShader> shaders) {
+    DeviceState& opened = device.state();
+    const auto handle = std::bit_cast<VkSurfaceKHR>(surface.create(opened.instance.get()));
+    state_ = std::make_unique<PresenterState>(opened, handle, shaders);
+    for (std::size_t i = 0; i < kWindowBuffers; ++i)
+        state_->fill(static_cast<WindowBuffer>(i), {});
+}
+
+Presenter::~Presenter() {
+    vkDeviceWaitIdle(state_->device.handle);
+}
+
+void Presenter::set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size) {
+    std::vector<std::byte> bytes(sizeof(std::uint32_t) + coverage.size());
+    const auto width = static_cast<std::uint32_t>(size.x);
+    std::memcpy(bytes.data(), &width, sizeof width);
+    std::memcpy(bytes.data() + sizeof width, coverage.data(), coverage.size());
+    state_->fill(WindowBuffer::font, bytes);
+}
+
+void Presenter::set_picture(std::span<const float> rgb) {
+    state_->fill(WindowBuffer::picture, std::as_bytes(rgb));
+}
+
+void Presenter::set_reference(std::span<const float> rgb, glm::ivec2 size) {
+    state_->fill(WindowBuffer::reference, std::as_bytes(rgb));
+    state_->reference = size;
+}
+
+bool Presenter::present(const ShownPicture& picture, const Overlay& overlay, glm::ivec2 window,
+                        WindowCapture* capture) {
+    PresenterState& state = *state_;
+    if (window.x <= 0 || window.y <= 0 || !renew_swapchain(state, window)) return false;
+    const std::optional<std::uint32_t> image = acquire(state);
+    if (!image) return false;
+    state.fill(WindowBuffer::vertices, std::as_bytes(std::span(overlay.vertices)));
+    state.fill(WindowBuffer::indices, std::as_bytes(std::span(overlay.indices)));
+    bind_buffers(state,
+                 picture.executor != nullptr ? picture.executor->buffer(picture.buffer) : state.buffers[0]);
+    gpu::WindowPush push = picture.how;
+    push.window = {state.swapchain->extent.width, state.swapchain->extent.height};
+    push.reference = state.reference;
+    vk_check(vkResetCommandPool(state.device.handle, state.pool.get(), 0), "reset the window's commands");
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    vk_check(vkBeginCommandBuffer(state.commands, &begin), "begin the window's commands");
+    draw_window(state, *image, push, overlay);
+    if (capture != nullptr) record_capture(state, *image);
+    vk_check(vkEndCommandBuffer(state.commands), "end the window's commands");
+    submit_and_present(state, *image);
+    if (capture != nullptr) *capture = copy_capture(state);
+    return true;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,164 @@
+#include "vk/window_programs.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "shared/window.h"
+#include "vk/check.h"
+
+namespace voxilux {
+namespace {
+
+constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+UniqueSetLayout create_set_layout(const DeviceState& device) {
+    std::array<VkDescriptorSetLayoutBinding, kWindowBuffers> bindings{};
+    for (std::uint32_t i = 0; i < bindings.size(); ++i)
+        bindings[i] = {.binding = i,
+                       .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                       .descriptorCount = 1,
+                       .stageFlags = kStages};
+    const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                               .bindingCount = kWindowBuffers,
+                                               .pBindings = bindings.data()};
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    vk_check(vkCreateDescriptorSetLayout(device.handle, &info, nullptr, &layout), "create the window's set");
+    return {device.handle, layout};
+}
+
+UniquePipelineLayout create_layout(const DeviceState& device, VkDescriptorSetLayout set) {
+    const VkPushConstantRange push{kStages, 0, sizeof(gpu::WindowPush)};
+    const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                          .setLayoutCount = 1,
+                                          .pSetLayouts = &set,
+                                          .pushConstantRangeCount = 1,
+                                          .pPushConstantRanges = &push};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    vk_check(vkCreatePipelineLayout(device.handle, &info, nullptr, &layout), "create the window's layout");
+    return {device.handle, layout};
+}
+
+UniqueDescriptorPool create_pool(const DeviceState& device) {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kWindowBuffers};
+    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                          .maxSets = 1,
+                                          .poolSizeCount = 1,
+                                          .pPoolSizes = &size};
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    vk_check(vkCreateDescriptorPool(device.handle, &info, nullptr, &pool), "create the window's pool");
+    return {device.handle, pool};
+}
+
+VkDescriptorSet allocate_set(const DeviceState& device, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
+    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                           .descriptorPool = pool,
+                                           .descriptorSetCount = 1,
+                                           .pSetLayouts = &layout};
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    vk_check(vkAllocateDescriptorSets(device.handle, &info, &set), "allocate the window's set");
+    return set;
+}
+
+UniqueShaderModule create_module(const DeviceState& device, std::span<const EmbeddedShader> shaders,
+                                 std::string_view name) {
+    const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
+    if (found == shaders.end()) throw InternalError(fmt::format("internal error: no shader '{}'", name));
+    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .codeSize = found->spirv.size_bytes(),
+                                        .pCode = found->spirv.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    vk_check(vkCreateShaderModule(device.handle, &info, nullptr, &module),
+             fmt::format("create the shader '{}'", name));
+    return {device.handle, module};
+}
+
+VkPipelineColorBlendAttachmentState blending(bool blends) {
+    return {.blendEnable = blends ? VK_TRUE : VK_FALSE,
+            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .colorBlendOp = VK_BLEND_OP_ADD,
+            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+            .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+            .alphaBlendOp = VK_BLEND_OP_ADD,
+            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                              VK_COLOR_COMPONENT_A_BIT};
+}
+
+struct Stages {
+    const char* vertex = nullptr;
+    const char* fragment = nullptr;
+    bool blends = false;
+};
+
+UniquePipeline create_window_pipeline(const DeviceState& device, std::span<const EmbeddedShader> shaders,
+                                      const Stages& stages, VkPipelineLayout layout, VkRenderPass pass) {
+    const UniqueShaderModule vertex = create_module(device, shaders, stages.vertex);
+    const UniqueShaderModule fragment = create_module(device, shaders, stages.fragment);
+    std::array<VkPipelineShaderStageCreateInfo, 2> both{};
+    both[0] = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+               .stage = VK_SHADER_STAGE_VERTEX_BIT,
+               .module = vertex.get(),
+               .pName = "main"};
+    both[1] = both[0];
+    both[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    both[1].module = fragment.get();
+    const VkPipelineVertexInputStateCreateInfo input{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo raster{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO, .lineWidth = 1.0f};
+    const VkPipelineMultisampleStateCreateInfo samples{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineColorBlendAttachmentState attachment = blending(stages.blends);
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = 1,
+        .pAttachments = &attachment};
+    constexpr std::array kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkPipelineDynamicStateCreateInfo dynamic{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = kDynamic.size(),
+        .pDynamicStates = kDynamic.data()};
+    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .stageCount = both.size(),
+                                            .pStages = both.data(),
+                                            .pVertexInputState = &input,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &viewport,
+                                            .pRasterizationState = &raster,
+                                            .pMultisampleState = &samples,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamic,
+                                            .layout = layout,
+                                            .renderPass = pass};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vk_check(vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+             fmt::format("create the pipeline of '{}'", stages.fragment));
+    return {device.handle, pipeline};
+}
+
+}  // namespace
+
+WindowPrograms create_window_programs(const DeviceState& device, std::span<const EmbeddedShader> shaders,
+                                      VkRenderPass pass) {
+    WindowPrograms programs;
+    programs.set_layout = create_set_layout(device);
+    programs.layout = create_layout(device, programs.set_layout.get());
+    programs.pool = create_pool(device);
+    programs.set = allocate_set(device, programs.pool.get(), programs.set_layout.get());
+    const auto pipeline = [&](const Stages& stages) {
+        return create_window_pipeline(device, shaders, stages, programs.layout.get(), pass);
+    };
+    programs.picture = pipeline({"window_cover", "window_picture"});
+    programs.overlay = pipeline({"overlay_place", "overlay_tint", true});
+    return programs;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,148 @@
+// Windows of a virtual display, driven by scripts: the same code as a person's input.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "formats/image_file.h"
+#include "tools/cli/words.h"
+
+namespace voxilux::test {
+namespace {
+
+#define SKIP_UNLESS_DISPLAY() \
+    if (std::string_view(VX_BINARY).empty()) GTEST_SKIP() << "no xvfb-run (Debian: apt install xvfb)"
+
+// The colours of an image.
+std::map<std::string, std::vector<float>> beauty_of(const std::filesystem::path& file) {
+    const Image image = read_image(file);
+    std::map<std::string, std::vector<float>> planes;
+    for (const char* name : {"R", "G", "B"})
+        planes[name] = image.channels.at(name).pixels;
+    return planes;
+}
+
+// What a script leaves in a folder; its report is report.json.
+Ending play(const ScratchFolder& scratch, const std::string& script, const Words& more = {}) {
+    write_text(scratch / "script.toml", script);
+    const Ending ending = run(with({"view", scene_file("first_light"), "--size", "160x90", "--spp", "3",
+                                    "--script", "script.toml", "--report", "report.json", "--validation"},
+                                   more),
+                              {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    return ending;
+}
+
+Json report_of(const ScratchFolder& scratch) {
+    return Json::parse(bytes_of(scratch / "report.json"));
+}
+
+std::string orbit(int frame, int columns) {
+    return "[[step]]\nframe = " + std::to_string(frame) + "\nkey = 'Tab'\n" +
+           "[[step]]\nframe = " + std::to_string(frame + 2) +
+           "\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [" + std::to_string(80 + columns) +
+           ", 45]\n[[step]]\nrelease = 'left'\n";
+}
+
+std::string film(int frame, const std::string& file) {
+    return "[[step]]\nframe = " + std::to_string(frame) + "\nsamples = 3\nscreenshot = '" + file + "'\n";
+}
+
+TEST(WindowFilm, at_rest_it_is_that_of_render) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, film(0, "first.exr") + orbit(5, 20) + film(12, "turned.exr") + "[[step]]\nkey = 'Enter'\n" +
+                      film(22, "again.exr"));
+    const Ending render = run({"render", scene_file("first_light"), "--size", "160x90", "--spp", "3", "-q",
+                               "-o", scratch / "render.exr"});
+    ASSERT_EQ(render.code, 0) << render.err;
+    const auto rendered = beauty_of(scratch / "render.exr");
+    EXPECT_EQ(beauty_of(scratch / "first.exr"), rendered);
+    EXPECT_EQ(beauty_of(scratch / "again.exr"), rendered) << "after a motion and back";
+    EXPECT_NE(beauty_of(scratch / "turned.exr"), rendered) << "the orbit shows";
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowFilm, motion_is_coarser_than_rest) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, orbit(3, 10) + film(12, "film.exr"));
+    std::set<int> widths;
+    const Json report = report_of(scratch);
+    for (const Json& frame : report["frames"])
+        widths.insert(frame["width"].get<int>());
+    EXPECT_TRUE(widths.contains(160));
+    EXPECT_LT(*widths.begin(), 160);
+}
+
+TEST(WindowEdit, shows_and_its_way_back_is_the_first_picture) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const auto edit = [](const std::string& material) {
+        return "[[step]]\nedit = { from = [40, -64, 38], to = [50, -54, 43]" + material + " }\n";
+    };
+    play(scratch, film(0, "before.exr") + edit(", material = 0") + film(20, "edited.exr") + edit("") +
+                      film(40, "after.exr"));
+    EXPECT_NE(beauty_of(scratch / "edited.exr"), beauty_of(scratch / "before.exr"));
+    EXPECT_EQ(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowSize, resizes_are_followed_without_a_message) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    std::string script;
+    for (int i = 0; i < 8; ++i)
+        script += "[[step]]\nframe = " + std::to_string(2 * i + 1) + "\nresize = [" +
+                  std::to_string(100 + 37 * i % 150) + ", " + std::to_string(60 + 23 * i % 90) + "]\n";
+    play(scratch, script + "[[step]]\nresize = [120, 70]\n" + film(30, "film.exr") +
+                      "[[step]]\nscreenshot = 'window.png'\n");
+    EXPECT_EQ(report_of(scratch)["shown"]["window"], Json({120, 70}));
+    EXPECT_EQ(read_image(scratch / "window.png").width, 120);
+    EXPECT_EQ(read_image(scratch / "film.exr").width, 120);
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowDrop, broken_file_leaves_the_picture) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_text(scratch / "broken.toml", "[sun\n");
+    play(scratch, film(0, "before.exr") + "[[step]]\ndrop = 'broken.toml'\n" + film(6, "after.exr"));
+    EXPECT_EQ(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
+}
+
+TEST(WindowFlags, frames_and_screenshot_need_no_script) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const Ending ending = run({"view", scene_file("first_light"), "--size", "96x54", "--frames", "4",
+                               "--screenshot", "a.png", "--report", "report.json"},
+                              {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(report_of(scratch)["frames"].size(), 4u);
+    EXPECT_EQ(read_image(scratch / "a.png").width, 96);
+}
+
+TEST(WindowFlags, bad_script_is_refused_with_its_line) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_text(scratch / "script.toml", "[[step]]\nkey = 'Hyper'\n");
+    const Ending ending =
+        run({"view", scene_file("first_light"), "--script", "script.toml"}, {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 3);
+    EXPECT_NE(ending.err.find("script.toml:2"), std::string::npos) << ending.err;
+}
+
+TEST(WindowDisplay, none_is_one_line_that_names_render) {
+    const ScratchFolder scratch;
+    const std::string file = scratch / "err";
+    const int status = std::system(("DISPLAY= WAYLAND_DISPLAY= " VX_PLAIN_BINARY " view 2> " + file).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 69);
+    const std::string said = bytes_of(file);
+    EXPECT_NE(said.find("voxilux render"), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
+
+}  // namespace
+}  // namespace voxilux::test

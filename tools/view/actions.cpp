@@ -1,0 +1,133 @@
+#include "view/actions.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <array>
+
+namespace voxilux {
+namespace {
+
+constexpr double kFlightPerSecond = 0.5;  // of the distance to the centre
+constexpr float kExposureStep = 0.5f;     // stops
+
+void look_from(View side, glm::ivec2 window, ViewState& state) {
+    const double aspect = static_cast<double>(window.x) / std::max(window.y, 1);
+    const double fov_y_deg = state.view.camera.fov_y_deg;
+    state.view = view_of(framing_camera(state.box, side, aspect, fov_y_deg), state.box);
+}
+
+void take_screenshot(const char* ending, ViewState& state) {
+    const std::string stem = state.input.empty() ? "voxilux" : state.input.stem().string();
+    for (int i = 1;; ++i) {
+        const std::string name = fmt::format("{}.{:03}{}", stem, i, ending);
+        if (std::filesystem::exists(name)) continue;
+        state.screenshots.push_back(name);
+        return;
+    }
+}
+
+void take_key(int key, glm::ivec2 window, ViewState& state) {
+    switch (key) {
+        case GLFW_KEY_1:
+            return look_from(View::front, window, state);
+        case GLFW_KEY_3:
+            return look_from(View::right, window, state);
+        case GLFW_KEY_7:
+            return look_from(View::top, window, state);
+        case GLFW_KEY_9:
+            return look_from(View::iso, window, state);
+        case GLFW_KEY_ENTER:
+            state.view = state.home;
+            return;
+        case GLFW_KEY_H:
+            state.shows_keys = !state.shows_keys;
+            return;
+        case GLFW_KEY_TAB:
+            state.shows_panels = !state.shows_panels;
+            return;
+        case GLFW_KEY_T:
+            state.curve = state.curve == ToneMap::filmic ? ToneMap::plain : ToneMap::filmic;
+            return;
+        case GLFW_KEY_EQUAL:
+            state.exposure_ev += kExposureStep;
+            return;
+        case GLFW_KEY_MINUS:
+            state.exposure_ev -= kExposureStep;
+            return;
+        case GLFW_KEY_F12:
+            return take_screenshot(state.held.shift ? ".exr" : ".png", state);
+        case GLFW_KEY_ESCAPE:
+            state.wants_close = true;
+            return;
+        default:
+            return;
+    }
+}
+
+void take_move(glm::dvec2 place, glm::ivec2 window, ViewState& state) {
+    const glm::dvec2 way = place - std::exchange(state.held.pointer, place);
+    if (state.held.holds(MouseButton::right))
+        state.view = looked(state.view, way, glm::dvec2(window));
+    else if (state.held.holds(MouseButton::middle) ||
+             (state.held.shift && state.held.holds(MouseButton::left)))
+        state.view = panned(state.view, way, glm::dvec2(window));
+    else if (state.held.holds(MouseButton::left))
+        state.view = orbited(state.view, way, glm::dvec2(window));
+}
+
+void hold(const KeyEvent& key, InputState& held) {
+    if (key.key < 0 || key.key >= static_cast<int>(std::size(held.keys))) return;
+    held.keys[key.key] = key.is_down;
+    held.shift = held.keys[GLFW_KEY_LEFT_SHIFT] || held.keys[GLFW_KEY_RIGHT_SHIFT];
+    held.control = held.keys[GLFW_KEY_LEFT_CONTROL] || held.keys[GLFW_KEY_RIGHT_CONTROL];
+}
+
+}  // namespace
+
+void take_event(const InputEvent& event, glm::ivec2 window, ViewState& state) {
+    if (const auto* key = std::get_if<KeyEvent>(&event)) {
+        hold(*key, state.held);
+        if (key->is_down && !key->is_repeat) take_key(key->key, window, state);
+    } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+        state.held.buttons[static_cast<int>(button->button)] = button->is_down;
+    } else if (const auto* move = std::get_if<MoveEvent>(&event)) {
+        take_move(move->place, window, state);
+    } else if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
+        state.view = zoomed(state.view, scroll->steps, state.held.pointer, glm::dvec2(window));
+    } else if (std::holds_alternative<CloseEvent>(event)) {
+        state.wants_close = true;
+    }
+}
+
+void fly(double seconds, ViewState& state) {
+    const auto axis = [&](int plus, int minus) {
+        return static_cast<double>(state.held.keys[plus]) - static_cast<double>(state.held.keys[minus]);
+    };
+    const glm::dvec3 way{axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q),
+                         axis(GLFW_KEY_W, GLFW_KEY_S)};
+    if (way == glm::dvec3(0.0)) return;
+    const double distance = glm::length(state.view.centre - state.view.camera.position);
+    state.view = flown(state.view, way * (kFlightPerSecond * seconds * std::max(distance, 8.0)));
+}
+
+std::span<const std::pair<const char*, const char*>> key_sheet() {
+    static constexpr std::array<std::pair<const char*, const char*>, 13> kSheet{{
+        {"left drag", "orbit"},
+        {"middle or shift drag", "pan"},
+        {"right drag", "look around"},
+        {"wheel", "zoom to the pointer"},
+        {"W A S D Q E", "fly"},
+        {"1 3 7 9", "front, right, top, iso"},
+        {"Enter", "the first view again"},
+        {"+ -", "exposure"},
+        {"T", "tone curve"},
+        {"F12", "screenshot; with shift the film as EXR"},
+        {"Tab", "panels"},
+        {"H", "this sheet"},
+        {"Esc", "close"},
+    }};
+    return kSheet;
+}
+
+}  // namespace voxilux

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "renderer/renderer.h"
+#include "view/resolution.h"
+
+namespace voxilux {
+
+// What a frame of the window did.
+struct LiveFrame {
+    glm::ivec2 size{0};         // of the picture that was rendered
+    std::uint32_t samples = 0;  // that its film has
+    double step_s = 0.0;        // in the renderer
+};
+
+// The picture of a window: a scene, a camera and a size that change at any time. While something changes it
+// is as coarse as the frame time wants and shares occlusion between frames; at rest it is the picture that
+// `voxilux render` makes, sample by sample.
+class LivePicture {
+  public:
+    LivePicture(Device& device, const ExecutorOptions& options) : renderer_(device, options) {}
+
+    // Another scene; its settings name the size. Throws as Renderer::prepare; then the old one stays.
+    void load(const Scene& scene, const PlanRequest& request);
+    void set_camera(const Camera& camera);
+    void set_size(glm::ivec2 size);
+    void change(const RenderSettings& settings, const PlanRequest& request);
+    void edit(std::span<const BoxEdit> edits);
+    void set_max_samples(std::uint32_t samples) { max_samples_ = samples; }
+
+    // Takes samples for about so long, at rest until there are `end_samples` whole ones, or all.
+    LiveFrame advance(double budget_s, std::uint32_t end_samples = kNoEnd);
+
+    // What there is to show: the picture of the last whole sample; size 0 before the first.
+    [[nodiscard]] DisplayBuffer display();
+
+    [[nodiscard]] bool is_loaded() const { return renderer_.is_prepared(); }
+    [[nodiscard]] bool is_moving() const { return moving_frames_ > 0; }
+    [[nodiscard]] bool is_done() const;
+    [[nodiscard]] std::uint32_t samples() const { return renderer_.film().position().samples; }
+    [[nodiscard]] std::uint32_t max_samples() const { return max_samples_; }
+    // Of the picture at rest.
+    [[nodiscard]] const RenderSettings& settings() const { return settings_; }
+    [[nodiscard]] const PlanRequest& request() const { return request_; }
+    // Times of the passes since the picture was changed.
+    [[nodiscard]] std::span<const PassTime> passes() const { return passes_; }
+    [[nodiscard]] Renderer& renderer() { return renderer_; }
+    [[nodiscard]] const Executor& executor() { return renderer_.executor(); }
+
+    void set_frame_time(double seconds) { resolution_.set_target(seconds); }
+
+  private:
+    void begin_motion();
+    void apply_motion();
+    void end_motion();
+    void forget();
+
+    Renderer renderer_;
+    RenderSettings settings_;
+    PlanRequest request_;
+    Resolution resolution_;
+    std::uint32_t max_samples_ = 1;
+    int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
+    DisplayBuffer shown_;
+    std::vector<PassTime> passes_;
+};
+
+}  // namespace voxilux

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene_options.h"
+#include "shared_flags.h"
+
+namespace voxilux {
+
+struct ViewCommand {
+    SceneOptions scene;
+    DeviceOptions device;
+    std::string script;
+    std::string screenshot;
+    std::string report;
+    std::optional<std::int64_t> frames;
+    double frame_ms = 33.0;
+};
+
+void add_view_flags(Flags& flags, ViewCommand& command);
+
+// Shows the scene in a window. Returns done.
+[[nodiscard]] int run_view(const ViewCommand& command);
+
+}  // namespace voxilux

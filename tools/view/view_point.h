@@ -1,0 +1,36 @@
+#pragma once
+
+// How input moves the camera: pure geometry.
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+#include "scene/scene_bounds.h"
+#include "scene/scene_camera.h"
+
+namespace voxilux {
+
+// A camera, and the point that it turns about.
+struct ViewPoint {
+    Camera camera;
+    glm::dvec3 centre{0.0};
+};
+
+// The camera with the centre of `box` in front of it.
+[[nodiscard]] ViewPoint view_of(const Camera& camera, const Box& box);
+
+// The ray through a place of a picture of so many pixels: unit direction.
+[[nodiscard]] glm::dvec3 direction_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size);
+
+// Turns about the centre: columns turn the camera to the side, rows up and down.
+[[nodiscard]] ViewPoint orbited(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);
+// Shifts camera and centre so that the centre follows the pointer.
+[[nodiscard]] ViewPoint panned(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);
+// Goes nearer by steps of the wheel; what is under the pointer stays there.
+[[nodiscard]] ViewPoint zoomed(const ViewPoint& view, double steps, glm::dvec2 place, glm::dvec2 size);
+// Turns the head.
+[[nodiscard]] ViewPoint looked(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);
+// Flies along the camera's axes (right, up, forward), by voxels.
+[[nodiscard]] ViewPoint flown(const ViewPoint& view, glm::dvec3 way);
+
+}  // namespace voxilux

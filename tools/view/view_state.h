@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "film/tonemap.h"
+#include "view/input_event.h"
+#include "view/live_picture.h"
+#include "view/view_point.h"
+
+namespace voxilux {
+
+// What the panels show and change, and what input does.
+struct ViewState {
+    explicit ViewState(LivePicture& live) : picture(live) {}
+
+    LivePicture& picture;
+    std::filesystem::path input;  // empty: nothing is loaded
+    Box box;                      // of the scene
+    ViewPoint view;
+    ViewPoint home;
+    InputState held;
+    float exposure_ev = 0.0f;
+    ToneMap curve = ToneMap::filmic;
+    bool shows_panels = true;
+    bool shows_keys = false;
+    double frame_s = 0.0;  // of the last frame
+    std::string message;   // of what went wrong last; empty: nothing
+    bool wants_close = false;
+    std::vector<std::string> screenshots;  // to be taken of this frame
+};
+
+}  // namespace voxilux
