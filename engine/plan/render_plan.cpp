@@ -129,10 +129,6 @@ void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
                 fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
                             100.0f * lost));
     }
-    if (plan.effects[static_cast<std::size_t>(Effect::indirect)].by_choice)
-        plan.notes.emplace_back(plan.has(Effect::ao)
-                                    ? "light between surfaces is left out; occlusion stands for it"
-                                    : "light between surfaces is left out");
     const bool is_polished = facts.has_glass || facts.has_metal;
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");

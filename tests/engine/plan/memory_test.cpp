@@ -196,9 +196,6 @@ TEST(PlanNotes, what_the_picture_lacks_is_said) {
     EXPECT_EQ(notes_of("technique.caustics=paths"),
               std::vector<std::string>{
                   "sunlight by way of spheres of metal and glass is found by chance: it is noisy"});
-    ASSERT_EQ(notes_of("technique.indirect=none").size(), 2u);
-    EXPECT_EQ(notes_of("technique.indirect=none")[0],
-              "light between surfaces is left out; occlusion stands for it");
     EXPECT_TRUE(test::plan_of(test::repository_scene("night")).notes.empty());
 }
 

@@ -214,8 +214,12 @@ TEST(Streams, verbose_plan_prints_the_first_frame_too) {
 
 TEST(Streams, what_a_picture_lacks_is_noted_on_standard_error) {
     const ScratchFolder scratch;
-    const Words words = {"render", scene_file("spheres"),          "--size", "16x9",           "--spp", "1",
-                         "-D",     "material.red.surface='metal'", "-o",     scratch / "a.png"};
+    const Words words = {"render",      scene_file("spheres"),
+                         "--size",      "16x9",
+                         "--spp",       "1",
+                         "-D",          "material.red.surface='metal'",
+                         "--technique", "indirect=photons",
+                         "-o",          scratch / "a.png"};
     EXPECT_EQ(run(words).err,
               "note: light of the sky reaches surfaces past glass and mirrors as through a wall\n");
     Words quiet = words;

@@ -90,8 +90,9 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
 // the first sample.
 TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
     const ScratchFolder scratch;
-    const Words job = {"render", scene_file("mixed"), "--size", "64x64", "--spp", "3", "--ao-rays",
-                       "65535",  "--reproducible",    "-o",     "a.exr"};
+    const Words job = {
+        "render", scene_file("mixed"), "--size", "64x64", "--spp", "3", "--ao-rays", "65535", "--ao",
+        "brute",  "--reproducible",    "-o",     "a.exr"};
     const auto with = [&](const Words& more) {
         Words words = job;
         words.insert(words.end(), more.begin(), more.end());
@@ -144,7 +145,7 @@ TEST(Resume, interrupted_shard_goes_on_and_merges) {
 TEST(Resume, checkpoint_of_other_settings_is_refused_and_stays) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "2s", "-q"}), here).code, 0);
+    EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "6s", "-q"}), here).code, 0);
     const float samples = read_exr(scratch / "a.exr").channels.at("sampleCount.Y").pixels.back();
     ASSERT_GE(samples, 2.0f);
     const std::string before = bytes_of(scratch / "a.exr.part");

@@ -18,9 +18,14 @@ namespace fs = std::filesystem;
 // The time limit is far more than the small job takes, so that a busy machine leaves nothing out. White
 // noise: its error falls with the root of the samples; that of other sequences falls faster.
 Words small_list(const fs::path& folder, const std::string& samples = "16") {
-    return {
-        "tradeoff", scene_file("night"), "--size", "64x64",     "--spp", samples, "--sequence", "white", "-o",
-        folder,     "--time-limit",      "60s",    "--no-page", "-q"};
+    return {"tradeoff",     scene_file("night"),
+            "--size",       "64x64",
+            "--spp",        samples,
+            "--sequence",   "white",
+            "-o",           folder,
+            "--time-limit", "60s",
+            "--no-page",    "-q",
+            "--effect",     "indirect=off"};
 }
 
 Json json_in(const fs::path& file) {

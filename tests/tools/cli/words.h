@@ -46,7 +46,8 @@ inline Json plan_of(const std::string& scene, const Words& more) {
 
 // A quick one of a scene with everything, to a.exr.
 inline Words small_render(const ScratchFolder& scratch, const Words& more = {}) {
-    return with({"render", scene_file("mixed"), "--size", "32x18", "--spp", "2", "-o", scratch / "a.exr"},
+    return with({"render", scene_file("mixed"), "--size", "32x18", "--spp", "2", "--effect", "indirect=off",
+                 "-o", scratch / "a.exr"},
                 more);
 }
 

@@ -165,6 +165,7 @@ TEST(SequenceErrorNightly, table_of_our_scenes) {
 TEST(SequenceErrorExternal, table_of_a_model) {
     SKIP_WITHOUT_SHARED_DATA();
     Scene scene = load_scene(shared_data() / "data/vox/monu3.vox");
+    scene.settings.ao.method = AoMethod::brute;  // the table is of occlusion
     scene.settings.size = {96, 54};
     scene.sun.on = false;
     print_table("monu3", {.scene = scene, .truth_samples = 512});
