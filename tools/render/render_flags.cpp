@@ -47,7 +47,8 @@ void add_part_flags(Flags& flags, RenderCommand& command) {
     flags.on<double>(
         "--checkpoint", "SECONDS",
         [&command](double seconds) { command.checkpoint_s = checked_interval(seconds); },
-        "write FILE.exr.part as often while FILE.exr is rendered; 0 is never (default 60)");
+        "write FILE.exr.part as often while FILE.exr is rendered, but for a tenth of the time at most; 0 is "
+        "never (default 60)");
     flags.add_switch("--resume", command.resume,
                      "go on from FILE.exr.part, which a killed, interrupted or timed out render left");
 }
