@@ -39,7 +39,7 @@ uint medium_at(Ray ray) {
 }
 
 void main() {
-    init_scene();
+    init_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index];

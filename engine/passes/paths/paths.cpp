@@ -19,11 +19,15 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
     Dispatch dispatch{.label = "path.start",
                       .shader = "path_start",
                       .extent = pixel_extent(plan, tile),
-                      .bindings = path_bindings(plan, recording),
+                      .bindings = {{"Frame", frame_buffer(recording)},
+                                   {"Counters", counters_buffer(recording)},
+                                   {"Spheres", spheres_buffer(plan, recording)},
+                                   {"Materials", materials_buffer(plan, recording)},
+                                   {"Hits", hits.buffer},
+                                   {"Direct", direct.buffer},
+                                   {"Media", media.buffer},
+                                   {"Starts", starts}},
                       .constants = path_constants(plan)};
-    dispatch.bindings.insert(
-        dispatch.bindings.end(),
-        {{"Hits", hits.buffer}, {"Direct", direct.buffer}, {"Media", media.buffer}, {"Starts", starts}});
     dispatch.constants.insert(dispatch.constants.end(),
                               {{"direct_stride", direct.stride}, {"media_stride", media.stride}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
