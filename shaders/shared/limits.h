@@ -103,8 +103,8 @@ VX_CONST(float, kAoFilterSigmas, 4.0f);
 VX_CONST(uint, kFewSpheres, 16u);
 
 // By how much of the distance from which a sphere is looked at, boxes around spheres are larger than these.
-// Crossings are found with a few roundings of 2^-24 of that distance, so a ray may hit a sphere that it misses
-// by as much.
+// Crossings are found with a few roundings of 2^-24 of that distance, so a ray may hit a sphere that it
+// misses by as much.
 VX_CONST(float, kSphereSlack, 2.0e-6f);
 // Components of directions below it are taken for it where a box is met: nothing is as long as its inverse.
 VX_CONST(float, kLeastSlope, 1.0e-20f);
