@@ -175,7 +175,7 @@ TEST(ExitCodes, memory_over_the_budget_ends_with_74_and_names_the_buffer) {
                          "a.png"};
     const Ending ending = run(words, {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 74);
-    EXPECT_NE(ending.err.find("over the budget of 1 MiB; the largest buffer is 'primary.hits'"),
+    EXPECT_NE(ending.err.find("over the budget of 1 MiB; the largest buffer is 'path.starts'"),
               std::string::npos)
         << ending.err;
     EXPECT_EQ(names_in(scratch.path()), Words{});
