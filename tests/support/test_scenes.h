@@ -8,8 +8,8 @@
 
 namespace voxilux::test {
 
-// One white diffuse material (albedo 1), no sun, a white sky of radiance 1, one pixel. Occlusion of each pixel
-// stands for light between surfaces.
+// One white diffuse material (albedo 1), no sun, a white sky of radiance 1, one pixel. Occlusion of each
+// pixel stands for light between surfaces.
 [[nodiscard]] Scene white_scene();
 
 // Fills the scene cells from <= c < to with a material.
