@@ -15,7 +15,7 @@ bool has_progress_line = false;  // on a terminal, the message gets a line of it
 
 // Only what a signal handler may call. A second signal of the kind ends the process at once.
 void on_interrupt(int signal) {
-    constexpr std::string_view kSaid = "voxilux: stopping; what is done is kept (again: stop at once)\n";
+    constexpr std::string_view kSaid = "voxilux: stopping in order (again: at once)\n";
     interrupted = true;
     std::signal(signal, SIG_DFL);
     if (has_progress_line) (void)!::write(STDERR_FILENO, "\n", 1);

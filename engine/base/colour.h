@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "shared/tone_curve.h"
+
 namespace voxilux {
 
 // Relative luminance of a linear Rec. 709 colour (ITU-R BT.709-6, item 3.2), in the precision of its
@@ -18,12 +20,7 @@ template <class Rgb>
     return Float(0.2126) * rgb[0] + Float(0.7152) * rgb[1] + Float(0.0722) * rgb[2];
 }
 
-// The transfer function of IEC 61966-2-1 (sRGB), both ways, for values in [0,1]. Thresholds are the
-// standard's.
-[[nodiscard]] inline float encode_srgb(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
+// The inverse of gpu::encode_srgb, whose thresholds are those of the standard, for values in [0,1].
 [[nodiscard]] inline double decode_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
@@ -53,7 +50,7 @@ template <class Rgb>
 [[nodiscard]] inline std::uint8_t srgb_code(float linear) {
     if (!(linear > 0.0f)) return 0;
     if (linear >= 1.0f) return 255;
-    return static_cast<std::uint8_t>(encode_srgb(linear) * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(gpu::encode_srgb(linear) * 255.0f + 0.5f);
 }
 
 }  // namespace voxilux

@@ -1,7 +1,3 @@
-// Filmic: of the published curves (Hable 2010, Narkowicz 2016, Khronos PBR Neutral 2024) this is the fit with
-// the fewest constants, it maps 0 to 0, rises everywhere, and HDR-FLIP uses the very same curve, so the error
-// that the metric sees is the one a viewer sees.
-
 #include "film/tonemap.h"
 
 #include <algorithm>
@@ -11,19 +7,10 @@
 
 #include "base/assert.h"
 #include "base/colour.h"
+#include "shared/tone_curve.h"
 
 namespace voxilux {
 namespace {
-
-constexpr float kPreExposure =
-    0.6f;  // brings the fit to the brightness of the ACES reference (Narkowicz 2016)
-constexpr float kFitWhite =
-    16.0f;  // the fit passes 1 at 7.25; beyond, squares would overflow long before inf
-
-float filmic(float linear) {
-    const float x = std::min(linear * kPreExposure, kFitWhite);
-    return std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
-}
 
 void count(float value, DisplayImage& display) {
     if (std::isnan(value)) {
@@ -39,7 +26,7 @@ void count(float value, DisplayImage& display) {
 
 float tone_map(float linear, ToneMap curve) {
     if (!(linear > 0.0f)) return 0.0f;
-    return curve == ToneMap::filmic ? filmic(linear) : std::min(linear, 1.0f);
+    return curve == ToneMap::filmic ? gpu::filmic_curve(linear) : std::min(linear, 1.0f);
 }
 
 float automatic_exposure_ev(const Image& image) {

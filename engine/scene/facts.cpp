@@ -83,8 +83,6 @@ bool is_specular(const Material& material) {
 }
 
 void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& facts) {
-    for (std::size_t m = 0; m < used.size(); ++m)
-        facts.has_specular_voxels |= used[m] && is_specular(scene.materials[m]);
     for (const Sphere& sphere : scene.spheres) {
         used.at(sphere.material) = true;
         facts.has_specular_spheres |= is_specular(scene.materials[sphere.material]);

@@ -31,8 +31,7 @@ struct SceneFacts {
     bool has_glass = false;             // a used material that lets light through
     bool has_metal = false;             // a used material with a polished share
     bool has_reflectors = false;        // a used material that is not black
-    bool has_specular_voxels = false;   // of glass or metal
-    bool has_specular_spheres = false;  // likewise
+    bool has_specular_spheres = false;  // of glass or metal
 
     // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.
     std::vector<std::string> simplified;

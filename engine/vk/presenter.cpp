@@ -93,7 +93,6 @@ struct PresenterState {
     glm::ivec2 window_size{0};  // pixels when it was made
     std::array<Buffer, kWindowBuffers> buffers;
     Buffer captured;
-    glm::ivec2 reference{0};
 };
 
 namespace {
@@ -282,15 +281,6 @@ void Presenter::set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size
     state_->fill(WindowBuffer::font, bytes);
 }
 
-void Presenter::set_picture(std::span<const float> rgb) {
-    state_->fill(WindowBuffer::picture, std::as_bytes(rgb));
-}
-
-void Presenter::set_reference(std::span<const float> rgb, glm::ivec2 size) {
-    state_->fill(WindowBuffer::reference, std::as_bytes(rgb));
-    state_->reference = size;
-}
-
 bool Presenter::present(const ShownPicture& picture, const Overlay& overlay, glm::ivec2 window,
                         WindowCapture* capture) {
     PresenterState& state = *state_;
@@ -303,7 +293,6 @@ bool Presenter::present(const ShownPicture& picture, const Overlay& overlay, glm
                  picture.executor != nullptr ? picture.executor->buffer(picture.buffer) : state.buffers[0]);
     gpu::WindowPush push = picture.how;
     push.window = {state.swapchain->extent.width, state.swapchain->extent.height};
-    push.reference = state.reference;
     vk_check(vkResetCommandPool(state.device.handle, state.pool.get(), 0), "reset the window's commands");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};

@@ -33,11 +33,11 @@ struct Overlay {
     std::vector<OverlayDraw> draws;
 };
 
-// A picture for a window: [height][width] linear radiance or values, three floats.
+// A picture for a window: [height][width] linear radiance, three floats.
 struct ShownPicture {
-    const Executor* executor = nullptr;  // whose `buffer` it is; null: the one given to set_picture()
+    const Executor* executor = nullptr;  // whose `buffer` it is; null: there is no picture
     std::string buffer;
-    gpu::WindowPush how{};  // but for `window` and `reference`, which the presenter knows
+    gpu::WindowPush how{};  // but for `window`, which the presenter knows
 };
 
 // What a window showed: 8-bit codes, row 0 on top.
@@ -60,10 +60,6 @@ class Presenter {
 
     // How opaque each texel of the font is.
     void set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size);
-    // A picture in memory of the host.
-    void set_picture(std::span<const float> rgb);
-    // The picture to compare with; size 0: none.
-    void set_reference(std::span<const float> rgb, glm::ivec2 size);
 
     // Shows the next frame in a window of so many pixels, and copies it to `capture`, if that is given.
     // False when there was nothing to show it on: the window has no pixels, or changed its size meanwhile.

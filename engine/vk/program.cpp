@@ -25,17 +25,6 @@ void check_capabilities(const DeviceState& device, const Program& program) {
     }
 }
 
-UniqueShaderModule create_module(const DeviceState& device, const EmbeddedShader& shader) {
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .codeSize = shader.spirv.size_bytes(),
-                                        .pCode = shader.spirv.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    vk_check(vkCreateShaderModule(device.handle, &info, nullptr, &module),
-             fmt::format("create shader '{}'", shader.name));
-    set_debug_name(device, VK_OBJECT_TYPE_SHADER_MODULE, to_bits(module), std::string(shader.name));
-    return {device.handle, module};
-}
-
 UniqueSetLayout create_set_layout(const DeviceState& device, const Program& program) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const BufferBlock& block : program.info.blocks) {
@@ -91,6 +80,17 @@ void check_addresses(const Program& program, const Dispatch& dispatch) {
 
 }  // namespace
 
+UniqueShaderModule create_shader_module(const DeviceState& device, const EmbeddedShader& shader) {
+    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .codeSize = shader.spirv.size_bytes(),
+                                        .pCode = shader.spirv.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    vk_check(vkCreateShaderModule(device.handle, &info, nullptr, &module),
+             fmt::format("create shader '{}'", shader.name));
+    set_debug_name(device, VK_OBJECT_TYPE_SHADER_MODULE, to_bits(module), std::string(shader.name));
+    return {device.handle, module};
+}
+
 VkDescriptorType descriptor_type(const BufferBlock& block) {
     switch (block.kind) {
         case BlockKind::uniform:
@@ -110,7 +110,7 @@ Program create_program(const DeviceState& device, const EmbeddedShader& shader) 
     if (program.info.push_bytes > push_limit)
         refuse(program.name, fmt::format("its push struct of {} bytes is over the device's limit of {}",
                                          program.info.push_bytes, push_limit));
-    program.module = create_module(device, shader);
+    program.module = create_shader_module(device, shader);
     program.set_layout = create_set_layout(device, program);
     program.layout = create_layout(device, program);
     return program;

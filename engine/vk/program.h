@@ -28,6 +28,9 @@ struct Program {
 // What a block is bound as.
 [[nodiscard]] VkDescriptorType descriptor_type(const BufferBlock& block);
 
+[[nodiscard]] UniqueShaderModule create_shader_module(const DeviceState& device,
+                                                      const EmbeddedShader& shader);
+
 // Reflects the shader and makes its layouts. Throws InternalError when the device lacks a capability it
 // needs.
 [[nodiscard]] Program create_program(const DeviceState& device, const EmbeddedShader& shader);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "shared/window.h"
 #include "vk/check.h"
+#include "vk/program.h"
 
 namespace voxilux {
 namespace {
@@ -59,17 +60,10 @@ VkDescriptorSet allocate_set(const DeviceState& device, VkDescriptorPool pool, V
     return set;
 }
 
-UniqueShaderModule create_module(const DeviceState& device, std::span<const EmbeddedShader> shaders,
-                                 std::string_view name) {
+const EmbeddedShader& shader_named(std::span<const EmbeddedShader> shaders, std::string_view name) {
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
     if (found == shaders.end()) throw InternalError(fmt::format("internal error: no shader '{}'", name));
-    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                        .codeSize = found->spirv.size_bytes(),
-                                        .pCode = found->spirv.data()};
-    VkShaderModule module = VK_NULL_HANDLE;
-    vk_check(vkCreateShaderModule(device.handle, &info, nullptr, &module),
-             fmt::format("create the shader '{}'", name));
-    return {device.handle, module};
+    return *found;
 }
 
 VkPipelineColorBlendAttachmentState blending(bool blends) {
@@ -92,8 +86,8 @@ struct Stages {
 
 UniquePipeline create_window_pipeline(const DeviceState& device, std::span<const EmbeddedShader> shaders,
                                       const Stages& stages, VkPipelineLayout layout, VkRenderPass pass) {
-    const UniqueShaderModule vertex = create_module(device, shaders, stages.vertex);
-    const UniqueShaderModule fragment = create_module(device, shaders, stages.fragment);
+    const UniqueShaderModule vertex = create_shader_module(device, shader_named(shaders, stages.vertex));
+    const UniqueShaderModule fragment = create_shader_module(device, shader_named(shaders, stages.fragment));
     std::array<VkPipelineShaderStageCreateInfo, 2> both{};
     both[0] = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                .stage = VK_SHADER_STAGE_VERTEX_BIT,

@@ -12,8 +12,8 @@
 namespace voxilux {
 
 // Storage buffers that the shaders of a window read, by binding.
-enum class WindowBuffer : std::uint8_t { picture, reference, font, vertices, indices };
-inline constexpr std::size_t kWindowBuffers = 5;
+enum class WindowBuffer : std::uint8_t { picture, font, vertices, indices };
+inline constexpr std::size_t kWindowBuffers = 4;
 
 // The two pipelines that draw a window, and the one descriptor set that both read.
 struct WindowPrograms {

@@ -3,8 +3,9 @@
 // Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
 // and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
 // eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
-// axes makes of them. A ray goes into the sun's and one into another, or out of glass one into any of them; what they meet on the way may be mirrors and
-// glass. Chance finds what comes by spheres, and out of glass by another face.
+// axes makes of them. From a surface in the open one ray goes into the sun's cone and one into another; from one in glass,
+// one ray into any of them. What they meet on the way may be mirrors and glass. Chance finds what comes by spheres, and
+// out of glass by another face.
 #ifndef VX_PATH_SUN_GLSL
 #define VX_PATH_SUN_GLSL
 
@@ -80,7 +81,7 @@ float samples_of_sun(vec3 direction, uint medium) {
     if (has_glass_voxels == 0u || medium == kNoMedium) return samples;
     float ior = materials[medium].ior;
     samples = 0.0;
-    for (uint axis = 0u; axis < 3u; ++axis) {
+    for (uint axis = 0u; axis < kAxes; ++axis) {
         vec3 outside = across_face(direction, axis, 1.0 / ior);
         if (outside[axis] == 0.0) continue;
         float shares = is_in_cone(outside, sun_direction, sun_reach) ? glass_image_share(0u) : 0.0;

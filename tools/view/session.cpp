@@ -57,8 +57,9 @@ class Session {
     }
 
     int run() {
+        const std::atomic<bool>& is_interrupted = interrupted_by_signal();
         auto last = Clock::now();
-        while (!state_.wants_close && !interrupted_by_signal()) {
+        while (!state_.wants_close && !is_interrupted) {
             const double seconds = seconds_since(std::exchange(last, Clock::now()));
             if (shown_frames_ > 0) state_.frame_s = seconds;
             if (show_frame(seconds)) end_of_frame(seconds);
@@ -196,8 +197,7 @@ class Session {
             shown.how.size = display.size;
         }
         shown.how.exposure = std::exp2(state_.exposure_ev);
-        shown.how.wipe = static_cast<float>(size.x);
-        shown.how.shading = state_.curve == ToneMap::filmic ? gpu::kShadeFilmic : gpu::kShadePlain;
+        shown.how.is_filmic = state_.curve == ToneMap::filmic ? 1u : 0u;
         const bool is_last = command_.frames && shown_frames_ + 1 >= *command_.frames;
         if (is_last && !command_.screenshot.empty()) state_.screenshots.push_back(command_.screenshot);
         WindowCapture capture;

@@ -27,7 +27,7 @@ TEST(Srgb, known_points_of_the_standard) {
     EXPECT_EQ(srgb_code(1.0f), 255);
     EXPECT_EQ(srgb_code(0.18f), 118);  // 1.055 * 0.18^(1/2.4) - 0.055 = 0.461356, times 255 = 117.6
     EXPECT_EQ(srgb_code(0.5f), 188);   // 0.735357 * 255 = 187.5
-    EXPECT_NEAR(encode_srgb(0.0031308f), 0.04045f,
+    EXPECT_NEAR(gpu::encode_srgb(0.0031308f), 0.04045f,
                 1e-5f);  // the two branches meet within the standard's rounding
 }
 

@@ -143,7 +143,7 @@ TEST(Signals, hang_up_keeps_what_is_done_and_is_acknowledged) {
     child.send(SIGHUP);
     const Ending ending = child.finish();
     EXPECT_EQ(ending.code, 130) << ending.signal;
-    EXPECT_NE(ending.err.find("voxilux: stopping; what is done is kept"), std::string::npos) << ending.err;
+    EXPECT_NE(ending.err.find("voxilux: stopping in order"), std::string::npos) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.exr", "a.exr.part"}));
 }
 

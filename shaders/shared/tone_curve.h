@@ -1,0 +1,29 @@
+// From linear light to what a display shows: of PNGs on the host, of a window on the device.
+#ifndef VX_TONE_CURVE_H
+#define VX_TONE_CURVE_H
+
+#include "portable.h"
+
+VX_BEGIN
+
+// Brings the fit to the brightness of the ACES reference (Narkowicz 2016).
+VX_CONST(float, kPreExposure, 0.6f);
+// The fit passes 1 at 7.25; beyond, squares would overflow long before infinity.
+VX_CONST(float, kFitWhite, 16.0f);
+
+// Filmic: of the published curves (Hable 2010, Narkowicz 2016, Khronos PBR Neutral 2024) this is the fit with
+// the fewest constants (K. Narkowicz 2016). It maps 0 to 0, rises everywhere, and HDR-FLIP uses the very same
+// curve, so the error that the metric sees is the one a viewer sees. `linear` >= 0.
+VX_FN float filmic_curve(float linear) {
+    float x = min(linear * kPreExposure, kFitWhite);
+    return min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
+}
+
+// The transfer function of IEC 61966-2-1 (sRGB), for values in [0,1]. Thresholds are the standard's.
+VX_FN float encode_srgb(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+VX_END
+
+#endif
