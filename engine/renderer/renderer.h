@@ -63,8 +63,10 @@ class Renderer {
     [[nodiscard]] const PreparedScene& prepared() const { return *prepared_; }
     // The scene without its voxels, as it is seen now.
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    // The mean of the film so far in a buffer on the device, for who presents it there. Nothing is read back.
-    DisplayBuffer display();
+    // The film so far as it is shown, in a buffer on the device, for who presents it there. Nothing is read
+    // back. Looks that compare need a reference of the size of the image: [height][width][3] radiance.
+    DisplayBuffer display(const DisplayLook& look);
+    void set_reference(std::span<const float> radiance);
 
     // The device with all uploads done: for pilots, which leave the film dirty.
     [[nodiscard]] Executor& executor();

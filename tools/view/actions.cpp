@@ -17,6 +17,11 @@ void look_from(View side, glm::ivec2 window, ViewState& state) {
     state.view = view_of(framing_camera(state.box, side, aspect, fov_y_deg), state.box);
 }
 
+void expose(float stops, ViewState& state) {
+    state.exposure_ev = stops;
+    state.look.exposure = std::exp2(stops);
+}
+
 void take_screenshot(const char* ending, ViewState& state) {
     const std::string stem = state.input.empty() ? "voxilux" : state.input.stem().string();
     for (int i = 1;; ++i) {
@@ -47,14 +52,12 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
             state.shows_panels = !state.shows_panels;
             return;
         case GLFW_KEY_T:
-            state.curve = state.curve == ToneMap::filmic ? ToneMap::plain : ToneMap::filmic;
+            state.look.curve = state.look.curve == ToneMap::filmic ? ToneMap::plain : ToneMap::filmic;
             return;
         case GLFW_KEY_EQUAL:
-            state.exposure_ev += kExposureStep;
-            return;
+            return expose(state.exposure_ev + kExposureStep, state);
         case GLFW_KEY_MINUS:
-            state.exposure_ev -= kExposureStep;
-            return;
+            return expose(state.exposure_ev - kExposureStep, state);
         case GLFW_KEY_F12:
             return take_screenshot(state.held.shift ? ".exr" : ".png", state);
         case GLFW_KEY_ESCAPE:

@@ -12,17 +12,32 @@ constexpr int kRestFrames = 5;
 // Frames of a motion, as far as the plan is concerned: as many as make sharing worth while.
 constexpr std::uint32_t kMotionFrames = 1000;
 
+RenderSettings moving(RenderSettings settings, const Resolution& resolution) {
+    settings.size = resolution.size_in(settings.size);
+    return settings;
+}
+
+// Occlusion stands in for indirect light, and frames can share it.
+PlanRequest moving(PlanRequest request) {
+    request.frames = kMotionFrames;
+    request.effects.switches[Effect::indirect] = Switch::off;
+    request.effects.switches[Effect::caustics] = Switch::off;
+    return request;
+}
+
 }  // namespace
 
 void LivePicture::load(const Scene& scene, const PlanRequest& request) {
+    Scene coarse = scene;
+    coarse.settings = moving(scene.settings, resolution_);
     if (measure_scene(scene).has_voxels)
-        renderer_.prepare_editable(scene, request);
+        renderer_.prepare_editable(coarse, moving(request));
     else
-        renderer_.prepare(scene, request);
+        renderer_.prepare(coarse, moving(request));
     settings_ = scene.settings;
     request_ = request;
-    moving_frames_ = 0;
-    forget();
+    resolution_.start();
+    moving_frames_ = kRestFrames;
 }
 
 void LivePicture::set_camera(const Camera& camera) {
@@ -32,18 +47,14 @@ void LivePicture::set_camera(const Camera& camera) {
 
 void LivePicture::set_size(glm::ivec2 size) {
     settings_.size = size;
-    if (is_moving())
-        apply_motion();
-    else
-        change(settings_, request_);
+    apply_motion();
 }
 
 void LivePicture::change(const RenderSettings& settings, const PlanRequest& request) {
-    renderer_.change(settings, request);
+    renderer_.change(settings, request);  // throws where the picture at rest cannot be
     settings_ = settings;
     request_ = request;
-    moving_frames_ = 0;
-    forget();
+    apply_motion();
 }
 
 void LivePicture::edit(std::span<const BoxEdit> edits) {
@@ -56,22 +67,19 @@ void LivePicture::begin_motion() {
     moving_frames_ = kRestFrames;
 }
 
-// The same scene, coarser, and with what frames can share.
 void LivePicture::apply_motion() {
-    RenderSettings settings = settings_;
-    settings.size = resolution_.size_in(settings_.size);
-    PlanRequest request = request_;
-    request.effects.wants_aov = false;
-    request.frames = kMotionFrames;
-    renderer_.change(settings, request);
+    replan_motion();
+    moving_frames_ = kRestFrames;
+}
+
+// The same scene, coarser, and with what frames can share.
+void LivePicture::replan_motion() {
+    renderer_.change(moving(settings_, resolution_), moving(request_));
+    resolution_.start();
 }
 
 void LivePicture::end_motion() {
     renderer_.change(settings_, request_);
-    forget();
-}
-
-void LivePicture::forget() {
     passes_.clear();
 }
 
@@ -80,30 +88,40 @@ bool LivePicture::is_done() const {
 }
 
 LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
-    const auto start = std::chrono::steady_clock::now();
     if (is_moving() && --moving_frames_ == 0) end_motion();
-    LiveFrame frame{.size = renderer_.plan().settings.size};
-    if (is_moving()) {
-        const std::uint32_t before = samples();
-        while (samples() == before)
-            (void)renderer_.step(budget_s, before + 1);
-        frame.step_s = seconds_since(start);
-        if (resolution_.learn(frame.step_s)) apply_motion();
-        frame.samples = before + 1;
-        return frame;
-    }
+    if (is_moving()) return advance_motion(budget_s);
+    const auto start = std::chrono::steady_clock::now();
     const std::uint32_t end = std::min(end_samples, max_samples_);
     if (samples() < end) {
         const StepResult step = renderer_.step(budget_s, end);
         add_times(passes_, step.passes);
+        has_news_ |= step.samples > 0;
     }
-    frame.samples = samples();
-    frame.step_s = seconds_since(start);
+    return {renderer_.plan().settings.size, samples(), seconds_since(start)};
+}
+
+// One whole sample, however long it takes.
+LiveFrame LivePicture::advance_motion(double budget_s) {
+    // Not before the frame that it was learnt from is shown.
+    if (std::exchange(has_other_size_, false)) replan_motion();
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t before = samples();
+    while (samples() == before)
+        (void)renderer_.step(budget_s, before + 1);
+    has_news_ = true;
+    const LiveFrame frame{renderer_.plan().settings.size, samples(), seconds_since(start)};
+    has_other_size_ = resolution_.learn(frame.step_s);
     return frame;
 }
 
-DisplayBuffer LivePicture::display() {
-    if (samples() > 0) shown_ = renderer_.display();
+DisplayBuffer LivePicture::display(const DisplayLook& look) {
+    const bool is_new = std::exchange(has_news_, false) || look != shown_look_;
+    if (samples() > 0 && is_new) {
+        shown_look_ = look;
+        DisplayLook shown = look;
+        if (!has_channel(renderer_.plan(), look.channel)) shown.channel = DisplayChannel::color;
+        shown_ = renderer_.display(shown);
+    }
     return shown_;
 }
 

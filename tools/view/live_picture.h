@@ -18,9 +18,9 @@ struct LiveFrame {
     double step_s = 0.0;        // in the renderer
 };
 
-// The picture of a window: a scene, a camera and a size that change at any time. While something changes it
-// is as coarse as the frame time wants and shares occlusion between frames; at rest it is the picture that
-// `voxilux render` makes, sample by sample.
+// The picture of a window: a scene, a camera and a size that change at any time. When something changes it is
+// as coarse as the frame time wants, shares occlusion between frames and leaves out indirect light; at rest
+// it is the picture that `voxilux render` makes, sample by sample.
 class LivePicture {
   public:
     LivePicture(Device& device, const ExecutorOptions& options) : renderer_(device, options) {}
@@ -37,7 +37,9 @@ class LivePicture {
     LiveFrame advance(double budget_s, std::uint32_t end_samples = kNoEnd);
 
     // What there is to show: the picture of the last whole sample; size 0 before the first.
-    [[nodiscard]] DisplayBuffer display();
+    [[nodiscard]] DisplayBuffer display(const DisplayLook& look);
+    // Whether a sample has ended since the last display().
+    [[nodiscard]] bool has_news() const { return has_news_; }
 
     [[nodiscard]] bool is_loaded() const { return renderer_.is_prepared(); }
     [[nodiscard]] bool is_moving() const { return moving_frames_ > 0; }
@@ -52,13 +54,15 @@ class LivePicture {
     [[nodiscard]] Renderer& renderer() { return renderer_; }
     [[nodiscard]] const Executor& executor() { return renderer_.executor(); }
 
-    void set_frame_time(double seconds) { resolution_.set_target(seconds); }
+    // What the samples of a frame may take while something moves.
+    void set_motion_budget(double seconds) { resolution_.set_budget(seconds); }
 
   private:
     void begin_motion();
     void apply_motion();
+    void replan_motion();
     void end_motion();
-    void forget();
+    LiveFrame advance_motion(double budget_s);
 
     Renderer renderer_;
     RenderSettings settings_;
@@ -67,6 +71,9 @@ class LivePicture {
     std::uint32_t max_samples_ = 1;
     int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
     DisplayBuffer shown_;
+    DisplayLook shown_look_;
+    bool has_news_ = false;
+    bool has_other_size_ = false;  // the resolution of a motion
     std::vector<PassTime> passes_;
 };
 

@@ -78,7 +78,7 @@ void draw_status(ViewState& state) {
                          size.y, state.picture.samples(), state.picture.max_samples(),
                          1000.0 * state.frame_s));
         text(fmt::format("exposure {:+.1f}  {}  H: keys", state.exposure_ev,
-                         state.curve == ToneMap::filmic ? "filmic" : "plain"));
+                         state.look.curve == ToneMap::filmic ? "filmic" : "plain"));
     } else {
         text("drop a .vox or a .toml file here");
     }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "film/tonemap.h"
 #include "view/input_event.h"
 #include "view/live_picture.h"
 #include "view/view_point.h"
@@ -22,7 +21,7 @@ struct ViewState {
     ViewPoint home;
     InputState held;
     float exposure_ev = 0.0f;
-    ToneMap curve = ToneMap::filmic;
+    DisplayLook look;
     bool shows_panels = true;
     bool shows_keys = false;
     double frame_s = 0.0;  // of the last frame
