@@ -41,8 +41,11 @@ class Renderer {
 
     // Other voxels, after prepare_editable; the camera stays. What the edits leave as it was stays on the
     // device, unless the box of all voxels becomes another one or there is no more room. Throws as prepare
-    // does, and as EditableVoxels::apply.
-    void edit(std::span<const BoxEdit> edits);
+    // does, and as EditableVoxels::apply. Returns the edits that take it back.
+    std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
+
+    // The voxels that edit() changes; null where there are none.
+    [[nodiscard]] const VoxelWorld* voxels() const { return editing_ ? &editing_->voxels.world() : nullptr; }
 
     // Empties the film. It goes on from `start`: the samples until then are the caller's.
     void restart(FilmPosition start = {});

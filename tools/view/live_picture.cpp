@@ -12,6 +12,26 @@ constexpr int kRestFrames = 5;
 // Frames of a motion, as far as the plan is concerned: as many as make sharing worth while.
 constexpr std::uint32_t kMotionFrames = 1000;
 
+// The channels of an image that hold one of the display.
+std::array<std::string, 3> channel_names(DisplayChannel channel) {
+    switch (channel) {
+        case DisplayChannel::albedo:
+            return {"albedo.R", "albedo.G", "albedo.B"};
+        case DisplayChannel::normal:
+            return {"N.X", "N.Y", "N.Z"};
+        case DisplayChannel::position:
+            return {"P.X", "P.Y", "P.Z"};
+        case DisplayChannel::depth:
+            return {"Z", "Z", "Z"};
+        case DisplayChannel::ao:
+            return {"ao.Y", "ao.Y", "ao.Y"};
+        case DisplayChannel::sun:
+            return {"sun.Y", "sun.Y", "sun.Y"};
+        default:
+            return {};
+    }
+}
+
 RenderSettings moving(RenderSettings settings, const Resolution& resolution) {
     settings.size = resolution.size_in(settings.size);
     return settings;
@@ -36,6 +56,7 @@ void LivePicture::load(const Scene& scene, const PlanRequest& request) {
         renderer_.prepare(coarse, moving(request));
     settings_ = scene.settings;
     request_ = request;
+    rest_plan_.reset();
     resolution_.start();
     moving_frames_ = kRestFrames;
 }
@@ -52,14 +73,40 @@ void LivePicture::set_size(glm::ivec2 size) {
 
 void LivePicture::change(const RenderSettings& settings, const PlanRequest& request) {
     renderer_.change(settings, request);  // throws where the picture at rest cannot be
+    rest_plan_ = renderer_.plan();
     settings_ = settings;
     request_ = request;
     apply_motion();
 }
 
-void LivePicture::edit(std::span<const BoxEdit> edits) {
+std::vector<BoxEdit> LivePicture::edit(std::span<const BoxEdit> edits) {
     begin_motion();
-    renderer_.edit(edits);
+    return renderer_.edit(edits);
+}
+
+void LivePicture::set_reference(std::vector<float> radiance, glm::ivec2 size) {
+    reference_ = std::move(radiance);
+    reference_size_ = size;
+    has_sent_reference_ = false;
+    has_news_ = true;
+}
+
+std::optional<PixelReading> LivePicture::read_pixel(glm::ivec2 pixel, DisplayChannel channel) {
+    if (is_moving() || samples() == 0) return std::nullopt;
+    pixel = glm::clamp(pixel, glm::ivec2(0), renderer_.plan().settings.size - 1);
+    const FilmSums row = renderer_.ready_film().read_rows({static_cast<std::uint32_t>(pixel.y), 1});
+    const Image image = picture_of(row);
+    const auto at = [&](const std::string& name) {
+        return image.channels.at(name).pixels[static_cast<std::size_t>(pixel.x)];
+    };
+    PixelReading reading{.pixel = pixel,
+                         .radiance = {at("R"), at("G"), at("B")},
+                         .error = at("error.Y"),
+                         .samples = row.even[0] + row.odd[0]};
+    const std::array<std::string, 3> names = channel_names(channel);
+    if (!names[0].empty() && image.channels.contains(names[0]))
+        reading.channel = glm::vec3(at(names[0]), at(names[1]), at(names[2]));
+    return reading;
 }
 
 void LivePicture::begin_motion() {
@@ -80,6 +127,7 @@ void LivePicture::replan_motion() {
 
 void LivePicture::end_motion() {
     renderer_.change(settings_, request_);
+    rest_plan_ = renderer_.plan();
     passes_.clear();
 }
 
@@ -116,10 +164,15 @@ LiveFrame LivePicture::advance_motion(double budget_s) {
 
 DisplayBuffer LivePicture::display(const DisplayLook& look) {
     const bool is_new = std::exchange(has_news_, false) || look != shown_look_;
+    // A film that is empty again cannot be shown otherwise; a coarse one soon can.
+    if (samples() == 0 && look != shown_look_) begin_motion();
     if (samples() > 0 && is_new) {
         shown_look_ = look;
         DisplayLook shown = look;
         if (!has_channel(renderer_.plan(), look.channel)) shown.channel = DisplayChannel::color;
+        if (reference_size_ != renderer_.plan().settings.size) shown.comparison = DisplayComparison::none;
+        if (shown.comparison != DisplayComparison::none && !std::exchange(has_sent_reference_, true))
+            renderer_.set_reference(reference_);
         shown_ = renderer_.display(shown);
     }
     return shown_;

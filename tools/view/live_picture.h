@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/renderer.h"
+#include "view/pixel_reading.h"
 #include "view/resolution.h"
 
 namespace voxilux {
@@ -30,7 +31,8 @@ class LivePicture {
     void set_camera(const Camera& camera);
     void set_size(glm::ivec2 size);
     void change(const RenderSettings& settings, const PlanRequest& request);
-    void edit(std::span<const BoxEdit> edits);
+    // Returns the edits that take it back.
+    std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
     void set_max_samples(std::uint32_t samples) { max_samples_ = samples; }
 
     // Takes samples for about so long, at rest until there are `end_samples` whole ones, or all.
@@ -40,6 +42,15 @@ class LivePicture {
     [[nodiscard]] DisplayBuffer display(const DisplayLook& look);
     // Whether a sample has ended since the last display().
     [[nodiscard]] bool has_news() const { return has_news_; }
+
+    // What to compare with: [height][width][3] radiance of so many pixels. It is shown where the picture has
+    // its size.
+    void set_reference(std::vector<float> radiance, glm::ivec2 size);
+    [[nodiscard]] glm::ivec2 reference_size() const { return reference_size_; }
+
+    // What the film at rest knows of a pixel and of a channel; nothing while something moves or before the
+    // first sample.
+    [[nodiscard]] std::optional<PixelReading> read_pixel(glm::ivec2 pixel, DisplayChannel channel);
 
     [[nodiscard]] bool is_loaded() const { return renderer_.is_prepared(); }
     [[nodiscard]] bool is_moving() const { return moving_frames_ > 0; }
@@ -52,6 +63,8 @@ class LivePicture {
     // Times of the passes since the picture was changed.
     [[nodiscard]] std::span<const PassTime> passes() const { return passes_; }
     [[nodiscard]] Renderer& renderer() { return renderer_; }
+    // Of the picture at rest, as far as it was made.
+    [[nodiscard]] const RenderPlan& rest_plan() const { return rest_plan_ ? *rest_plan_ : renderer_.plan(); }
     [[nodiscard]] const Executor& executor() { return renderer_.executor(); }
 
     // What the samples of a frame may take while something moves.
@@ -67,6 +80,7 @@ class LivePicture {
     Renderer renderer_;
     RenderSettings settings_;
     PlanRequest request_;
+    std::optional<RenderPlan> rest_plan_;
     Resolution resolution_;
     std::uint32_t max_samples_ = 1;
     int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
@@ -74,6 +88,9 @@ class LivePicture {
     DisplayLook shown_look_;
     bool has_news_ = false;
     bool has_other_size_ = false;  // the resolution of a motion
+    std::vector<float> reference_;
+    glm::ivec2 reference_size_{0};
+    bool has_sent_reference_ = false;  // to the device
     std::vector<PassTime> passes_;
 };
 

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "base/clock.h"
-#include "base/colour.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "film/film_sums.h"
@@ -12,6 +11,8 @@
 #include "interrupt.h"
 #include "view/actions.h"
 #include "view/panels.h"
+#include "view/picture_look.h"
+#include "view/screenshot.h"
 #include "view/show_pace.h"
 #include "view/user_interface.h"
 #include "view/view_report.h"
@@ -25,19 +26,6 @@ using Clock = std::chrono::steady_clock;
 constexpr glm::ivec2 kFirstSize{1280, 720};
 constexpr double kIdleWait_s = 0.1;
 constexpr double kMinStepShare = 0.3;  // of a frame, for samples, however long showing them takes
-
-Image image_of(const WindowCapture& capture) {
-    const std::array<std::string, 3> names{"R", "G", "B"};
-    Image image = make_image(capture.size.x, capture.size.y, names);
-    image.display_referred = true;
-    const std::array<float, 256> decoded = decoded_srgb_codes();
-    for (std::size_t c = 0; c < 3; ++c) {
-        std::vector<float>& plane = image.channels[names[c]].pixels;
-        for (std::size_t i = 0; i < plane.size(); ++i)
-            plane[i] = decoded[capture.rgb[3 * i + c]];
-    }
-    return image;
-}
 
 // One run of the window: events in, frames out.
 class Session {
@@ -84,6 +72,7 @@ class Session {
         picture_.load(scene, command_.scene.request);
         picture_.set_max_samples(scene.settings.spp);
         state_.input = input;
+        state_.edit = {};
         state_.box = scene_bounds(scene);
         state_.view = state_.home = view_of(*scene.camera, state_.box);
         shown_camera_ = *scene.camera;
@@ -93,6 +82,8 @@ class Session {
     // A file that cannot be shown leaves the picture as it was.
     void take_drop(const DropEvent& drop) {
         try {
+            if (has_ending(drop.files.at(0), ".exr") || has_ending(drop.files.at(0), ".png"))
+                return take_reference(drop.files.at(0));
             SceneOptions options = command_.scene;
             options.input = drop.files.at(0);
             load(load_scene_with(options), options.input);
@@ -100,6 +91,22 @@ class Session {
         } catch (const Error& error) {
             state_.message = error.what();
         }
+    }
+
+    // What is dropped as an image is compared with; the window takes its size.
+    void take_reference(const std::string& file) {
+        const Image image = read_image(file);
+        const auto planes = colour_planes(image);
+        if (!planes) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
+        std::vector<float> radiance(3 * pixel_count(image));
+        for (std::size_t i = 0; i < radiance.size(); ++i)
+            radiance[i] = (*planes)[i % 3][i / 3];
+        const glm::ivec2 size(image.width, image.height);
+        picture_.set_reference(std::move(radiance), size);
+        if (size != window_.size()) window_.resize(size);
+        state_.reference_name = std::filesystem::path(file).filename().string();
+        state_.look.comparison = DisplayComparison::reference;
+        state_.message.clear();
     }
 
     [[nodiscard]] bool is_scripted() const { return !script_.steps.empty() || command_.frames.has_value(); }
@@ -119,7 +126,11 @@ class Session {
             if (const auto* resize = std::get_if<ResizeAction>(&action)) resize_window(resize->size);
             if (const auto* shot = std::get_if<ScreenshotAction>(&action))
                 state_.screenshots.push_back(shot->file);
-            if (const auto* edit = std::get_if<EditAction>(&action)) edit_boxes(*edit);
+            if (const auto* edit = std::get_if<EditAction>(&action)) {
+                const BoxEdit box{edit->box, edit->material};
+                make_edits({&box, 1}, state_);
+            }
+            if (const auto* save = std::get_if<SaveAction>(&action)) save_edits(save->file, state_);
         }
         return events;
     }
@@ -139,15 +150,6 @@ class Session {
     void resize_window(glm::ivec2 size) {
         window_.minimise(size.x == 0);
         if (size.x > 0) window_.resize(size);
-    }
-
-    void edit_boxes(const EditAction& edit) {
-        const BoxEdit box{edit.box, edit.material};
-        try {
-            picture_.edit({&box, 1});
-        } catch (const Error& error) {
-            state_.message = error.what();
-        }
     }
 
     void apply_changes(glm::ivec2 size) {
@@ -171,7 +173,10 @@ class Session {
         apply_changes(size);
         if (picture_.is_loaded()) take_samples();
         if (!is_due) return;
-        draw_panels(state_);
+        aim(glm::max(size, glm::ivec2(1)), state_);
+        read_pixel(size);
+        fit_range(state_);
+        draw_panels(glm::max(size, glm::ivec2(1)), state_);
         show(size);
     }
 
@@ -224,8 +229,15 @@ class Session {
         end_of_frame(seconds_since(start));
     }
 
+    void read_pixel(glm::ivec2 size) {
+        state_.reading.reset();
+        if (!picture_.is_loaded() || !state_.shows_panels || size.x <= 0) return;
+        state_.reading = picture_.read_pixel(glm::ivec2(state_.held.pointer), state_.look.channel);
+    }
+
     ShownPicture shown_picture() {
         if (!picture_.is_loaded()) return {};
+        state_.look.divider = static_cast<std::uint32_t>(state_.divider * picture_.settings().size.x);
         state_.look.is_bgr = presenter_.is_bgr();
         const DisplayBuffer display = picture_.display(state_.look);
         if (display.size.x == 0) return {};

@@ -2,9 +2,30 @@
 
 #include <utility>
 
+#include "view/picture_look.h"
 #include "write_json.h"
 
 namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What the readout says; null where there is none.
+Json json_of(const ViewState& state) {
+    Json json;
+    if (const auto& target = state.edit.target)
+        json["voxel"] = {target->cell.x, target->cell.y, target->cell.z};
+    if (const auto& target = state.edit.target) json["material"] = target->material;
+    if (const auto& reading = state.reading) {
+        json["place"] = {reading->pixel.x, reading->pixel.y};
+        json["radiance"] = {reading->radiance.x, reading->radiance.y, reading->radiance.z};
+        json["error"] = reading->error;
+        json["samples"] = reading->samples;
+    }
+    return json;
+}
+
+}  // namespace
 
 void ViewReport::add_frame(double seconds, double show_s) {
     frames_.push_back({{"ms", 1000.0 * seconds},
@@ -26,7 +47,12 @@ void ViewReport::write(const std::string& file, const ViewState& state, glm::ive
                          {{"position", {camera.position.x, camera.position.y, camera.position.z}},
                           {"yaw", camera.yaw_deg},
                           {"pitch", camera.pitch_deg},
-                          {"fov_y", camera.fov_y_deg}}}}},
+                          {"fov_y", camera.fov_y_deg}}},
+                        {"channel", name_of(state.look.channel)},
+                        {"pixel", json_of(state)},
+                        {"edits", state.edit.edits},
+                        {"undo", state.edit.history.undo_count()},
+                        {"message", state.message}}},
                       {"messages", messages}});
 }
 
