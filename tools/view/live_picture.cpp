@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "estimators/film_error.h"
+#include "plan/error_law.h"
 
 namespace voxilux {
 namespace {
@@ -129,23 +131,38 @@ void LivePicture::end_motion() {
     renderer_.change(settings_, request_);
     rest_plan_ = renderer_.plan();
     passes_.clear();
+    errors_.start(error_law(*rest_plan_));
+}
+
+void LivePicture::set_ends(const SampleEnds& ends) {
+    ends_ = ends;
+    errors_.set_target(ends.error);
 }
 
 bool LivePicture::is_done() const {
-    return !is_moving() && samples() >= max_samples_;
+    const bool is_late = ends_.time_limit_s && errors_.seconds() >= *ends_.time_limit_s;
+    return !is_moving() && (samples() >= max_samples() || errors_.has_reached_target() || is_late);
 }
 
 LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
     if (is_moving() && --moving_frames_ == 0) end_motion();
     if (is_moving()) return advance_motion(budget_s);
     const auto start = std::chrono::steady_clock::now();
-    const std::uint32_t end = std::min(end_samples, max_samples_);
-    if (samples() < end) {
-        const StepResult step = renderer_.step(budget_s, end);
-        add_times(passes_, step.passes);
-        has_news_ |= step.samples > 0;
-    }
+    const std::uint32_t end = std::min(end_samples, max_samples());
+    if (samples() < end && !is_done()) take_samples(budget_s, end);
     return {renderer_.plan().settings.size, samples(), seconds_since(start)};
+}
+
+void LivePicture::take_samples(double budget_s, std::uint32_t end_samples) {
+    const auto start = std::chrono::steady_clock::now();
+    // A film that is looked at has whole samples.
+    const std::uint32_t look = std::max(errors_.next_look(), samples() + 1);
+    const StepResult step = renderer_.step(budget_s, std::min(end_samples, look));
+    errors_.add_time(seconds_since(start));
+    add_times(passes_, step.passes);
+    if (step.samples == 0) return;
+    has_news_ = true;
+    if (errors_.is_due(samples())) errors_.add(samples(), error_of(renderer_.ready_film().read_for_error()));
 }
 
 // One whole sample, however long it takes.

@@ -6,11 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "jobs/live_errors.h"
 #include "renderer/renderer.h"
 #include "view/pixel_reading.h"
 #include "view/resolution.h"
 
 namespace voxilux {
+
+// What ends the samples of a picture at rest, beside their number.
+struct SampleEnds {
+    std::optional<double> error;  // root of relMSE; then their number ends nothing
+    std::optional<double> time_limit_s;
+};
 
 // What a frame of the window did.
 struct LiveFrame {
@@ -34,6 +41,7 @@ class LivePicture {
     // Returns the edits that take it back.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
     void set_max_samples(std::uint32_t samples) { max_samples_ = samples; }
+    void set_ends(const SampleEnds& ends);
 
     // Takes samples for about so long, at rest until there are `end_samples` whole ones, or all.
     LiveFrame advance(double budget_s, std::uint32_t end_samples = kNoEnd);
@@ -56,10 +64,12 @@ class LivePicture {
     [[nodiscard]] bool is_moving() const { return moving_frames_ > 0; }
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] std::uint32_t samples() const { return renderer_.film().position().samples; }
-    [[nodiscard]] std::uint32_t max_samples() const { return max_samples_; }
+    [[nodiscard]] std::uint32_t max_samples() const { return ends_.error ? kMaxSamples : max_samples_; }
     // Of the picture at rest.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] const PlanRequest& request() const { return request_; }
+    // What the film at rest has claimed so far.
+    [[nodiscard]] const LiveErrors& errors() const { return errors_; }
     // Times of the passes since the picture was changed.
     [[nodiscard]] std::span<const PassTime> passes() const { return passes_; }
     [[nodiscard]] Renderer& renderer() { return renderer_; }
@@ -75,6 +85,7 @@ class LivePicture {
     void apply_motion();
     void replan_motion();
     void end_motion();
+    void take_samples(double budget_s, std::uint32_t end_samples);
     LiveFrame advance_motion(double budget_s);
 
     Renderer renderer_;
@@ -83,6 +94,8 @@ class LivePicture {
     std::optional<RenderPlan> rest_plan_;
     Resolution resolution_;
     std::uint32_t max_samples_ = 1;
+    SampleEnds ends_;
+    LiveErrors errors_;
     int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
     DisplayBuffer shown_;
     DisplayLook shown_look_;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "jobs/effect_time.h"
 #include "view/actions.h"
+#include "view/error_panel.h"
 #include "view/picture_panel.h"
 
 namespace voxilux {
@@ -126,6 +127,7 @@ void draw_panels(glm::ivec2 window, ViewState& state) {
     draw_prices(state);
     draw_picture_panel(state);
     draw_edit_panel(state);
+    draw_error_panel(state);
 }
 
 }  // namespace voxilux

@@ -40,6 +40,8 @@ class Session {
           interface_(presenter_, window_.scale()),
           picture_(device_, {.cache_dir = command.device.cache_dir()}),
           state_(picture_) {
+        state_.ends = {command.error_target, command.time_limit_s};
+        picture_.set_ends(state_.ends);
         if (!command.scene.input.empty()) load(scene_, command.scene.input);
     }
 
@@ -184,7 +186,9 @@ class Session {
     [[nodiscard]] bool is_frame_due(const std::vector<InputEvent>& events, glm::ivec2 size) const {
         if (!events.empty() || !picture_.is_loaded() || picture_.is_moving()) return true;
         if (shown_frames_ == 0 || size != shown_size_ || !state_.screenshots.empty()) return true;
-        if (!pace_.is_due()) return picture_.samples() >= awaited_samples();
+        const bool is_waiting = picture_.samples() >= awaited_samples() || picture_.is_done();
+        if (is_scripted() && is_waiting) return true;
+        if (!pace_.is_due()) return false;
         return picture_.has_news() || is_scripted();
     }
 

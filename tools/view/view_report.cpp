@@ -10,6 +10,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// What the film claimed after how many samples and seconds of taking them.
+Json errors_json(const LiveErrors& errors) {
+    Json json = Json::array();
+    for (const LiveError& point : errors.points())
+        json.push_back({{"samples", point.samples},
+                        {"seconds", point.seconds},
+                        {"error", point.error},
+                        {"high", point.high}});
+    return json;
+}
+
 // What the readout says; null where there is none.
 Json json_of(const ViewState& state) {
     Json json;
@@ -53,6 +64,7 @@ void ViewReport::write(const std::string& file, const ViewState& state, glm::ive
                         {"edits", state.edit.edits},
                         {"undo", state.edit.history.undo_count()},
                         {"message", state.message}}},
+                      {"errors", errors_json(state.picture.errors())},
                       {"messages", messages}});
 }
 

@@ -29,6 +29,7 @@ struct ViewState {
     std::string reference_name;           // empty: there is none
     std::optional<PixelReading> reading;  // of the pixel under the pointer, at rest
     EditState edit;
+    SampleEnds ends;
     bool shows_panels = true;
     bool shows_keys = false;
     double frame_s = 0.0;  // of the last frame

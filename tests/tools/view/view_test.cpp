@@ -83,6 +83,32 @@ TEST(WindowFlags, frames_and_screenshot_need_no_script) {
     EXPECT_EQ(read_image(scratch / "a.png").width, 96);
 }
 
+TEST(WindowError, samples_end_when_the_target_is_claimed) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, "[[step]]\nframe = 100\nscreenshot = 'film.exr'\n", {"--error", "5%"});
+    const Json errors = report_of(scratch)["errors"];
+    ASSERT_GE(errors.size(), 2u);
+    EXPECT_LE(errors.back()["high"].get<double>(), 0.05);
+    EXPECT_GT(errors[errors.size() - 2]["high"].get<double>(), 0.05);
+    const auto samples = errors.back()["samples"].get<std::uint32_t>();
+    EXPECT_EQ(read_image(scratch / "film.exr").channels.at("sampleCount.Y").pixels[0], samples);
+    const Ending render = run({"render", scene_file("first_light"), "--size", "160x90", "--spp",
+                               std::to_string(samples), "-q", "-o", scratch / "render.exr"});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_EQ(beauty_of(scratch / "film.exr"), beauty_of(scratch / "render.exr"));
+}
+
+TEST(WindowError, samples_end_with_the_time) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch,
+         "[[step]]\nframe = 30\nscreenshot = 'early.exr'\n[[step]]\nframe = 40\n"
+         "screenshot = 'late.exr'\n",
+         {"--error", "0.01%", "--time-limit", "0.2s"});
+    EXPECT_EQ(beauty_of(scratch / "early.exr"), beauty_of(scratch / "late.exr"));
+}
+
 TEST(WindowFlags, bad_script_is_refused_with_its_line) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
