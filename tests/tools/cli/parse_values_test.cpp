@@ -31,6 +31,21 @@ TEST(ParseExposure, takes_stops_of_either_sign_and_auto) {
         EXPECT_NE(refusal([&] { (void)parse_exposure(text); }), "accepted") << text;
 }
 
+TEST(ParseViewpoint, six_numbers_give_a_camera_to_the_last_bit) {
+    const Camera camera = parse_viewpoint("-1.5,2e3,0.1,190,-90,45.5");
+    EXPECT_EQ(camera.position, glm::dvec3(-1.5, 2000.0, 0.1));
+    EXPECT_EQ(camera.yaw_deg, 190.0);
+    EXPECT_EQ(camera.pitch_deg, -90.0);
+    EXPECT_EQ(camera.fov_y_deg, 45.5);
+}
+
+TEST(ParseViewpoint, what_is_no_camera_is_refused) {
+    for (const char* text :
+         {"", "1,2,3,4,5", "1,2,3,4,5,60,7", "1,2,3,4,5,", "1,2,x,4,5,60", "nan,2,3,4,5,60", "1,2,3,4,91,60",
+          "1,2,3,4,5,0", "1,2,3,4,5,180", "2e9,0,0,0,0,60"})
+        EXPECT_NE(refusal([&] { (void)parse_viewpoint(text); }), "accepted") << text;
+}
+
 TEST(ParseSize, two_numbers_give_a_size) {
     EXPECT_EQ(parse_size("--size", "640x360"), glm::ivec2(640, 360));
     EXPECT_EQ(parse_size("--size", "1x1"), glm::ivec2(1, 1));
