@@ -237,7 +237,11 @@ RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.photons.classic = true;
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
-    return plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
+    plan = plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
+    for (const Effect one : {Effect::ao, Effect::sky, Effect::direct})
+        plan.effects[static_cast<std::size_t>(one)].on = false;
+    plan.paths = {};
+    return plan;
 }
 
 RenderPlan plan_with_radius(RenderPlan plan, double radius) {

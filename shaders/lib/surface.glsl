@@ -5,6 +5,7 @@
 #include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "lib/samples.glsl"
+#include "lib/sphere_tree.glsl"
 #include "lib/spheres.glsl"
 #include "lib/counters_access.glsl"
 #include "lib/world_access.glsl"
@@ -22,26 +23,6 @@ void init_scene() {
     init_world();
     if (sphere_count != 0u && sphere_count <= kFewSpheres) load_spheres();
 }
-
-layout(scalar) readonly buffer SphereTree {
-    SphereNode sphere_tree[];
-};
-
-#define VX_SPHERES_PARAM
-#define VX_SPHERES_ARG
-
-SphereNode load_sphere_node(uint i) {
-    return sphere_tree[i];
-}
-
-Sphere load_sphere(uint i) {
-    return spheres[i].shape;
-}
-
-#include "shared/sphere_tree.h"
-
-const bool has_sphere_tree = sphere_count > kFewSpheres;
-const uint sphere_nodes = 2u * sphere_count - 1u;
 
 uint tree_steps = 0u;  // of the last ray
 

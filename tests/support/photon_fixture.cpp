@@ -4,6 +4,7 @@
 
 #include "passes/photons/photon_buffers.h"
 #include "plan/plan_photons.h"
+#include "world/sphere_tree.h"
 
 namespace voxilux::test {
 namespace {
@@ -40,6 +41,10 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     recording.clear(counters_buffer(recording));
     if (!job.spheres.empty())
         recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(job.spheres)));
+    if (plan.has_sphere_tree()) {
+        const std::vector<gpu::SphereNode> tree = build_sphere_tree(job.spheres);
+        recording.upload(sphere_tree_buffer(plan, recording), std::as_bytes(std::span(tree)));
+    }
     recording.declare(
         {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
     recording.clear("t.points", 0xFFFFFFFFu);

@@ -52,7 +52,9 @@ PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
 // Adds what a pass needs that turns sums into light.
 void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& dispatch,
                  Recording& recording) {
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Spheres", spheres_buffer(plan, recording)},
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Counters", counters_buffer(recording)},
+                                                       {"Spheres", spheres_buffer(plan, recording)},
+                                                       {"SphereTree", sphere_tree_buffer(plan, recording)},
                                                        {"SphereTable", sphere_table_buffer(plan, recording)},
                                                        {"Light", planes.light.buffer},
                                                        {"HalfAreaLight", planes.half_area.buffer}});
@@ -152,8 +154,7 @@ PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& ti
                       .extent = tile_extent(plan, tile),
                       .bindings = point_bindings(hits, recording)};
     dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Counters", counters_buffer(recording)},
-                              {"BucketStarts", photon_starts_buffer(plan, recording)},
+                             {{"BucketStarts", photon_starts_buffer(plan, recording)},
                               {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
     dispatch.bindings.push_back(
         {"PixelRadii",
