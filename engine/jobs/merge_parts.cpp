@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/error.h"
-#include "estimators/film_error.h"
 #include "jobs/report.h"
 
 namespace voxilux {
@@ -140,7 +139,8 @@ Json merged_report(const FilmPart& total, bool reproducible) {
     const bool is_whole = missing_shards(total).empty();
     Json report = reproducible ? reproducible_report(total.report) : total.report;
     report["samples"] = samples_of(total);
-    report["error"] = error_json(error_of(total.film));
+    report["error"] = error_json(
+        claimed_error_of(total.film, total.report.at("faults").get<std::map<std::string, std::uint64_t>>()));
     if (is_whole)
         report.erase("shard");
     else
