@@ -204,7 +204,9 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                           .sun_irradiance = sunlight(scene),
                           .pixels = pixels_of(plan.settings),
                           .sphere_visits = world.sphere_visits,
-                          .has_voxels = plan.has(Effect::voxels)},
+                          .has_voxels = plan.has(Effect::voxels),
+                          .store_bytes = request.photon_store_bytes != 0 ? request.photon_store_bytes
+                                                                         : limits.max_binding_bytes},
                          limits);
     }
     if (plan.any(&Technique::by_paths))

@@ -143,6 +143,7 @@ struct RenderPlan {
 struct PlanRequest {
     EffectRequest effects;
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
+    std::uint64_t photon_store_bytes = 0;   // that a run of photons may take; 0: as much as a binding
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
     Shard shard;                            // of the samples to render

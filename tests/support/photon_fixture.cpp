@@ -66,6 +66,14 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
     return outcome;
 }
 
+PhotonPlanes record_scatter(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
+                            Recording& recording) {
+    record_photon_points(plan, params, tile, {"t.points"}, recording);
+    record_photon_totals(plan, PhotonRadii::common, recording);
+    record_photon_splat(plan, recording);
+    return record_photon_resolve(plan, tile, {"t.points"}, PhotonRadii::common, recording);
+}
+
 PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     const RenderPlan plan = photon_plan(job);
     const gpu::PhotonParams params = photon_params(job.setup);
@@ -77,7 +85,7 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     record_append(plan, job, !scatters, recording);
     if (!scatters) record_photon_sort(plan, params, recording);
     const PhotonPlanes planes = scatters
-                                    ? record_photon_splat(plan, params, tile, {"t.points"}, recording)
+                                    ? record_scatter(plan, params, tile, recording)
                                     : record_photon_gather(plan, tile, {"t.points"}, job.radii, recording);
     for (const std::string& buffer :
          {planes.light.buffer, planes.half_area.buffer, std::string("photon.head"), std::string("counters")})
