@@ -133,7 +133,8 @@ RenderOutcome SampleLoop::outcome() {
     RenderOutcome outcome{.image = picture_of(film), .plan = plan, .statistics = statistics_};
     RenderStatistics& statistics = outcome.statistics;
     // Halves that share samples are not independent: they agree better than they are right.
-    statistics.error = plan.any(&Technique::shares_samples) ? unknown_error() : claimed_error_of(film, statistics_.faults);
+    statistics.error =
+        plan.any(&Technique::shares_samples) ? unknown_error() : claimed_error_of(film, statistics_.faults);
     statistics.samples = samples();
     add_projection(statistics);
     statistics.live_cells = renderer.film().state().live_cells;
