@@ -151,8 +151,14 @@ StepResult Renderer::step_tile() {
     return with_uploads(ready_film().step_tile());
 }
 
-DisplayBuffer Renderer::display() {
-    return ready_film().display();
+DisplayBuffer Renderer::display(const DisplayLook& look) {
+    return ready_film().display(look);
+}
+
+void Renderer::set_reference(std::span<const float> radiance) {
+    Recording recording;
+    record_display_reference(plan(), radiance, recording);
+    (void)executor_.run(recording);
 }
 
 StepResult Renderer::with_uploads(StepResult step) {

@@ -209,16 +209,6 @@ struct FilmAddPush {
     uint pixel_count;
 };
 
-// Push constants of display_resolve, for one film tile.
-struct DisplayResolvePush {
-    uint count;        // values of the film tile
-    uint row_values;   // of a row of the image
-    uint first_row;    // of the film tile in the image
-    uint samples;      // of all rows
-    uint rows_ahead;   // rows from the top of the image that have one sample more
-    uint rows_behind;  // rows from the top that have one less
-};
-
 // What a march of bench.march found.
 struct BenchHit {
     ivec3 cell;  // solid cell local to the world; of no meaning on a miss

@@ -1,54 +1,13 @@
 // Windows of a virtual display, driven by scripts: the same code as a person's input.
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <string_view>
 
-#include "formats/image_file.h"
-#include "tools/cli/words.h"
+#include "tools/view/view_script.h"
 
 namespace voxilux::test {
 namespace {
-
-#define SKIP_UNLESS_DISPLAY() \
-    if (std::string_view(VX_BINARY).empty()) GTEST_SKIP() << "no xvfb-run (Debian: apt install xvfb)"
-
-// The colours of an image.
-std::map<std::string, std::vector<float>> beauty_of(const std::filesystem::path& file) {
-    const Image image = read_image(file);
-    std::map<std::string, std::vector<float>> planes;
-    for (const char* name : {"R", "G", "B"})
-        planes[name] = image.channels.at(name).pixels;
-    return planes;
-}
-
-// What a script leaves in a folder; its report is report.json.
-Ending play(const ScratchFolder& scratch, const std::string& script, const Words& more = {}) {
-    write_text(scratch / "script.toml", script);
-    const Ending ending = run(with({"view", scene_file("first_light"), "--size", "160x90", "--spp", "3",
-                                    "--script", "script.toml", "--report", "report.json", "--validation"},
-                                   more),
-                              {.folder = scratch.path()});
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    return ending;
-}
-
-Json report_of(const ScratchFolder& scratch) {
-    return Json::parse(bytes_of(scratch / "report.json"));
-}
-
-std::string orbit(int frame, int columns) {
-    return "[[step]]\nframe = " + std::to_string(frame) + "\nkey = 'Tab'\n" +
-           "[[step]]\nframe = " + std::to_string(frame + 2) +
-           "\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [" + std::to_string(80 + columns) +
-           ", 45]\n[[step]]\nrelease = 'left'\n";
-}
-
-std::string film(int frame, const std::string& file) {
-    return "[[step]]\nframe = " + std::to_string(frame) + "\nsamples = 3\nscreenshot = '" + file + "'\n";
-}
 
 TEST(WindowFilm, at_rest_it_is_that_of_render) {
     SKIP_UNLESS_DISPLAY();
@@ -122,6 +81,32 @@ TEST(WindowFlags, frames_and_screenshot_need_no_script) {
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(report_of(scratch)["frames"].size(), 4u);
     EXPECT_EQ(read_image(scratch / "a.png").width, 96);
+}
+
+TEST(WindowError, samples_end_when_the_target_is_claimed) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, "[[step]]\nframe = 100\nscreenshot = 'film.exr'\n", {"--error", "5%"});
+    const Json errors = report_of(scratch)["errors"];
+    ASSERT_GE(errors.size(), 2u);
+    EXPECT_LE(errors.back()["high"].get<double>(), 0.05);
+    EXPECT_GT(errors[errors.size() - 2]["high"].get<double>(), 0.05);
+    const auto samples = errors.back()["samples"].get<std::uint32_t>();
+    EXPECT_EQ(read_image(scratch / "film.exr").channels.at("sampleCount.Y").pixels[0], samples);
+    const Ending render = run({"render", scene_file("first_light"), "--size", "160x90", "--spp",
+                               std::to_string(samples), "-q", "-o", scratch / "render.exr"});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_EQ(beauty_of(scratch / "film.exr"), beauty_of(scratch / "render.exr"));
+}
+
+TEST(WindowError, samples_end_with_the_time) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch,
+         "[[step]]\nframe = 30\nscreenshot = 'early.exr'\n[[step]]\nframe = 40\n"
+         "screenshot = 'late.exr'\n",
+         {"--error", "0.01%", "--time-limit", "0.2s"});
+    EXPECT_EQ(beauty_of(scratch / "early.exr"), beauty_of(scratch / "late.exr"));
 }
 
 TEST(WindowFlags, bad_script_is_refused_with_its_line) {
