@@ -178,6 +178,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     place_window(plan, request.crop);
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
+    plan.has_world_texels =
+        loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
     plan.material_count =
         checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");

@@ -8,15 +8,12 @@
 #define VX_PATH_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/materials.glsl"
 #include "lib/surface.glsl"
 #include "shared/dielectric.h"
 #include "shared/sppm.h"
 
 VX_SPECIALIZED(uint, has_glass_voxels, 0u);
-
-layout(scalar) readonly buffer Materials {
-    SurfaceMaterial materials[];
-};
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
@@ -85,7 +82,7 @@ CellExit exit_cell(PathRay path) {
 }
 
 bool is_glass(uint material) {
-    return materials[material].glass > 0.0;
+    return material_glass(material) > 0.0;
 }
 
 // What is behind the glass voxel that a ray leaves. `probe` is the march of a ray of no length in the cell behind.
@@ -208,7 +205,7 @@ struct Interface {
 };
 
 float ior_of(uint medium) {
-    return medium == kNoMedium ? 1.0 : materials[medium].ior;
+    return medium == kNoMedium ? 1.0 : material_ior(medium);
 }
 
 // `own_ior` is that of the material that was hit.
@@ -254,7 +251,7 @@ struct BsdfSample {
 // of the surface and for Fresnel's. Mirror and glass are drawn with the probability that is their share, and
 // reflection with that of the reflectance, so that no weight but the albedo remains.
 BsdfSample path_event(PathRay path, PathHit found, vec2 u) {
-    SurfaceMaterial material = materials[found.hit.material];
+    SurfaceMaterial material = load_material(found.hit.material);
     bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
     bool is_glass_here = material.glass > 0.0 && (from_inside || u.x < material.glass);
     bool is_mirror_here = !is_glass_here && u.x < material.glass + material.mirror;
