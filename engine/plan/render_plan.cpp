@@ -210,7 +210,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                          limits);
     }
     if (plan.any(&Technique::by_paths))
-        plan.paths = plan_paths({.max_albedo = world.lights.max_albedo,
+        plan.paths = plan_paths({.max_albedo = facts.max_albedo,
                                  .sphere_visits = world.sphere_visits,
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);

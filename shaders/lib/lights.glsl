@@ -17,6 +17,10 @@ struct DrawnLight {
     float pdf;
 };
 
+bool is_sphere(DrawnLight emitter) {
+    return sphere_count != 0u && emitter.parts.kind == kLightSphere;
+}
+
 AliasEntry load_alias(uint i) {
     int first = int(kAliasWords * i);
     AliasEntry entry;
@@ -34,7 +38,7 @@ DrawnLight sample_light(uint bits, float u) {
     drawn.cell = ivec3(light.xyz);
     drawn.parts = light_parts(light.w);
     drawn.pdf = load_alias(i).pdf;
-    uint material = drawn.parts.kind == kLightSphere ? spheres[drawn.parts.sphere].material : drawn.parts.material;
+    uint material = is_sphere(drawn) ? spheres[drawn.parts.sphere].material : drawn.parts.material;
     drawn.emission = material_emission(material);
     return drawn;
 }
@@ -55,7 +59,7 @@ LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
     aim.emitter = sample_light(bits, u);
     aim.pdf = 0.0;
     aim.direction = vec3(0.0, 0.0, 1.0);
-    if (aim.emitter.parts.kind == kLightSphere) {
+    if (is_sphere(aim.emitter)) {
         Sphere shape = spheres[aim.emitter.parts.sphere].shape;
         SphereCone cone = sphere_cone(sphere_centre(shape) - origin, 1.0 / shape.curvature);
         if (cone.height > 0.0) {
@@ -77,7 +81,7 @@ LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
 }
 
 bool is_on_emitter(Hit hit, DrawnLight emitter) {
-    if (emitter.parts.kind == kLightSphere) return is_on_sphere(hit) && hit.sphere == emitter.parts.sphere;
+    if (is_sphere(emitter)) return is_on_sphere(hit) && hit.sphere == emitter.parts.sphere;
     return !is_on_sphere(hit) && hit.face == emitter.parts.face && hit.cell == emitter.cell;
 }
 

@@ -14,6 +14,7 @@
 #include "shared/sppm.h"
 
 VX_SPECIALIZED(uint, has_glass_voxels, 0u);
+VX_SPECIALIZED(uint, start_anywhere, 0u);  // rays do, not just on surfaces
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
@@ -122,7 +123,11 @@ void find_voxel(PathRay path, inout PathHit found) {
         ray.fraction = inside ? probe.fraction : ray.fraction;
         ray.t_max = inside ? probe.t_max : ray.t_max;
     }
-    WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
+    WorldEntry entry;
+    entry.ray = ray;
+    entry.t = 0.0;
+    entry.enters = true;
+    if (start_anywhere != 0u || sphere_count != 0u) entry = enter_world(ray, frame.chunks << kChunkLog2);
     if (entry.enters) {
         MarchHit met = march(entry.ray, frame.chunks);
         march_steps = met.steps;

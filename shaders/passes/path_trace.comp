@@ -61,8 +61,9 @@ void main() {
     Walk walk = no_walk();
     uint next_id = frame.first_element + lane;
     if (has_rounds != 0u && states[lane].next_id != 0u) {
-        walk = walk_of(states[lane]);
         next_id = states[lane].next_id;
+        if (next_id >= end && states[lane].kind == kRayNone) return;  // an earlier round has ended its paths
+        walk = walk_of(states[lane]);
     }
     uint turns = 0u;
     uint segments = 0u;

@@ -105,6 +105,11 @@ VX_FN int first_axis(vec3 t) {
     return min(t.y, t.z) < t.x ? yz : 0;
 }
 
+// The cell that a ray is in after so many crossings.
+VX_FN ivec3 cell_behind(MarchAxes axes, ivec3 crossed) {
+    return axes.cell + (crossed ^ axes.sign_mask) - axes.sign_mask;
+}
+
 // Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
 // `high` are not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
 VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
@@ -152,38 +157,40 @@ VX_FN MarchHit march_nothing(Ray ray) {
 }
 
 // The hit of march() for a ray that is known to meet no solid cell before the time `start`: it steps from
-// there.
+// there. The loop has one way out and changes few values, because software devices blend each of them for all
+// invocations, at each way out.
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
-    const uint limit = planes_ahead(axes, size) + kMarchSlack;
     MarchHit hit = march_nothing(ray);
     const float from = hit.fault == kMarchFine ? max(start, 0.0f) : ray.t_max;
-    if (!(from < ray.t_max)) return hit;
+    const uint limit = from < ray.t_max ? planes_ahead(axes, size) + kMarchSlack : 0u;
     int axis = -1;
-    if (start > 0.0f) {
+    if (start > 0.0f && limit != 0u) {
         hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMaxPlanes));
-        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
+        hit.cell = cell_behind(axes, hit.crossed);
     }
+    uint last = make_cell(kCellEmpty, 0u);
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
-        if (is_outside(hit.cell, size)) return hit;
-        const MarchCell found = find_cell(VX_WORLD_ARG hit.cell, chunks);
-        if (cell_state(found.cell) == kCellSolid) {
-            hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
-            hit.material = cell_payload(found.cell);
-            return hit;
-        }
+        const bool outside = is_outside(hit.cell, size);
+        const MarchCell found = find_cell(VX_WORLD_ARG outside ? ivec3(0) : hit.cell, chunks);
         const ivec3 exit = hit.crossed + planes_to_exit(found, hit.cell, axes);
         const vec3 times = plane_times(axes, exit);
-        axis = first_axis(times);
         const float t = min(times.x, min(times.y, times.z));
-        if (!(t < ray.t_max)) return hit;
+        last = outside ? make_cell(kCellEmpty, 0u) : found.cell;
+        if (outside || cell_state(last) == kCellSolid || !(t < ray.t_max)) break;
+        axis = first_axis(times);
         const ivec3 n = planes_before(axes, t, axis, hit.crossed, exit - 1);
         hit.crossed = ivec3(axis == 0 ? exit.x : n.x, axis == 1 ? exit.y : n.y, axis == 2 ? exit.z : n.z);
-        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
+        hit.cell = cell_behind(axes, hit.crossed);
         hit.t = t;
     }
-    hit.fault = kMarchExhausted;
+    if (hit.steps == limit && limit != 0u) {
+        hit.fault = kMarchExhausted;
+    } else if (cell_state(last) == kCellSolid) {
+        hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
+        hit.material = cell_payload(last);
+    }
     return hit;
 }
 
