@@ -71,7 +71,7 @@ CellExit exit_cell(PathRay path) {
     ray.t_max = kUnbounded;
     MarchAxes axes = march_axes(ray);
     vec3 times = plane_times(axes, ivec3(1));
-    int axis = first_axis(times);
+    int axis = first_crossing(times).axis;
     CellExit result;
     result.t = max(min(times.x, min(times.y, times.z)), 0.0);
     result.face = uint(direction_number(axes, axis));
