@@ -30,7 +30,7 @@ class FootprintSum {
 
     [[nodiscard]] Footprint sum() {
         for (PlannedBuffer& planned : sum_.buffers)
-            planned.by_address = addressed_.contains(planned.buffer) && !bound_.contains(planned.buffer);
+            planned.by_address = addressed_.contains(planned.buffer);
         return sum_;
     }
 
@@ -39,15 +39,13 @@ class FootprintSum {
         auto known = std::ranges::find(sum_.passes, dispatch.label, &PlannedPass::label);
         if (known == sum_.passes.end()) known = sum_.passes.insert(known, PlannedPass{dispatch.label});
         known->count += times;
-        for (const Binding& binding : dispatch.bindings)
-            bound_.insert(binding.buffer);
         for (const Address& address : dispatch.addresses)
             addressed_.insert(address.buffer);
     }
 
     Footprint sum_;
     std::map<std::string, std::size_t> buffers_;  // places in sum_
-    std::set<std::string> bound_, addressed_;
+    std::set<std::string> addressed_;
 };
 
 // Dispatch tiles of a film tile that differ in nothing but their first row.

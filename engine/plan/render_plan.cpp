@@ -178,6 +178,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     place_window(plan, request.crop);
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
+    plan.has_world_texels =
+        loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
     plan.material_count =
         checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
@@ -210,7 +212,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                          limits);
     }
     if (plan.any(&Technique::by_paths))
-        plan.paths = plan_paths({.max_albedo = world.lights.max_albedo,
+        plan.paths = plan_paths({.max_albedo = facts.max_albedo,
                                  .sphere_visits = world.sphere_visits,
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);

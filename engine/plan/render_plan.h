@@ -67,6 +67,7 @@ struct RenderPlan {
     std::vector<ChosenTechnique> techniques;
     AoPlan ao;  // the default when the effect is off
     WorldFacts world;
+    bool has_world_texels = false;  // shaders read the world's arrays as texels
     std::uint32_t material_count = 0;
     std::uint32_t sphere_count = 0;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order

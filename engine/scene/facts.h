@@ -33,6 +33,8 @@ struct SceneFacts {
     bool has_reflectors = false;        // a used material that is not black
     bool has_specular_spheres = false;  // of glass or metal
 
+    double max_albedo = 0.0;  // largest channel of a used material that is not all mirror and glass
+
     // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.
     std::vector<std::string> simplified;
 

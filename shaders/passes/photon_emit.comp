@@ -73,7 +73,7 @@ void main() {
         start.power /= float(frame.sun_photons);
     } else {
         DrawnLight emitter = sample_light(unit_bits(u_choice.x), u_choice.y);
-        if (emitter.parts.kind == kLightSphere) {
+        if (is_sphere(emitter)) {
             start = leave_sphere(emitter, u_point, u_direction);
         } else {
             start = leave_face(emitter, u_point, u_direction);

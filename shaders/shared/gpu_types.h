@@ -143,6 +143,17 @@ struct PathRay {
     uint medium;  // material of the glass voxels that it goes through, or kNoMedium
 };
 
+// Where the path of a visible point starts. A direction of zero starts none.
+struct PathStart {
+    ivec3 cell;   // of the origin, as in Ray
+    uint stream;  // of samples of its pixel
+    vec3 fraction;
+    uint own;  // the sphere that it starts on, or kNoSphere
+    vec3 direction;
+    uint medium;  // material of the glass voxel that the visible point is in, or kNoMedium
+};
+VX_CONST(uint, kPathStartTexels, 3u);
+
 // A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
 struct PathState {
     PathRay ray;

@@ -43,6 +43,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                                {"sorts_photons", settings.scatter ? 0u : 1u},
                                {"lanes", plan.photons.lanes},
                                {"slots_at_once", plan.photons.slots_at_once},
+                               {"start_anywhere", 1u},
                                {"depth_limit", settings.roulette ? 0u : settings.depth}});
     dispatch.bindings.push_back(
         {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.at_once)});
