@@ -124,6 +124,9 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
 // The subcommands, and what each runs with the options that parsing has filled.
 class Commands {
   public:
+    // `words` follow the subcommand.
+    explicit Commands(std::vector<std::string> words) : words_(std::move(words)) {}
+
     template <class Options>
     void add(CLI::App& app, const std::string& name, const std::string& help,
              void (*add_flags)(Flags&, Options&), int (*run_command)(const Options&)) {
@@ -131,6 +134,7 @@ class Commands {
         const auto options = std::make_shared<Options>();
         Flags flags(*command);
         add_flags(flags, *options);
+        if constexpr (requires { options->words; }) options->words = words_;
         rows_.push_back({command, [=] { return run_command(*options); }});
     }
 
@@ -146,6 +150,7 @@ class Commands {
         std::function<int()> run;
     };
     std::vector<Row> rows_;
+    std::vector<std::string> words_;
 };
 
 void add_required_render_flags(Flags& flags, RenderCommand& command) {
@@ -179,7 +184,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
-    Commands commands;
+    Commands commands({argv + std::min(argc, 2), argv + argc});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
     commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",

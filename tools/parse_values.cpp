@@ -189,6 +189,26 @@ View parse_view(std::string_view name) {
     return parse_name("--camera", name, kNames);
 }
 
+Camera parse_viewpoint(std::string_view text) {
+    std::array<double, 6> values{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto [rest, error] = std::from_chars(at, end, values[i]);
+        const bool is_last = i + 1 == values.size();
+        const bool goes_on = is_last ? rest == end : rest != end && *rest == ',';
+        if (error != std::errc() || !std::isfinite(values[i]) || !goes_on)
+            refuse(fmt::format("--viewpoint: '{}' is not x,y,z,yaw,pitch,fov", text));
+        at = rest + 1;
+    }
+    const Camera camera{{values[0], values[1], values[2]}, values[3], values[4], values[5]};
+    if (!(glm::length(camera.position) <= kMaxCoordinate)) refuse("--viewpoint: lies beyond 2^30 voxels");
+    if (!(std::abs(camera.pitch_deg) <= 90.0)) refuse("--viewpoint: the pitch is from -90 to 90 degrees");
+    if (!(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0))
+        refuse("--viewpoint: the field of view is between 0 and 180 degrees");
+    return camera;
+}
+
 EffectSwitch parse_effect_switch(std::string_view text) {
     static constexpr Names<Switch, 3> kNames = {
         {{"on", Switch::on}, {"off", Switch::off}, {"auto", Switch::automatic}}};

@@ -65,6 +65,9 @@ namespace voxilux {
 // three-quarter, front, back, left, right, top or iso.
 [[nodiscard]] View parse_view(std::string_view name);
 
+// "x,y,z,yaw,pitch,fov": a place in scene space and degrees.
+[[nodiscard]] Camera parse_viewpoint(std::string_view text);
+
 // "NAME=on|off|auto".
 struct EffectSwitch {
     Effect effect = Effect::voxels;

@@ -125,6 +125,8 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges) {
         "picture size in pixels");
     flags.add_parsed("--camera", "SIDE", options.view, parse_view,
                      "frame it from three-quarter, front, back, left, right, top or iso");
+    flags.add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
+                     "stand there: voxels and degrees, as the window says them");
     flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
                      "render columns X0 to X1-1 and rows Y0 to Y1-1 only");
     flags.add("--frame", "N", options.frame, "one picture, of this frame of an animated scene").from_zero();
@@ -172,6 +174,11 @@ Scene load_scene_with(const SceneOptions& options) {
         const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
         scene.camera = framing_camera(scene, *options.view, fov_y_deg);
         scene.animation.camera_keys.clear();
+    }
+    if (options.viewpoint) {
+        scene.camera = options.viewpoint;
+        scene.animation.camera_keys.clear();
+        scene.animation.turntable.reset();
     }
     return scene;
 }

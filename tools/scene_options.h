@@ -29,6 +29,7 @@ struct SceneOptions {
     std::vector<NamedTechnique> techniques;
     std::optional<std::uint32_t> spp;  // or iterations
     std::optional<View> view;
+    std::optional<Camera> viewpoint;
     std::optional<std::int64_t> frame;  // one picture
     std::optional<FrameList> frames;    // a picture for each
     PlanRequest request;                // the caller knows which channels its outputs hold

@@ -31,6 +31,13 @@ void take_screenshot(const char* ending, ViewState& state) {
     }
 }
 
+// The first frame comes after the last one, and the other way round.
+void show_frame(std::int64_t frame, ViewState& state) {
+    if (!state.frames) return;
+    const auto& [first, last] = *state.frames;
+    state.frame = frame > last ? first : frame < first ? last : frame;
+}
+
 void choose_tool(int key, ViewState& state) {
     constexpr std::pair<int, Tool> kTools[] = {{GLFW_KEY_V, Tool::view},   {GLFW_KEY_P, Tool::place},
                                                {GLFW_KEY_R, Tool::remove}, {GLFW_KEY_B, Tool::paint},
@@ -71,6 +78,13 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
             return step_channel(state.held.shift ? -1 : 1, state);
         case GLFW_KEY_X:
             return step_comparison(state);
+        case GLFW_KEY_SPACE:
+            state.is_playing = !state.is_playing && state.frames;
+            return;
+        case GLFW_KEY_PERIOD:
+            return show_frame(state.frame + 1, state);
+        case GLFW_KEY_COMMA:
+            return show_frame(state.frame - 1, state);
         case GLFW_KEY_LEFT_BRACKET:
             state.edit.brush = std::max(state.edit.brush - 1, 1);
             return;
@@ -88,6 +102,7 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
 void take_shortcut(int key, ViewState& state) {
     if (key == GLFW_KEY_Z) return state.held.shift ? redo_edit(state) : undo_edit(state);
     if (key == GLFW_KEY_Y) return redo_edit(state);
+    if (key == GLFW_KEY_C) state.wants_command = true;
     if (key == GLFW_KEY_S) save_edits(state.input, state);
 }
 
@@ -165,7 +180,7 @@ void fly(double seconds, ViewState& state) {
 }
 
 std::span<const std::pair<const char*, const char*>> key_sheet() {
-    static constexpr std::array<std::pair<const char*, const char*>, 19> kSheet{{
+    static constexpr std::array<std::pair<const char*, const char*>, 22> kSheet{{
         {"left drag", "orbit"},
         {"middle or shift drag", "pan"},
         {"right drag", "look around"},
@@ -180,6 +195,9 @@ std::span<const std::pair<const char*, const char*>> key_sheet() {
         {"[ ]", "a smaller, a larger brush"},
         {"Ctrl Z, Ctrl Y", "undo, redo"},
         {"Ctrl S", "save the .vox"},
+        {"Ctrl C", "copy the command that renders this view"},
+        {"Space", "play or pause an animation"},
+        {", .", "the frame before, the next one"},
         {"T", "tone curve"},
         {"F12", "screenshot; with shift the film as EXR"},
         {"Tab", "panels"},

@@ -123,6 +123,7 @@ void save_edits(const std::filesystem::path& file, ViewState& state) {
         const VoxFile saved =
             with_voxels(load_vox(state.input), *world, state.picture.renderer().scene().materials);
         write_file_atomically(file, write_vox(saved));
+        state.has_saved = true;
         state.message = "saved " + file.string();
     } catch (const Error& error) {
         state.message = error.what();

@@ -68,6 +68,14 @@ void LivePicture::set_camera(const Camera& camera) {
     renderer_.set_camera(camera);
 }
 
+void LivePicture::set_voxels(const Scene& still) {
+    begin_motion();
+    Scene coarse = still;
+    coarse.settings = moving(settings_, resolution_);
+    coarse.camera = renderer_.scene().camera;
+    renderer_.set_voxels(coarse);
+}
+
 void LivePicture::set_size(glm::ivec2 size) {
     settings_.size = size;
     apply_motion();

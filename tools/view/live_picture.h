@@ -37,6 +37,8 @@ class LivePicture {
     void load(const Scene& scene, const PlanRequest& request);
     void set_camera(const Camera& camera);
     void set_size(glm::ivec2 size);
+    // The frame of an animation; its voxels cannot be edited.
+    void set_voxels(const Scene& still);
     void change(const RenderSettings& settings, const PlanRequest& request);
     // Returns the edits that take it back.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);

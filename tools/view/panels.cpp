@@ -75,6 +75,13 @@ void draw_prices(ViewState& state) {
     ImGui::End();
 }
 
+void draw_frames(ViewState& state) {
+    ImGui::Checkbox("play", &state.is_playing);
+    ImGui::SameLine();
+    const std::int64_t first = state.frames->first, last = state.frames->last;
+    ImGui::SliderScalar("frame", ImGuiDataType_S64, &state.frame, &first, &last);
+}
+
 void draw_status(ViewState& state) {
     begin_panel("voxilux", {8.0f, 8.0f});
     if (state.picture.is_loaded()) {
@@ -82,6 +89,7 @@ void draw_status(ViewState& state) {
         text(fmt::format("{}  {}x{}  {} of {} samples  {:.0f} ms", state.input.filename().string(), size.x,
                          size.y, state.picture.samples(), state.picture.max_samples(),
                          1000.0 * state.frame_s));
+        if (state.frames) draw_frames(state);
         text("H: keys");
     } else {
         text("drop a .vox or a .toml file here");

@@ -78,6 +78,12 @@ void fit_range(ViewState& state) {
     }
 }
 
+void read_pixel(ViewState& state) {
+    state.reading.reset();
+    if (!state.picture.is_loaded() || !state.shows_panels) return;
+    state.reading = state.picture.read_pixel(glm::ivec2(state.held.pointer), state.look.channel);
+}
+
 bool is_wiping(const ViewState& state) {
     return state.look.comparison != DisplayComparison::none && state.look.channel == DisplayChannel::color;
 }

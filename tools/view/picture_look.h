@@ -19,6 +19,9 @@ void expose(float stops, ViewState& state);
 // The ends of false colours, which depend on the camera.
 void fit_range(ViewState& state);
 
+// Reads out what is under the pointer, where a panel shows it.
+void read_pixel(ViewState& state);
+
 // Whether the divider is in the picture.
 [[nodiscard]] bool is_wiping(const ViewState& state);
 // Nothing, the reference, the difference from it.

@@ -97,6 +97,8 @@ std::optional<int> key_named(std::string_view name) {
                                                            {"F12", GLFW_KEY_F12},
                                                            {"Plus", GLFW_KEY_EQUAL},
                                                            {"Minus", GLFW_KEY_MINUS},
+                                                           {"Period", GLFW_KEY_PERIOD},
+                                                           {"Comma", GLFW_KEY_COMMA},
                                                            {"BracketLeft", GLFW_KEY_LEFT_BRACKET},
                                                            {"BracketRight", GLFW_KEY_RIGHT_BRACKET}};
     for (const auto& [known, number] : kNames)

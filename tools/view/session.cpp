@@ -6,13 +6,18 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "film/film_sums.h"
 #include "formats/image_file.h"
 #include "interrupt.h"
 #include "view/actions.h"
+#include "view/file_watch.h"
 #include "view/panels.h"
 #include "view/picture_look.h"
+#include "view/playback.h"
+#include "view/render_command.h"
 #include "view/screenshot.h"
+#include "view/script_player.h"
 #include "view/show_pace.h"
 #include "view/user_interface.h"
 #include "view/view_report.h"
@@ -75,10 +80,34 @@ class Session {
         picture_.set_max_samples(scene.settings.spp);
         state_.input = input;
         state_.edit = {};
+        watch_ = FileWatch(input);
+        playback_.load(scene, frames_to_render(command_.scene, scene).first, state_);
         state_.box = scene_bounds(scene);
         state_.view = state_.home = view_of(*scene.camera, state_.box);
         shown_camera_ = *scene.camera;
         window_.set_title("voxilux " + state_.input.filename().string());
+    }
+
+    // Somebody wrote the scene's file; the camera stays.
+    void reload() {
+        try {
+            SceneOptions options = command_.scene;
+            options.input = state_.input.string();
+            const ViewPoint view = state_.view;
+            const ViewPoint home = state_.home;
+            load(load_scene_with(options), options.input);
+            state_.view = view;
+            state_.home = home;
+            state_.message = "loaded again";
+        } catch (const Error& error) {
+            state_.message = error.what();
+        }
+    }
+
+    void copy_command() {
+        const std::string line = render_command(command_.words, command_.scene.input, state_);
+        window_.set_clipboard(line);
+        print_result("{}\n", line);
     }
 
     // A file that cannot be shown leaves the picture as it was.
@@ -98,20 +127,17 @@ class Session {
     // What is dropped as an image is compared with; the window takes its size.
     void take_reference(const std::string& file) {
         const Image image = read_image(file);
-        const auto planes = colour_planes(image);
-        if (!planes) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
-        std::vector<float> radiance(3 * pixel_count(image));
-        for (std::size_t i = 0; i < radiance.size(); ++i)
-            radiance[i] = (*planes)[i % 3][i / 3];
+        const std::optional<std::vector<float>> radiance = interleaved_colours(image);
+        if (!radiance) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
         const glm::ivec2 size(image.width, image.height);
-        picture_.set_reference(std::move(radiance), size);
+        picture_.set_reference(*radiance, size);
         if (size != window_.size()) window_.resize(size);
         state_.reference_name = std::filesystem::path(file).filename().string();
         state_.look.comparison = DisplayComparison::reference;
         state_.message.clear();
     }
 
-    [[nodiscard]] bool is_scripted() const { return !script_.steps.empty() || command_.frames.has_value(); }
+    [[nodiscard]] bool is_scripted() const { return !script_.is_empty() || command_.frames.has_value(); }
 
     [[nodiscard]] bool is_idle() const {
         return !is_scripted() && (!picture_.is_loaded() || picture_.is_done());
@@ -119,34 +145,19 @@ class Session {
 
     std::vector<InputEvent> take_input() {
         std::vector<InputEvent> events = window_.poll(is_idle() ? kIdleWait_s : 0.0);
-        while (next_step_ < script_.steps.size() && is_due(script_.steps[next_step_])) {
-            const ScriptAction& action = script_.steps[next_step_].action;
-            // A screenshot is of this frame: what comes after it waits.
-            if (!state_.screenshots.empty() && !std::holds_alternative<ScreenshotAction>(action)) break;
-            ++next_step_;
-            if (const auto* event = std::get_if<InputEvent>(&action)) events.push_back(*event);
-            if (const auto* resize = std::get_if<ResizeAction>(&action)) resize_window(resize->size);
-            if (const auto* shot = std::get_if<ScreenshotAction>(&action))
+        while (const ScriptAction* const action =
+                   script_.next(shown_frames_, picture_, !state_.screenshots.empty())) {
+            if (const auto* event = std::get_if<InputEvent>(action)) events.push_back(*event);
+            if (const auto* resize = std::get_if<ResizeAction>(action)) resize_window(resize->size);
+            if (const auto* shot = std::get_if<ScreenshotAction>(action))
                 state_.screenshots.push_back(shot->file);
-            if (const auto* edit = std::get_if<EditAction>(&action)) {
+            if (const auto* edit = std::get_if<EditAction>(action)) {
                 const BoxEdit box{edit->box, edit->material};
                 make_edits({&box, 1}, state_);
             }
-            if (const auto* save = std::get_if<SaveAction>(&action)) save_edits(save->file, state_);
+            if (const auto* save = std::get_if<SaveAction>(action)) save_edits(save->file, state_);
         }
         return events;
-    }
-
-    // The film that the script waits for is not to grow beyond.
-    [[nodiscard]] std::uint32_t awaited_samples() const {
-        return next_step_ < script_.steps.size() ? script_.steps[next_step_].samples.value_or(kNoEnd)
-                                                 : kNoEnd;
-    }
-
-    [[nodiscard]] bool is_due(const ScriptStep& step) {
-        if (step.frame > shown_frames_) return false;
-        return !step.samples ||
-               (picture_.is_loaded() && !picture_.is_moving() && picture_.samples() >= *step.samples);
     }
 
     void resize_window(glm::ivec2 size) {
@@ -172,11 +183,15 @@ class Session {
         const bool is_due = is_frame_due(events, size);
         if (is_due) take_events(events, glm::max(size, glm::ivec2(1)));
         fly(seconds, state_);
+        if (std::exchange(state_.has_saved, false)) watch_.forgive();
+        if (watch_.has_changed()) reload();
+        if (picture_.is_loaded()) playback_.advance(seconds, state_);
         apply_changes(size);
+        if (std::exchange(state_.wants_command, false) && picture_.is_loaded()) copy_command();
         if (picture_.is_loaded()) take_samples();
         if (!is_due) return;
         aim(glm::max(size, glm::ivec2(1)), state_);
-        read_pixel(size);
+        if (size.x > 0) read_pixel(state_);
         fit_range(state_);
         draw_panels(glm::max(size, glm::ivec2(1)), state_);
         show(size);
@@ -186,7 +201,7 @@ class Session {
     [[nodiscard]] bool is_frame_due(const std::vector<InputEvent>& events, glm::ivec2 size) const {
         if (!events.empty() || !picture_.is_loaded() || picture_.is_moving()) return true;
         if (shown_frames_ == 0 || size != shown_size_ || !state_.screenshots.empty()) return true;
-        const bool is_waiting = picture_.samples() >= awaited_samples() || picture_.is_done();
+        const bool is_waiting = picture_.samples() >= script_.awaited_samples() || picture_.is_done();
         if (is_scripted() && is_waiting) return true;
         if (!pace_.is_due()) return false;
         return picture_.has_news() || is_scripted();
@@ -196,23 +211,14 @@ class Session {
         interface_.begin(events, size, seconds_since(std::exchange(frame_began_, Clock::now())));
         for (const InputEvent& event : events) {
             if (const auto* drop = std::get_if<DropEvent>(&event)) take_drop(*drop);
-            if (!is_of_panels(event)) take_event(event, size, state_);
+            if (!interface_.wants(event)) take_event(event, size, state_);
         }
     }
 
     void take_samples() {
         const double frame_s = command_.frame_ms / 1000.0;
         picture_.set_motion_budget(std::max(frame_s - pace_.show_s(), kMinStepShare * frame_s));
-        report_.add_step(picture_.advance(frame_s, awaited_samples()));
-    }
-
-    // Releases always reach the view, so that nothing stays held.
-    [[nodiscard]] bool is_of_panels(const InputEvent& event) const {
-        if (const auto* button = std::get_if<ButtonEvent>(&event))
-            return button->is_down && interface_.wants_mouse();
-        if (std::holds_alternative<ScrollEvent>(event)) return interface_.wants_mouse();
-        const auto* key = std::get_if<KeyEvent>(&event);
-        return key != nullptr && key->is_down && interface_.wants_keys();
+        report_.add_step(picture_.advance(frame_s, script_.awaited_samples()));
     }
 
     void show(glm::ivec2 size) {
@@ -231,12 +237,6 @@ class Session {
         shown_size_ = size;
         write_screenshots(capture);
         end_of_frame(seconds_since(start));
-    }
-
-    void read_pixel(glm::ivec2 size) {
-        state_.reading.reset();
-        if (!picture_.is_loaded() || !state_.shows_panels || size.x <= 0) return;
-        state_.reading = picture_.read_pixel(glm::ivec2(state_.held.pointer), state_.look.channel);
     }
 
     ShownPicture shown_picture() {
@@ -260,15 +260,17 @@ class Session {
 
     void end_of_frame(double show_s) {
         state_.frame_s = seconds_since(std::exchange(frame_ended_, Clock::now()));
+        if (shown_frames_ == 0) report_.set_first(seconds_since(start_));
         report_.add_frame(state_.frame_s, show_s);
         ++shown_frames_;
         const bool is_over = command_.frames && shown_frames_ >= *command_.frames;
-        const bool has_played = !script_.steps.empty() && next_step_ == script_.steps.size();
+        const bool has_played = !script_.is_empty() && script_.has_ended();
         if (is_over || (has_played && !command_.frames)) state_.wants_close = true;
     }
 
+    const Clock::time_point start_ = Clock::now();
     const ViewCommand& command_;
-    ViewScript script_;
+    ScriptPlayer script_;
     Scene scene_;
     Window window_;
     Device device_;
@@ -277,6 +279,8 @@ class Session {
     LivePicture picture_;
     ViewState state_;
     Camera shown_camera_;
+    FileWatch watch_;
+    Playback playback_;
     ShowPace pace_;
     ViewReport report_;
     Clock::time_point turn_began_ = Clock::now();
@@ -284,7 +288,6 @@ class Session {
     Clock::time_point frame_ended_ = Clock::now();
     std::int64_t shown_frames_ = 0;
     glm::ivec2 shown_size_{0};
-    std::size_t next_step_ = 0;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 namespace voxilux {
 
 struct ViewCommand {
+    std::vector<std::string> words;  // of the command line, after the subcommand
     SceneOptions scene;
     DeviceOptions device;
     std::string script;

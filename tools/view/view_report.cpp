@@ -50,7 +50,8 @@ void ViewReport::add_frame(double seconds, double show_s) {
 void ViewReport::write(const std::string& file, const ViewState& state, glm::ivec2 window,
                        const std::vector<std::string>& messages) const {
     const Camera& camera = state.view.camera;
-    write_json(file, {{"frames", frames_},
+    write_json(file, {{"first_picture_ms", 1000.0 * first_s_},
+                      {"frames", frames_},
                       {"shown",
                        {{"input", state.input.string()},
                         {"window", {window.x, window.y}},

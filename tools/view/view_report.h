@@ -16,6 +16,8 @@ class ViewReport {
         last_ = frame;
         step_s_ += frame.step_s;
     }
+    // The first frame was shown so long after the start.
+    void set_first(double seconds) { first_s_ = seconds; }
     // A frame was shown, `seconds` after the one before; showing it took `show_s`.
     void add_frame(double seconds, double show_s);
     void write(const std::string& file, const ViewState& state, glm::ivec2 window,
@@ -25,6 +27,7 @@ class ViewReport {
     nlohmann::ordered_json frames_ = nlohmann::ordered_json::array();
     LiveFrame last_;
     double step_s_ = 0.0;  // since the last frame
+    double first_s_ = 0.0;
 };
 
 }  // namespace voxilux

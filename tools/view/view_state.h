@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/animation.h"
 #include "view/edit_tool.h"
 #include "view/input_event.h"
 #include "view/live_picture.h"
@@ -29,6 +30,11 @@ struct ViewState {
     std::string reference_name;           // empty: there is none
     std::optional<PixelReading> reading;  // of the pixel under the pointer, at rest
     EditState edit;
+    std::optional<FrameRange> frames;  // of an animation
+    std::int64_t frame = 0;
+    bool is_playing = false;
+    bool has_saved = false;      // to a file that is watched, maybe
+    bool wants_command = false;  // the line that renders this view
     SampleEnds ends;
     bool shows_panels = true;
     bool shows_keys = false;

@@ -3,6 +3,10 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <span>
+#include <thread>
+
+#include "base/file.h"
 
 #include "tools/view/view_script.h"
 
@@ -72,6 +76,60 @@ TEST(WindowDrop, broken_file_leaves_the_picture) {
     EXPECT_EQ(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
 }
 
+TEST(WindowCommand, copied_line_renders_the_same_film) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const Ending ending =
+        play(scratch, orbit(2, 25) + film(9, "film.exr") + held_key("Control", "c") + pause(11),
+             {"--seed", "5", "--effect", "sky=off", "-D", "sun.elevation=30"});
+    const std::size_t begin = ending.out.find("voxilux render ");
+    ASSERT_NE(begin, std::string::npos) << ending.out;
+    const std::string words = ending.out.substr(begin + 7, ending.out.find('\n', begin) - begin - 7);
+    const std::string line = "cd " + scratch.path().string() + " && " VX_PLAIN_BINARY + words + " -q";
+    ASSERT_EQ(std::system(line.c_str()), 0) << line;
+    EXPECT_EQ(beauty_of(scratch / "first_light.exr"), beauty_of(scratch / "film.exr")) << line;
+}
+
+TEST(WindowAnimation, frame_is_that_of_render) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_text(scratch / "script.toml", film(0, "first.exr") + key("Period") + key("Period") + key("Period") +
+                                            film(8, "fourth.exr") + key("Comma") + film(16, "third.exr") +
+                                            key("Space") + pause(30) + key("Space"));
+    const Words scene{scene_file("turntable"), "--size", "96x54", "--spp", "3"};
+    const Ending ending = run(
+        with(with({"view"}, scene), {"--script", "script.toml", "--report", "report.json", "--validation"}),
+        {.folder = scratch.path()});
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    for (const auto& [frame, file] : {std::pair{"1", "first.exr"}, {"4", "fourth.exr"}, {"3", "third.exr"}}) {
+        ASSERT_EQ(
+            run(with(with({"render"}, scene), {"--frame", frame, "-q", "-o", scratch / "render.exr"})).code,
+            0);
+        EXPECT_EQ(beauty_of(scratch / file), beauty_of(scratch / "render.exr")) << frame;
+    }
+    EXPECT_NE(beauty_of(scratch / "first.exr"), beauty_of(scratch / "fourth.exr"));
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowReload, file_that_somebody_writes_is_shown) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    std::filesystem::copy_file(scene_file("one_voxel"), scratch / "scene.toml");
+    write_text(
+        scratch / "script.toml",
+        film(0, "before.exr") + "[[step]]\nframe = 600\nscreenshot = 'late.png'\n" + film(601, "after.exr"));
+    ChildProcess child({"view", "scene.toml", "--size", "96x54", "--spp", "3", "--script", "script.toml",
+                        "--report", "report.json"},
+                       {.folder = scratch.path()});
+    while (!std::filesystem::exists(scratch / "before.exr"))
+        std::this_thread::yield();
+    const std::string other = bytes_of(scene_file("emitters"));
+    write_file_atomically(scratch.path() / "scene.toml", std::as_bytes(std::span(other)));
+    ASSERT_EQ(child.finish().code, 0);
+    EXPECT_EQ(report_of(scratch)["shown"]["message"], "loaded again");
+    EXPECT_NE(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
+}
+
 TEST(WindowFlags, frames_and_screenshot_need_no_script) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
@@ -80,6 +138,7 @@ TEST(WindowFlags, frames_and_screenshot_need_no_script) {
                               {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(report_of(scratch)["frames"].size(), 4u);
+    EXPECT_GT(report_of(scratch)["first_picture_ms"].get<double>(), 0.0);
     EXPECT_EQ(read_image(scratch / "a.png").width, 96);
 }
 
