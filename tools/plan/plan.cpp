@@ -82,6 +82,7 @@ int run_plan(const PlanCommand& plan_command) {
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.report.quiet) print_scene_messages(command, animated);
     request_frames(animated, frames, options.plan);
+    request_samples(command, animated, options.plan);
     if (options.error_target) {
         use_checkpoint(checkpoint, command.resume, options);
         const PilotedPlan piloted = pilot_plan(animated, frames.first, options, checkpoint.pictures.files);
