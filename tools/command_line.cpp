@@ -11,6 +11,7 @@
 #include "bench/bench.h"
 #include "compare/compare.h"
 #include "devices/devices.h"
+#include "farm/farm.h"
 #include "info/info.h"
 #include "merge/merge.h"
 #include "plan/plan.h"
@@ -31,7 +32,7 @@ constexpr const char* kFooter =
     "    3  an input was refused\n"
     "    4  stopped by --time-limit before --error was reached; the picture is written\n"
     "    5  compare: over a --max- threshold\n"
-    "   69  no usable Vulkan device\n"
+    "   69  no usable Vulkan device; farm: no Dask\n"
     "   70  internal error\n"
     "   71  the device was lost\n"
     "   73  an output cannot be written\n"
@@ -200,8 +201,11 @@ int run_command_line(int argc, const char* const* argv) {
                                  add_devices_flags, run_devices);
     commands.add<CompareOptions>(app, "compare", "metrics between two images (EXR or PNG) in linear light",
                                  add_compare_flags, run_compare);
-    commands.add<MergeCommand>(app, "merge", "join the parts of one render that render --shard wrote",
+    commands.add<MergeCommand>(app, "merge",
+                               "join parts of one render that render --samples or --shard wrote",
                                add_merge_flags, run_merge);
+    commands.add<FarmCommand>(app, "farm", "one picture or a film on many machines, by Dask", add_farm_flags,
+                              run_farm);
     commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
                                   add_voxelize_flags, run_voxelize);
     add_bench(app, commands);

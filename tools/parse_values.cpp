@@ -159,10 +159,19 @@ Shard parse_shard(std::string_view text) {
     const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
     const auto second = has_slash ? std::from_chars(first.ptr + 1, end, count) : first;
     const bool is_read = has_slash && second.ec == std::errc() && second.ptr == end;
-    if (!is_read || number < 1 || number > count || count > kMaxShards)
+    if (!is_read || number < 1 || number > count || count > kMaxPartSamples)
         refuse(fmt::format("--shard: '{}' is not I/N with I from 1 to N, such as 2/4, and N up to {}", text,
-                           kMaxShards));
+                           kMaxPartSamples));
     return {number - 1, count};
+}
+
+SampleSet parse_samples(std::string_view text) {
+    const std::optional<SampleSet> samples = SampleSet::parse(text);
+    if (!samples || samples->end() > kMaxPartSamples)
+        refuse(
+            fmt::format("--samples: '{}' is not a list of different samples from 0 to {}, such as 0-7,16-31",
+                        text, kMaxPartSamples - 1));
+    return *samples;
 }
 
 AoMethod parse_ao_method(std::string_view name) {

@@ -42,7 +42,14 @@ namespace voxilux {
 [[nodiscard]] double parse_error_target(std::string_view text);
 
 // "2/4": the second of four shards.
+struct Shard {
+    std::uint32_t index = 0;  // from 0
+    std::uint32_t count = 1;
+};
 [[nodiscard]] Shard parse_shard(std::string_view text);
+
+// "0-7,16-31x2": samples of a render.
+[[nodiscard]] SampleSet parse_samples(std::string_view text);
 
 // "2.5", a radius of photons in voxels; nothing for "auto".
 [[nodiscard]] std::optional<double> parse_photon_radius(std::string_view text);

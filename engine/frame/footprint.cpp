@@ -132,7 +132,7 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
         FrameState state = fullest_state(plan);
         for (std::uint32_t i = 0; i < std::min(samples, 2u); ++i) {
             Recording recording;
-            record(plan, equal.tile, params, {plan.shard.sample(i), state, plan.shard.index}, recording);
+            record(plan, equal.tile, params, {plan.part.sample(i), state, plan.part.first()}, recording);
             sum.add(recording, equal.count * (i == 0 ? 1 : samples - 1));
             state.finish_sample(params);
         }

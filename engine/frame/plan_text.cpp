@@ -18,10 +18,8 @@ std::string describe(const RenderPlan& plan) {
         text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
                             plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
     }
-    if (!plan.shard.is_whole()) {
-        text += fmt::format("shard     {} of {}: {} of the samples\n", plan.shard.index + 1, plan.shard.count,
-                            plan.samples());
-    }
+    if (!plan.part.empty())
+        text += fmt::format("part      {} samples: {}\n", plan.samples(), plan.part.text());
     text += fmt::format("split     {} film tile(s) of {} rows\n", plan.film_tile_count, plan.film_tile_rows);
     if (plan.has(Effect::voxels)) {
         text +=

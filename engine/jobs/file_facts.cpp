@@ -34,7 +34,7 @@ SortedJson numbers(const Vector& v) {
 
 SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera& camera) {
     const RenderSettings& s = scene.settings;
-    return {{"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+    return {{"scene_hash", fmt::format("{:016x}", sample_hash(scene))},
             {"voxels", facts.voxel_count},
             {"instances", facts.instance_count},
             {"models", scene.models.size()},

@@ -84,7 +84,7 @@ void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutc
 FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome) {
     nlohmann::ordered_json report = report_of_picture(pictures, scene, outcome);
     const ExrOptions file = exr_options(pictures, scene, outcome.plan);
-    return part_of(scene, std::move(outcome), std::move(report), file);
+    return part_of(scene, std::move(outcome), std::move(report), file, pictures.spp);
 }
 
 }  // namespace voxilux

@@ -35,7 +35,7 @@ struct RenderStatistics {
     std::map<std::string, std::uint64_t> faults;
     std::vector<MemoryRow> memory;
     std::uint64_t pipelines = 0;
-    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t samples = 0;     // whole ones, of the plan's part
     std::uint64_t live_cells = 0;  // of occlusion, at the end
     ErrorEstimate error;
     std::uint32_t rounds = 0;  // after which the error was compared with its target; 0: there is none

@@ -103,6 +103,11 @@ std::optional<ErrorPilot> RenderSession::run_pilot(const std::function<bool()>& 
     return pilot;
 }
 
+const RenderPlan& RenderSession::plan_of(std::int64_t frame) {
+    show(frame);
+    return plan();
+}
+
 std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
     show(frame);
     return run_pilot({});
@@ -136,7 +141,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;
     const bool is_first = !last_points_;
-    const FilmStart film = options.resume ? options.resume(*scene_, plan()) : FilmStart{};
+    const FilmStart film = options.resume ? options.resume(*scene_, plan(), device_.info()) : FilmStart{};
     const FrameInputs inputs{.renderer = *renderer_,
                              .options = options,
                              .film = film,

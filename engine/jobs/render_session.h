@@ -33,6 +33,11 @@ class RenderSession {
     // occlusion, or radii that depend on samples before.
     [[nodiscard]] std::optional<ErrorPilot> pilot(std::int64_t frame);
 
+    // The plan of `frame`, of which nothing is rendered yet.
+    [[nodiscard]] const RenderPlan& plan_of(std::int64_t frame);
+
+    [[nodiscard]] const DeviceInfo& device() const { return device_.info(); }
+
     // The plan of the frame last worked on.
     [[nodiscard]] const RenderPlan& plan() const { return renderer_->plan(); }
 

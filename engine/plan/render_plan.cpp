@@ -58,15 +58,11 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
     plan.settings.size = end - first;
 }
 
-void check_shard(const RenderPlan& plan) {
-    if (plan.shard.is_whole()) return;
+void check_part(const RenderPlan& plan) {
+    if (plan.part.empty()) return;
     for (const ChosenTechnique& chosen : plan.techniques) {
         if (!chosen.technique->mergeable())
-            throw Error(ExitCode::usage, fmt::format("--shard: {}", chosen.technique->state));
-    }
-    if (plan.samples() == 0) {
-        throw Error(ExitCode::usage, fmt::format("--shard {}/{}: a render of {} samples has no such shard",
-                                                 plan.shard.index + 1, plan.shard.count, plan.settings.spp));
+            throw Error(ExitCode::usage, fmt::format("no part of the samples: {}", chosen.technique->state));
     }
 }
 
@@ -174,7 +170,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_settings(scene.settings);
     RenderPlan plan;
     plan.settings = scene.settings;
-    plan.shard = request.shard;
+    plan.part = request.part;
     place_window(plan, request.crop);
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
@@ -217,7 +213,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);
     check_paths(plan);
-    check_shard(plan);
+    check_part(plan);
     decide_sums(plan, request.wants_error);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
@@ -237,7 +233,7 @@ RenderPlan plan_without(RenderPlan plan, Effect effect) {
 
 RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.spp = 1;
-    plan.shard = {};  // every shard finds the same
+    plan.part = {};  // every part finds the same
     plan.settings.photons.classic = true;
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons

@@ -83,6 +83,7 @@ int run_plan(const PlanCommand& plan_command) {
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.report.quiet) print_scene_messages(command, animated);
     request_frames(animated, frames, options.plan);
+    request_samples(command, animated, options.plan);
     use_checkpoint(checkpoint, command.resume, options);
     if (options.error_target) {
         const PilotedPlan piloted = pilot_plan(animated, frames.first, options);
