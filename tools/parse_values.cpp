@@ -179,14 +179,22 @@ Sequence parse_sequence(std::string_view name) {
 }
 
 View parse_view(std::string_view name) {
-    static constexpr Names<View, 7> kNames = {{{"three-quarter", View::three_quarter},
+    static constexpr Names<View, 8> kNames = {{{"three-quarter", View::three_quarter},
                                                {"front", View::front},
                                                {"back", View::back},
                                                {"left", View::left},
                                                {"right", View::right},
                                                {"top", View::top},
+                                               {"bottom", View::bottom},
                                                {"iso", View::iso}}};
     return parse_name("--camera", name, kNames);
+}
+
+Projection parse_projection(std::string_view name) {
+    Names<Projection, kProjectionNames.size()> names;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        names[i] = {kProjectionNames[i], static_cast<Projection>(i)};
+    return parse_name("--projection", name, names);
 }
 
 EffectSwitch parse_effect_switch(std::string_view text) {

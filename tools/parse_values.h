@@ -62,8 +62,9 @@ namespace voxilux {
 [[nodiscard]] AoMethod parse_ao_method(std::string_view name);
 [[nodiscard]] Sequence parse_sequence(std::string_view name);
 
-// three-quarter, front, back, left, right, top or iso.
+// three-quarter, front, back, left, right, top, bottom or iso.
 [[nodiscard]] View parse_view(std::string_view name);
+[[nodiscard]] Projection parse_projection(std::string_view name);
 
 // "NAME=on|off|auto".
 struct EffectSwitch {

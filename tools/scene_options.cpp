@@ -12,6 +12,7 @@
 #include "scene/animation.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
+#include "scene/settings.h"
 
 namespace voxilux {
 namespace {
@@ -93,6 +94,36 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
         scene.settings.spp = options.quality->emitters.samples;
 }
 
+void add_projection_flags(Flags& flags, SceneOptions& options) {
+    flags.add_parsed("--projection", "NAME", options.projection, parse_projection,
+                     "perspective, orthographic, equirectangular or fisheye");
+    flags.on<double>(
+        "--pixels-per-voxel", "N",
+        [&options](double pixels) {
+            options.pixels_per_voxel =
+                in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
+        },
+        "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given");
+}
+
+// What flags say of the camera: where it stands, or its lens, with which it frames the scene.
+void apply_camera_flags(const SceneOptions& options, Scene& scene) {
+    if (!options.view && !options.projection && !options.pixels_per_voxel) return;
+    const Camera own = scene.camera.value_or(looking_along(View::three_quarter));
+    Camera looking = options.view ? looking_along(*options.view, own.fov_y_deg) : own;
+    looking.projection = options.projection.value_or(own.projection);
+    looking.pixels_per_voxel = own.pixels_per_voxel;
+    if (options.pixels_per_voxel) {
+        if (options.projection.value_or(Projection::orthographic) != Projection::orthographic)
+            refuse("--pixels-per-voxel is of orthographic pictures");
+        looking.projection = Projection::orthographic;
+        looking.pixels_per_voxel = *options.pixels_per_voxel;
+        if (!options.names_size) scene.settings.size = sprite_size(scene, looking);
+    }
+    scene.animation.camera_keys.clear();
+    scene.camera = framing_camera(scene, looking);
+}
+
 }  // namespace
 
 void add_photon_flags(Flags& flags, SettingsChanges& changes) {
@@ -119,12 +150,14 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges) {
     flags.begin_group("Scene");
     flags.on<std::string>(
         "--size", "WxH",
-        [take = change(options.changes, &RenderSettings::size)](const std::string& text) {
+        [&options, take = change(options.changes, &RenderSettings::size)](const std::string& text) {
             take(parse_size("--size", text));
+            options.names_size = true;
         },
         "picture size in pixels");
     flags.add_parsed("--camera", "SIDE", options.view, parse_view,
-                     "frame it from three-quarter, front, back, left, right, top or iso");
+                     "frame it from three-quarter, front, back, left, right, top, bottom or iso");
+    add_projection_flags(flags, options);
     flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
                      "render columns X0 to X1-1 and rows Y0 to Y1-1 only");
     flags.add("--frame", "N", options.frame, "one picture, of this frame of an animated scene").from_zero();
@@ -168,11 +201,7 @@ Scene load_scene_with(const SceneOptions& options) {
         change(scene.settings);
     choose_techniques(options.techniques, scene.settings);
     scene.settings.spp = options.spp.value_or(scene.settings.spp);
-    if (options.view) {
-        const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
-        scene.camera = framing_camera(scene, *options.view, fov_y_deg);
-        scene.animation.camera_keys.clear();
-    }
+    apply_camera_flags(options, scene);
     return scene;
 }
 

@@ -29,6 +29,9 @@ struct SceneOptions {
     std::vector<NamedTechnique> techniques;
     std::optional<std::uint32_t> spp;  // or iterations
     std::optional<View> view;
+    std::optional<Projection> projection;
+    std::optional<double> pixels_per_voxel;
+    bool names_size = false;
     std::optional<std::int64_t> frame;  // one picture
     std::optional<FrameList> frames;    // a picture for each
     PlanRequest request;                // the caller knows which channels its outputs hold

@@ -22,7 +22,15 @@ glm::dmat4 world_to_camera(const Camera& camera) {
 }
 
 // Acting on camera points: x and y in [-1, 1] over the picture after the division by w, z up to 1 far away.
-glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+// Orthographic: z is minus the distance. A panorama has no such matrix.
+std::optional<glm::dmat4> camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+    if (camera.projection == Projection::orthographic) {
+        glm::dmat4 scaled(1.0);
+        for (int axis = 0; axis < 2; ++axis)
+            scaled[axis][axis] = 2.0 * camera.pixels_per_voxel / static_cast<double>(size[axis]);
+        return scaled;
+    }
+    if (camera.projection != Projection::perspective) return std::nullopt;
     const double up = 1.0 / std::tan(glm::radians(camera.fov_y_deg) / 2.0);
     glm::dmat4 matrix(0.0);
     matrix[0][0] = up * static_cast<double>(size.y) / static_cast<double>(size.x);
@@ -36,12 +44,13 @@ glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
 ExrOptions exr_options(const PictureFiles& pictures, const Scene& scene, const RenderPlan& plan) {
     const Camera camera = camera_of(scene);
     const glm::dmat4 to_camera = world_to_camera(camera);
+    const std::optional<glm::dmat4> to_ndc = camera_to_ndc(camera, plan.image_size);
     return {.window = {plan.first_pixel.x, plan.first_pixel.y, plan.image_size.x, plan.image_size.y},
             .reproducible = pictures.reproducible,
             .software = "voxilux " VX_VERSION,
             .comments = pictures.scene_name,
             .world_to_camera = glm::mat4(to_camera),
-            .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
+            .world_to_ndc = to_ndc ? std::optional(glm::mat4(*to_ndc * to_camera)) : std::nullopt};
 }
 
 nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Scene& scene,

@@ -176,6 +176,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.settings = scene.settings;
     plan.shard = request.shard;
     place_window(plan, request.crop);
+    if (scene.camera) plan.projection = scene.camera->projection;
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
     plan.material_count =
@@ -191,6 +192,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .max_rows = limits.max_groups[1],
                                       .frames = request.frames,
                                       .moves_voxels = request.moves_voxels,
+                                      .is_perspective = plan.projection == Projection::perspective,
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     decide_techniques(plan);

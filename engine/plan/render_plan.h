@@ -63,6 +63,7 @@ struct RenderPlan {
     Shard shard;                // of the samples
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
+    Projection projection = Projection::perspective;
     EffectStates effects;
     std::vector<ChosenTechnique> techniques;
     AoPlan ao;  // the default when the effect is off

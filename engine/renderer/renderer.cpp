@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/assert.h"
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -82,6 +83,7 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
 void Renderer::set_camera(const Camera& camera) {
     Scene scene = scene_;
     scene.camera = camera;
+    VX_ASSERT(camera.projection == prepared_->plan.projection);
     // A scene without voxels counts its coordinates from a point near the camera.
     is_framed_ = false;
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request_), scene, request_);

@@ -87,9 +87,10 @@ Camera camera_on_path(std::span<const CameraKey> keys, CameraPath path, std::int
     };
     const auto fov = [](const CameraKey& key) { return key.camera.fov_y_deg; };
     const auto [narrow, wide] = std::ranges::minmax_element(keys, {}, fov);
-    Camera camera{.position = point([](const CameraKey& key) { return key.camera.position; }),
-                  .yaw_deg = number(yaw_curve(keys)),
-                  .fov_y_deg = std::clamp(number(curve_of(keys, fov)), fov(*narrow), fov(*wide))};
+    Camera camera = before.camera;
+    camera.position = point([](const CameraKey& key) { return key.camera.position; });
+    camera.yaw_deg = number(yaw_curve(keys));
+    camera.fov_y_deg = std::clamp(number(curve_of(keys, fov)), fov(*narrow), fov(*wide));
     const double pitch = number(curve_of(keys, [](const CameraKey& key) { return key.camera.pitch_deg; }));
     camera.pitch_deg = std::clamp(pitch, -90.0, 90.0);
     if (!std::ranges::all_of(keys, [](const CameraKey& key) { return key.look_at.has_value(); }))

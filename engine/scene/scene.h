@@ -109,12 +109,19 @@ struct Sun {
     [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
 };
 
-// Pinhole. Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.
+// How a camera maps directions to pixels, see shaders/shared/projection.h.
+enum class Projection : std::uint8_t { perspective, orthographic, equirectangular, fisheye };
+inline constexpr std::array<std::string_view, 4> kProjectionNames{"perspective", "orthographic",
+                                                                  "equirectangular", "fisheye"};
+
+// Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.
 struct Camera {
-    glm::dvec3 position{0.0};
+    glm::dvec3 position{0.0};  // orthographic: a point in the plane that rays start from
     double yaw_deg = 0.0;
     double pitch_deg = 0.0;
-    double fov_y_deg = 45.0;  // vertical, in (0, 180)
+    double fov_y_deg = 45.0;  // vertical; in (0, 180) for perspective, in (0, 360] for fisheye
+    Projection projection = Projection::perspective;
+    double pixels_per_voxel = 0.0;  // orthographic: > 0
 };
 
 enum class Sequence : std::uint8_t { sobol, halton, white };

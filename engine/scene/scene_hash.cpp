@@ -43,8 +43,8 @@ auto fields_of(const Sphere& sphere) {
 }
 
 auto fields_of(const Camera& camera) {
-    const auto& [position, yaw_deg, pitch_deg, fov_y_deg] = camera;
-    return std::tie(position, yaw_deg, pitch_deg, fov_y_deg);
+    const auto& [position, yaw_deg, pitch_deg, fov_y_deg, projection, pixels_per_voxel] = camera;
+    return std::tie(position, yaw_deg, pitch_deg, fov_y_deg, projection, pixels_per_voxel);
 }
 
 auto fields_of(const CameraKey& key) {

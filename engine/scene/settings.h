@@ -52,6 +52,7 @@ inline constexpr Range kDensity{0, 100};
 inline constexpr Range kTurn{-3600, 3600};
 inline constexpr Range kPitch{-90, 90};  // degrees
 inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
+inline constexpr double kMaxPixelsPerVoxel = 4096;
 // Centre and radius of a sphere: their sum is a place, too.
 inline constexpr Range kReach{-kMaxCoordinate / 2, kMaxCoordinate / 2};
 
@@ -86,14 +87,16 @@ struct CameraPlacement {
     double fov_y_deg = kDefaultFovYDeg;
 };
 
-inline constexpr std::array<std::string_view, 7> kViewNames{
-    "three_quarter", "front", "back", "left", "right", "top", "iso"};  // in the order of View
+inline constexpr std::array<std::string_view, 8> kViewNames{
+    "three_quarter", "front", "back", "left", "right", "top", "bottom", "iso"};  // in the order of View
 
 // [camera], less its keys and its turntable.
 struct CameraSettings {
     CameraPlacement placement;
     std::optional<View> preset;
     CameraPath path = CameraPath::smooth;
+    Projection projection = Projection::perspective;
+    std::optional<double> pixels_per_voxel;
 };
 
 // [[camera.key]]
@@ -176,18 +179,21 @@ void visit_settings(Sky& sky, auto&& visit) {
 
 void visit_settings(CameraPlacement& placement, auto&& visit) {
     auto& [position, look_at, yaw_deg, pitch_deg, fov_y_deg] = placement;
-    visit({"position", kPlace, "of the pinhole"}, position);
+    visit({"position", kPlace, "of the camera"}, position);
     visit({"look_at", kPlace, "the point in the middle of the image"}, look_at);
     visit({"yaw", kTurn, "instead: degrees counter-clockwise from +x, seen from above"}, yaw_deg);
     visit({"pitch", kPitch, "with it: degrees above the horizon"}, pitch_deg);
-    visit({"fov", between(0, 180), "vertical, degrees"}, fov_y_deg);
+    visit({"fov", above(0, 360), "vertical, degrees; below 180 but for a fisheye"}, fov_y_deg);
 }
 
 void visit_settings(CameraSettings& settings, auto&& visit) {
-    auto& [placement, preset, path] = settings;
+    auto& [placement, preset, path, projection, pixels_per_voxel] = settings;
     visit_settings(placement, visit);
     visit({"preset", {}, "frames the whole scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
+    visit({"projection", {}, "see Cameras", kProjectionNames}, projection);
+    visit({"pixels_per_voxel", above(0, kMaxPixelsPerVoxel), "size of an orthographic image of the scene"},
+          pixels_per_voxel);
 }
 
 void visit_settings(CameraKeySettings& settings, auto&& visit) {

@@ -82,7 +82,8 @@ Marched march_picture(const Scene& scene) {
     const gpu::uint sequence = sequence_id(scene.settings.sequence);
     for (gpu::uint y = 0; y < fixture.params().height; ++y) {
         for (gpu::uint x = 0; x < fixture.params().width; ++x) {
-            marched.rays.push_back(gpu::camera_ray(fixture.params(), sequence, x, y));
+            marched.rays.push_back(gpu::camera_ray(
+                fixture.params(), static_cast<gpu::uint>(fixture.plan().projection), sequence, x, y));
             want.push_back(hit_in_cpp(fixture.march_world(), marched.rays.back()));
             marched.hit_count += want.back().face != gpu::kFaceMiss ? 1 : 0;
         }

@@ -130,9 +130,10 @@ INSTANTIATE_TEST_SUITE_P(
     camera, SceneTomlRefusal,
     testing::Values(
         RefusedText{"fov_zero", "[camera]\nfov = 0\n",
-                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 180), not 0"},
-        RefusedText{"fov_180", "[camera]\nfov = 180.0\n",
-                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 180), not 180"},
+                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 360], not 0"},
+        RefusedText{
+            "fov_180", "[camera]\nfov = 180.0\n",
+            "s.toml:2:7: 'fov' in [camera] must be below 180 unless the projection is fisheye, not 180"},
         RefusedText{
             "fov_too_narrow",
             "[camera]\nfov = 1e-300\n[[sphere]]\ncenter=[0,0,0]\nradius=1\nmaterial=\"m\"\n"

@@ -227,7 +227,7 @@ TEST(CameraRay, is_unit_starts_at_the_camera_and_passes_through_its_pixel) {
         const gpu::FrameParams frame = random_frame(random);
         const gpu::uint x = random.bits32() % frame.width;
         const gpu::uint y = random.bits32() % frame.height;
-        const gpu::Ray ray = gpu::camera_ray(frame, random.bits32() % 3, x, y);
+        const gpu::Ray ray = gpu::camera_ray(frame, gpu::kPerspective, random.bits32() % 3, x, y);
         ASSERT_EQ(ray.cell, frame.camera_cell);
         ASSERT_EQ(ray.fraction, frame.camera_fraction);
         ASSERT_NEAR(glm::length(glm::dvec3(ray.direction)), 1.0, kLengthError);
@@ -249,8 +249,10 @@ TEST(CameraRay, samples_fill_the_pixel_evenly_in_every_sequence) {
         constexpr int kSamples = 4096;
         glm::dvec2 mean(0.0);
         for (frame.sample_index = 0; frame.sample_index < kSamples; ++frame.sample_index)
-            mean += pixel_of(frame, glm::dvec3(gpu::camera_ray(frame, sequence, 17, 5).direction)) -
-                    glm::dvec2(17, 5);
+            mean +=
+                pixel_of(frame,
+                         glm::dvec3(gpu::camera_ray(frame, gpu::kPerspective, sequence, 17, 5).direction)) -
+                glm::dvec2(17, 5);
         mean /= kSamples;
         // Five standard deviations of the mean of uniform numbers, white noise being the worst.
         const double bound = 5.0 * std::sqrt(1.0 / 12.0 / kSamples);
