@@ -93,6 +93,9 @@ class Flags {
         return on<std::vector<std::string>>(name, value, take, help).split_at_commas();
     }
 
+    // Calls `take` where the flag, which has no value, is given.
+    void on_switch(const std::string& name, std::function<void()> take, const std::string& help);
+
     // A flag without a value.
     void add_switch(const std::string& name, bool& target, const std::string& help);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "camera_choice.h"
 #include "estimators/metrics.h"
 #include "film/tonemap.h"
 #include "jobs/frame_list.h"
@@ -64,7 +65,13 @@ namespace voxilux {
 
 // three-quarter, front, back, left, right, top, bottom or iso.
 [[nodiscard]] View parse_view(std::string_view name);
+// One of these, or any other word: the name of a camera in the file.
+[[nodiscard]] CameraChoice parse_camera(std::string_view name);
+
+// "#rrggbb" or "sky".
+[[nodiscard]] Background parse_background(std::string_view text);
 [[nodiscard]] Projection parse_projection(std::string_view name);
+[[nodiscard]] Turned parse_turned(std::string_view name);
 
 // "NAME=on|off|auto".
 struct EffectSwitch {

@@ -45,9 +45,10 @@ struct FilmHalves {
 void add_film(FilmSums& film, const FilmSums& more);
 
 // The pictures: those of film_image(), and for every other plane its mean over all samples, named
-// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample. variance.R .G .B is
-// the variance of the beauty by mean_variance(); above the truth where samples are not independent. bias.R .G
-// .B is what the radius of the photons adds to the beauty.
+// PLANE.R .G .B or PLANE.Y; A for the coverage, which the beauty is multiplied by; N.X .Y .Z for normals; P.X
+// .Y .Z and Z of the first sample. variance.R .G .B is the variance of the beauty by mean_variance(); above
+// the truth where samples are not independent. bias.R .G .B is what the radius of the photons adds to the
+// beauty.
 [[nodiscard]] Image picture_of(const FilmSums& film);
 
 // Moves the sums into the whole-number planes of an image: sums.PLANE.COMPONENT.lo and .hi (kSumsLayer).

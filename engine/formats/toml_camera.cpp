@@ -101,6 +101,7 @@ void read_camera(TomlScene& in) {
     const toml::table* table = find_section(in, "camera");
     if (table == nullptr) return;
     CameraSettings camera;
+    camera.placement.fov_y_deg = in.scene.framing_fov_y_deg;
     const TomlSection section = read_settings(*table, "[camera]", camera, {"key", "turntable"});
     const auto& [placement, preset, path, projection, pixels_per_voxel] = camera;
     const Camera lens = lens_of(section, camera);

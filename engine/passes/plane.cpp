@@ -118,7 +118,8 @@ Constant projection_constant(const RenderPlan& plan) {
 
 std::vector<Constant> sphere_constants(const RenderPlan& plan) {
     return {{"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
-            {"glass_spheres", plan.has(Effect::specular) ? plan.glass_spheres : 0u}};
+            {"glass_spheres", plan.has(Effect::specular) ? plan.glass_spheres : 0u},
+            {"has_ground", plan.has(Effect::spheres) && plan.has_ground ? 1u : 0u}};
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {

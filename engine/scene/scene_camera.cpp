@@ -192,6 +192,24 @@ Camera framing_camera(const Scene& scene, View view, double fov_y_deg) {
     return framing_camera(scene, looking_along(view, fov_y_deg));
 }
 
+bool has_pixel_grid(const Camera& camera) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const auto is_axis = [](glm::dvec3 v) { return glm::abs(v) == glm::round(glm::abs(v)); };
+    return camera.projection == Projection::orthographic && is_axis(basis[0]) && is_axis(basis[1]) &&
+           camera.pixels_per_voxel == std::round(camera.pixels_per_voxel);
+}
+
+Camera on_pixel_grid(Camera camera, glm::dvec2 size) {
+    if (!has_pixel_grid(camera)) return camera;
+    const glm::dmat3 basis = camera_basis(camera);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double border =
+            glm::dot(camera.position, basis[axis]) * camera.pixels_per_voxel - size[axis] / 2.0;
+        camera.position += (std::round(border) - border) / camera.pixels_per_voxel * basis[axis];
+    }
+    return camera;
+}
+
 glm::ivec2 sprite_size(const Scene& scene, const Camera& looking) {
     const Box box = bounds_of_frames(scene);
     if (box.empty()) return glm::ivec2(glm::max(glm::dvec2(looking.pixels_per_voxel), 1.0));
@@ -212,7 +230,7 @@ Camera default_camera(const Box& box, double aspect) {
 
 Camera camera_of(const Scene& scene) {
     if (scene.camera) return *scene.camera;
-    return framing_camera(scene, View::three_quarter);
+    return framing_camera(scene, View::three_quarter, scene.framing_fov_y_deg);
 }
 
 glm::dmat3 camera_basis(const Camera& camera) {

@@ -45,6 +45,12 @@ inline constexpr double kParallelClearance = 1.0;
 [[nodiscard]] Camera framing_camera(const Box& box, const Camera& looking, glm::dvec2 size);
 [[nodiscard]] Camera framing_camera(const Scene& scene, const Camera& looking);
 
+// Whether borders of pixels are borders of voxels: parallel rays along an axis, whole pixels per voxel.
+[[nodiscard]] bool has_pixel_grid(const Camera& camera);
+
+// Such a camera, moved by at most half a pixel so that they are; any other as it is.
+[[nodiscard]] Camera on_pixel_grid(Camera camera, glm::dvec2 size);
+
 // The smallest image that shows the whole scene at the pixels_per_voxel of `looking`. Throws
 // Error(input_refused) where it is larger than images can be.
 [[nodiscard]] glm::ivec2 sprite_size(const Scene& scene, const Camera& looking);

@@ -53,8 +53,8 @@ auto fields_of(const CameraKey& key) {
 }
 
 auto fields_of(const Turntable& turntable) {
-    const auto& [frames, degrees, start_deg] = turntable;
-    return std::tie(frames, degrees, start_deg);
+    const auto& [frames, degrees, start_deg, turned] = turntable;
+    return std::tie(frames, degrees, start_deg, turned);
 }
 
 auto fields_of(const VoxPlacement& placement) {
@@ -115,9 +115,9 @@ auto fields_of(const Animation& animation) {
 
 // The rest of a scene are sections.
 auto fields_of(const Scene& scene) {
-    const auto& [materials, models, instances, spheres, sun, sky, camera, settings, animation, warnings] =
-        scene;
-    return std::tie(materials, models, instances, spheres, camera, animation);
+    const auto& [materials, models, instances, spheres, sun, sky, background, ground, camera,
+                 framing_fov_y_deg, settings, animation, cameras, exposure_ev, warnings, notes] = scene;
+    return std::tie(materials, models, instances, spheres, camera, framing_fov_y_deg, animation);
 }
 
 class Hasher {

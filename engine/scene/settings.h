@@ -177,6 +177,21 @@ void visit_settings(Sky& sky, auto&& visit) {
     visit({"resolution", {16, 512}, "rows of the sky's table above the horizon"}, resolution);
 }
 
+void visit_settings(Background& background, auto&& visit) {
+    auto& [shown, radiance] = background;
+    visit({"shown", {}, "behind the scene; see Background", kBackdropNames}, shown);
+    visit({"radiance", kLight, "of a color; makes it the one shown unless `shown` is given"}, radiance);
+    visit({"color", {}, "the same in sRGB"}, HexColour{radiance, "radiance"});
+}
+
+void visit_settings(Ground& ground, auto&& visit) {
+    auto& [on, albedo, height] = ground;
+    visit({"on", {}, "true where the section is there and does not say"}, on);
+    visit({"albedo", {0, 1}, "share of light that is reflected, linear"}, albedo);
+    visit({"color", {}, "the same in sRGB"}, HexColour{albedo, "albedo"});
+    visit({"height", kReach, "of the plane, z in voxels; absent: the scene's lowest"}, height);
+}
+
 void visit_settings(CameraPlacement& placement, auto&& visit) {
     auto& [position, look_at, yaw_deg, pitch_deg, fov_y_deg] = placement;
     visit({"position", kPlace, "of the camera"}, position);
@@ -189,7 +204,7 @@ void visit_settings(CameraPlacement& placement, auto&& visit) {
 void visit_settings(CameraSettings& settings, auto&& visit) {
     auto& [placement, preset, path, projection, pixels_per_voxel] = settings;
     visit_settings(placement, visit);
-    visit({"preset", {}, "frames the whole scene", kViewNames}, preset);
+    visit({"preset", {}, "frames a scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
     visit({"projection", {}, "see Cameras", kProjectionNames}, projection);
     visit({"pixels_per_voxel", above(0, kMaxPixelsPerVoxel), "size of an orthographic image of the scene"},
@@ -203,10 +218,11 @@ void visit_settings(CameraKeySettings& settings, auto&& visit) {
 }
 
 void visit_settings(Turntable& turntable, auto&& visit) {
-    auto& [frames, degrees, start_deg] = turntable;
+    auto& [frames, degrees, start_deg, turned] = turntable;
     visit(required({"frames", {1, kMaxFrame}, "of one turn"}), frames);
     visit({"degrees", kTurn, "of one turn; negative goes clockwise"}, degrees);
     visit({"start", kTurn, "degrees at frame 1"}, start_deg);
+    visit({"turn", {}, "what turns", kTurnedNames}, turned);
 }
 
 void visit_settings(Material& material, auto&& visit) {
@@ -235,6 +251,8 @@ void visit_sections(auto& scene, auto&& visit) {
     visit("paths", scene.settings.paths);
     visit("sun", scene.sun);
     visit("sky", scene.sky);
+    visit("background", scene.background);
+    visit("ground", scene.ground);
 }
 
 // The row of a name.

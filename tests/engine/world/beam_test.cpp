@@ -68,15 +68,16 @@ bool is_same(const gpu::MarchHit& a, const gpu::MarchHit& b) {
 
 // Marches every ray of the picture from the camera and from its beam's end. `moved` changes where that is.
 void compare_starts(const MarchWorld& world, gpu::FrameParams camera,
-                    const std::function<float(float)>& moved, Comparison& sum) {
+                    const std::function<float(float)>& moved, Comparison& sum,
+                    gpu::uint projection = gpu::kPerspective) {
     for (gpu::uint pixel = 0; pixel < camera.width * camera.height; ++pixel) {
         const gpu::uint x = pixel % camera.width;
         const gpu::uint y = pixel / camera.width;
         const gpu::Beam beam =
-            gpu::tile_beam(camera, gpu::kPerspective, x - x % gpu::kBeamPixels, y - y % gpu::kBeamPixels);
+            gpu::tile_beam(camera, projection, x - x % gpu::kBeamPixels, y - y % gpu::kBeamPixels);
         const float start = moved(gpu::beam_start(world, beam, world.chunks_size));
-        const gpu::WorldEntry entry = gpu::enter_world(
-            gpu::camera_ray(camera, gpu::kPerspective, gpu::kSequenceWhite, x, y), world.size());
+        const gpu::WorldEntry entry =
+            gpu::enter_world(gpu::camera_ray(camera, projection, gpu::kSequenceWhite, x, y), world.size());
         if (!entry.enters) continue;
         const gpu::MarchHit want = gpu::march(world, entry.ray, world.chunks_size);
         const gpu::MarchHit hit = gpu::march_from(world, entry.ray, world.chunks_size, start - entry.t);
@@ -137,6 +138,32 @@ TEST_P(BeamIn, start_changes_no_hit_of_a_sparse_world) {
     EXPECT_GT(sum.hits, 10000);
 }
 
+// The same axes for other projections: blocks of four pixels, unit axes for panoramas.
+gpu::FrameParams with_projection(gpu::FrameParams camera, gpu::uint projection) {
+    camera.camera_block = 4;
+    camera.camera_pixel = {3, 1};
+    camera.camera_angle = 1.2f;
+    if (projection != gpu::kOrthographic) {
+        camera.camera_right = glm::normalize(camera.camera_right);
+        camera.camera_up = glm::normalize(camera.camera_up);
+    }
+    return camera;
+}
+
+TEST_P(BeamIn, start_changes_no_hit_of_other_projections) {
+    const MarchWorld world = build_march_world(sparse_world(), GetParam());
+    for (const gpu::uint projection : {gpu::kOrthographic, gpu::kEquirectangular, gpu::kFisheye}) {
+        Comparison sum;
+        for (std::uint32_t seed = 0; seed < 8; ++seed) {
+            for (const gpu::FrameParams& camera : cameras_around(world.size(), seed)) {
+                compare_starts(world, with_projection(camera, projection), unmoved, sum, projection);
+                ASSERT_EQ(sum.differing, 0) << projection << " seed " << seed << " " << sum.first;
+            }
+        }
+        EXPECT_GT(sum.hits, 1000) << projection;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Traversals, BeamIn,
                          ::testing::ValuesIn(all_traversals().begin(), all_traversals().end()),
                          test::traversal_name);
@@ -158,6 +185,16 @@ TEST(Beam, saves_steps_where_boxes_cross_borders) {
         EXPECT_GT(static_cast<double>(sum.steps_saved), 0.1 * static_cast<double>(sum.steps))
             << name_of(traversal);
     }
+}
+
+TEST(Beam, saves_steps_of_parallel_rays) {
+    const MarchWorld world = build_march_world(sparse_world(), Traversal::wide);
+    gpu::FrameParams camera = with_projection(view_from_above(), gpu::kOrthographic);
+    camera.camera_cell = {-20, -20, 100};
+    Comparison sum;
+    compare_starts(world, camera, unmoved, sum, gpu::kOrthographic);
+    EXPECT_GT(sum.hits, 1000);
+    EXPECT_GT(static_cast<double>(sum.steps_saved), 0.1 * static_cast<double>(sum.steps));
 }
 
 // Negative control of all that find no difference.
