@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 
@@ -122,6 +123,19 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
 
+// --alpha takes the number of the photons' exponent; without one it asks for transparency.
+std::vector<const char*> with_transparent(int argc, const char* const* argv) {
+    std::vector<const char*> words(argv, argv + argc);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (std::string_view(words[i]) != "--alpha") continue;
+        const char* const next = i + 1 < words.size() ? words[i + 1] : "";
+        char* end = nullptr;
+        (void)std::strtod(next, &end);
+        if (end == next || *end != '\0') words[i] = "--transparent";
+    }
+    return words;
+}
+
 // The subcommands, and what each runs with the options that parsing has filled.
 class Commands {
   public:
@@ -212,8 +226,9 @@ int run_command_line(int argc, const char* const* argv) {
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
+    const std::vector<const char*> words = with_transparent(argc, argv);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         return end_of_parse(app, error);
     }

@@ -71,11 +71,24 @@ void RenderSession::change(const RenderSettings& settings, const PlanRequest& re
     is_changed_ = true;
 }
 
+void RenderSession::load(Scene scene, const PlanRequest& request) {
+    player_ = FramePlayer(std::move(scene));
+    options_.plan = request;
+    options_.started = Clock::now();
+    last_points_.reset();
+    forecast_.reset();
+    shares_.clear();
+    has_started_ = false;
+    is_changed_ = false;
+    is_loaded_ = true;
+}
+
 // Brings the renderer to the frame.
 void RenderSession::show(std::int64_t frame) {
     scene_ = &player_.show(frame);
     const bool is_changed = std::exchange(is_changed_, false);
-    if (!renderer_->is_prepared()) return renderer_->prepare(*scene_, options_.plan);
+    if (std::exchange(is_loaded_, false) || player_.has_new_light())
+        return renderer_->prepare(*scene_, options_.plan);
     if (!player_.has_new_voxels() && scene_->camera) renderer_->set_camera(*scene_->camera);
     if (is_changed) renderer_->change(scene_->settings, options_.plan);
     if (player_.has_new_voxels()) renderer_->set_voxels(*scene_);

@@ -153,6 +153,7 @@ std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     std::vector<FilmPlane> planes = {{"beauty_a", 3}, {"beauty_b", 3}};
     if (plan.sums_squares) planes.push_back({"squares", 3});
     if (plan.sums_bias) planes.insert(planes.end(), {{"bias_a", 3}, {"bias_b", 3}});
+    if (plan.sums_coverage) planes.push_back({"coverage", 1});
     if (!plan.has(Effect::aov)) return planes;
     planes.push_back({"albedo", 3});
     planes.push_back({"normal", 3});
@@ -172,13 +173,16 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.settings = scene.settings;
     plan.part = request.part;
     place_window(plan, request.crop);
+    if (scene.camera) plan.projection = scene.camera->projection;
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
     plan.has_world_texels =
         loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
-    plan.material_count =
-        checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
-    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
+    plan.material_count = checked_cast<std::uint32_t>(
+        std::max<std::size_t>(scene.materials.size() + scene.ground.count(), 1), "materials");
+    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size() + scene.ground.count(), "spheres");
+    plan.has_ground = scene.ground.on;
+    plan.sums_coverage = scene.background.shown != Backdrop::sky;
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     plan.has_specular_spheres = facts.has_specular_spheres;
@@ -189,6 +193,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .max_rows = limits.max_groups[1],
                                       .frames = request.frames,
                                       .moves_voxels = request.moves_voxels,
+                                      .is_perspective = plan.projection == Projection::perspective,
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     decide_techniques(plan);

@@ -45,9 +45,16 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     return nearest;
 }
 
+// A point of the ground without its rounding, within what cells can count.
+vec3 on_ground(vec3 position, float height) {
+    vec2 place = clamp(position.xy, vec2(-kFarthestGround), vec2(kFarthestGround));
+    return vec3(place, height);
+}
+
 // Makes a hit of the crossing of a sphere, number `i`, at hit.t. Returns the normal on the side that was hit.
 vec3 place_on_sphere(inout Hit hit, uint i, SphereRecord sphere, vec3 origin, vec3 direction) {
     vec3 position = origin + hit.t * direction;
+    if (has_ground != 0u && i == sphere_count - 1u) position = on_ground(position, sphere.shape.anchor.z);
     vec3 corner = floor(position);
     hit.cell = ivec3(corner);
     hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));

@@ -11,6 +11,7 @@
 #include "jobs/memory_forecast.h"
 #include "jobs/plan_forecast.h"
 #include "jobs/report.h"
+#include "render/render_batch.h"
 #include "write_json.h"
 
 namespace voxilux {
@@ -77,6 +78,7 @@ int run_plan(const PlanCommand& plan_command) {
     check_outputs({command.report.json}, {command.scene.input});
     if (plan_command.history) return print_history(command);
     if (command.scene.input.empty()) throw Error(ExitCode::usage, "INPUT is required");
+    if (is_batch(command)) throw Error(ExitCode::usage, "plan: the plan is of one INPUT and one camera");
     const Checkpoint checkpoint = checkpoint_of(command);
     RenderOptions options = render_options(command);
     Scene animated = scene_to_render(command);
