@@ -18,7 +18,7 @@ namespace voxilux {
 
 // How far a film has come.
 struct FilmPosition {
-    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t samples = 0;     // whole ones, of the plan's part
     std::uint32_t rows_ahead = 0;  // rows from the top that have one more
 
     bool operator==(const FilmPosition&) const = default;

@@ -16,9 +16,9 @@ constexpr double kFlightPerSecond = 0.5;  // of the distance to the centre
 constexpr float kExposureStep = 0.5f;     // stops
 
 void look_from(View side, glm::ivec2 window, ViewState& state) {
-    const double aspect = static_cast<double>(window.x) / std::max(window.y, 1);
-    const double fov_y_deg = state.view.camera.fov_y_deg;
-    state.view = view_of(framing_camera(state.box, side, aspect, fov_y_deg), state.box);
+    Camera looking = looking_along(side, state.view.camera.fov_y_deg);
+    looking.projection = state.view.camera.projection;
+    state.view = view_of(framing_camera(state.box, looking, glm::dvec2(glm::max(window, 1))), state.box);
 }
 
 void take_screenshot(const char* ending, ViewState& state) {

@@ -7,7 +7,7 @@
 namespace voxilux {
 
 void add_view_flags(Flags& flags, ViewCommand& command) {
-    add_scene_flags(flags, command.scene, false);
+    add_scene_flags(flags, command.scene, PicturesOf::scene);
     flags.begin_group("Window");
     flags.on<double>(
         "--frame-time", "MS",
