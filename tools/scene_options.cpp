@@ -290,12 +290,12 @@ Scene load_scene_with(const SceneOptions& options) {
     } else if (options.turned != Turned::camera) {
         refuse("--turn needs --turntable");
     }
+    apply_camera_flags(options, scene);
     if (options.viewpoint) {
         scene.camera = options.viewpoint;
         scene.animation.camera_keys.clear();
         scene.animation.turntable.reset();
     }
-    apply_camera_flags(options, scene);
     return scene;
 }
 

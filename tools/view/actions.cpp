@@ -99,10 +99,15 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
     }
 }
 
+void want_command(ViewState& state) {
+    state.wants_command = state.view.camera.projection == Projection::perspective;
+    if (!state.wants_command) state.message = "--viewpoint knows perspective views only";
+}
+
 void take_shortcut(int key, ViewState& state) {
     if (key == GLFW_KEY_Z) return state.held.shift ? redo_edit(state) : undo_edit(state);
     if (key == GLFW_KEY_Y) return redo_edit(state);
-    if (key == GLFW_KEY_C) state.wants_command = true;
+    if (key == GLFW_KEY_C) return want_command(state);
     if (key == GLFW_KEY_S) save_edits(state.input, state);
 }
 

@@ -110,6 +110,7 @@ void aim(glm::ivec2 window, ViewState& state) {
     const VoxelWorld* const world = state.picture.renderer().voxels();
     if (world == nullptr) return;
     const Camera& camera = state.view.camera;
+    if (camera.projection != Projection::perspective) return;  // whose rays direction_through() knows
     state.edit.target = pick_voxel(*world, camera.position,
                                    direction_through(camera, state.held.pointer + 0.5, glm::dvec2(window)));
 }

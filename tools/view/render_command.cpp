@@ -9,9 +9,10 @@ namespace voxilux {
 namespace {
 
 // Flags with a value that only a window has, or that the line says anew.
-constexpr std::array<std::string_view, 11> kDropped{
-    "--script",     "--frames", "--screenshot", "--report",     "--frame-time", "--error",
-    "--time-limit", "--size",   "--spp",        "--iterations", "--camera"};
+constexpr std::array<std::string_view, 14> kDropped{
+    "--script",           "--frames",    "--screenshot", "--report",     "--frame-time", "--error",
+    "--time-limit",       "--size",      "--spp",        "--iterations", "--camera",     "--projection",
+    "--pixels-per-voxel", "--background"};
 
 // A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -53,6 +54,7 @@ std::string render_command(const std::vector<std::string>& words, const std::str
     line.push_back(fmt::format("--size {}x{} --spp {}", size.x, size.y, state.picture.samples()));
     line.push_back(fmt::format("--viewpoint {},{},{},{},{},{}", camera.position.x, camera.position.y,
                                camera.position.z, camera.yaw_deg, camera.pitch_deg, camera.fov_y_deg));
+    line.emplace_back("--background sky");  // which is what a window shows
     line.push_back("-o " + quoted(state.input.stem().string() + ".exr"));
     return fmt::format("{}", fmt::join(line, " "));
 }

@@ -76,12 +76,7 @@ class Session {
     void load(Scene scene, const std::string& input) {
         scene.settings.size = window_.size().x > 0 ? window_.size() : scene.settings.size;
         scene.background = {};  // a window shows the sky
-        scene.camera = camera_of(scene);
-        // Images in motion are smaller, and the size of an orthographic one says what it shows.
-        if (scene.camera->projection == Projection::orthographic) {
-            scene.camera->projection = Projection::perspective;
-            scene.camera = framing_camera(scene, *scene.camera);
-        }
+        scene.camera = window_camera(scene);
         picture_.load(scene, command_.scene.request);
         picture_.set_max_samples(scene.settings.spp);
         state_.input = input;

@@ -29,6 +29,13 @@ Camera turned(Camera camera, glm::dvec2 degrees) {
 
 }  // namespace
 
+Camera window_camera(const Scene& scene) {
+    Camera camera = camera_of(scene);
+    if (camera.projection != Projection::orthographic) return camera;
+    camera.projection = Projection::perspective;
+    return framing_camera(scene, camera);
+}
+
 ViewPoint view_of(const Camera& camera, const Box& box) {
     const glm::dvec3 middle = 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
     const glm::dvec3 forward = forward_of(camera);

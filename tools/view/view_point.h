@@ -18,6 +18,10 @@ struct ViewPoint {
     glm::dvec3 centre{0.0};
 };
 
+// What a window of a scene begins with: its camera, but no orthographic one. Images in motion are smaller,
+// and the size of an orthographic one says what it shows.
+[[nodiscard]] Camera window_camera(const Scene& scene);
+
 // The camera with the centre of `box` in front of it.
 [[nodiscard]] ViewPoint view_of(const Camera& camera, const Box& box);
 
