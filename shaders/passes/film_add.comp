@@ -13,7 +13,6 @@
 #include "lib/film_group.glsl"
 #include "lib/film_sums.glsl"
 
-VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
 VX_SPECIALIZED(uint, sums_squares, 1u);
 VX_SPECIALIZED(uint, sums_bias, 1u);
 VX_SPECIALIZED(uint, sums_coverage, 0u);  // a background is behind the scene: rays that meet nothing show nothing
@@ -22,7 +21,6 @@ VX_SPECIALIZED(uint, sums_ao, 1u);
 VX_SPECIALIZED(uint, sums_sun, 1u);
 VX_SPECIALIZED(uint, keeps_color, 1u);
 
-layout(rgba32ui) readonly uniform uimageBuffer FirstHits;  // before mirrors and glass
 layout(rgba32ui) readonly uniform uimageBuffer HalfAreaPhotons;
 VX_SUMS(Beauty);
 VX_SUMS(Squares);
@@ -36,16 +34,6 @@ layout(rgba32ui) writeonly uniform uimageBuffer Color;
 layout(push_constant, scalar) uniform Push {
     FilmAddPush push;
 };
-
-// Whether the camera rays themselves meet the scene.
-bvec4 covered_pixels(uint at, Group group) {
-    Hit hits[kGroupPixels] = group.hits;
-    if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);
-    bvec4 covered;
-    for (uint k = 0u; k < kGroupPixels; ++k)
-        covered[k] = group.inside[k] && is_surface(hits[k]);
-    return covered;
-}
 
 void add_beauty(uint at, uint film_group, Group group) {
     bvec4 covered = bvec4(true);

@@ -31,7 +31,6 @@ struct Photon {
     bool is_caustic;    // mirrors or glass had sent it there
 };
 
-// `place` of the list, and the number among all photons of the iteration.
 Photon start_photon(uint place, uint id) {
     PhotonStart start = photon_start(place);
     Photon photon;
@@ -93,8 +92,7 @@ void main() {
     init_scene();
     uint lane = linear_id();
     if (lane >= lanes) return;
-    uint first_id = photon.first_photon;
-    uint places = photon.photons;
+    PhotonParams run = photon;
     uint next_place = lane;
     uint segments = 0u;
     uint passes = 0u;
@@ -103,8 +101,8 @@ void main() {
     Photon photon;
     for (uint step = 0u; step < kMaxPhotonSteps; ++step) {
         if (!is_alive) {
-            if (next_place >= places) break;
-            photon = start_photon(next_place, first_id + next_place);
+            if (next_place >= run.photons) break;
+            photon = start_photon(next_place, run.first_photon + next_place);
             next_place += lanes;
             passes = 0u;
         }

@@ -81,12 +81,6 @@ struct SphereNode {
     uint sphere;  // of a leaf; kNoSphere of the others
 };
 
-// How a camera maps directions to pixels: see projection.h. In the order of the scene's Projection.
-VX_CONST(uint, kPerspective, 0u);
-VX_CONST(uint, kOrthographic, 1u);
-VX_CONST(uint, kEquirectangular, 2u);
-VX_CONST(uint, kFisheye, 3u);
-
 // What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
 // the whole image or a window of it.
 struct FrameParams {

@@ -12,6 +12,7 @@
 #include "shared/gpu_types.h"
 #include "shared/photon_types.h"
 #include "shared/sky_view.h"
+#include "shared/window.h"
 #include "vk/spirv_reflect.h"
 
 namespace voxilux {
@@ -91,10 +92,11 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(PathState, is_straight), VX_MEMBER(PathState, next_id)),
         VX_LAYOUT(PathPush, VX_MEMBER(PathPush, lanes), VX_MEMBER(PathPush, is_last)),
         VX_LAYOUT(FilmAddPush, VX_MEMBER(FilmAddPush, first_pixel), VX_MEMBER(FilmAddPush, pixel_count)),
-        VX_LAYOUT(DisplayResolvePush, VX_MEMBER(DisplayResolvePush, count),
-                  VX_MEMBER(DisplayResolvePush, row_values), VX_MEMBER(DisplayResolvePush, first_row),
-                  VX_MEMBER(DisplayResolvePush, samples), VX_MEMBER(DisplayResolvePush, rows_ahead),
-                  VX_MEMBER(DisplayResolvePush, rows_behind)),
+        VX_LAYOUT(DisplayResolvePush, VX_MEMBER(DisplayResolvePush, low), VX_MEMBER(DisplayResolvePush, high),
+                  VX_MEMBER(DisplayResolvePush, pixel_count), VX_MEMBER(DisplayResolvePush, width),
+                  VX_MEMBER(DisplayResolvePush, first_row), VX_MEMBER(DisplayResolvePush, samples),
+                  VX_MEMBER(DisplayResolvePush, rows_ahead), VX_MEMBER(DisplayResolvePush, exposure),
+                  VX_MEMBER(DisplayResolvePush, divider)),
         VX_LAYOUT(Ray, VX_MEMBER(Ray, cell), VX_MEMBER(Ray, fraction), VX_MEMBER(Ray, direction),
                   VX_MEMBER(Ray, t_max)),
         VX_LAYOUT(BenchHit, VX_MEMBER(BenchHit, cell), VX_MEMBER(BenchHit, face), VX_MEMBER(BenchHit, t),
@@ -105,6 +107,7 @@ const std::vector<Layout>& layouts() {
         VX_LAYOUT(PhotonParams, VX_MEMBER(PhotonParams, grid), VX_MEMBER(PhotonParams, power_scale),
                   VX_MEMBER(PhotonParams, power_unit), VX_MEMBER(PhotonParams, radius),
                   VX_MEMBER(PhotonParams, half_area_radius), VX_MEMBER(PhotonParams, capacity),
+                  VX_MEMBER(PhotonParams, first_photon), VX_MEMBER(PhotonParams, photons),
                   VX_MEMBER(PhotonParams, iteration), VX_MEMBER(PhotonParams, alpha)),
         VX_LAYOUT(PixelRadius, VX_MEMBER(PixelRadius, squared), VX_MEMBER(PixelRadius, photons)),
         VX_LAYOUT(PhotonPoint, VX_MEMBER(PhotonPoint, position), VX_MEMBER(PhotonPoint, surface),
