@@ -37,29 +37,20 @@ layout(push_constant, scalar) uniform Push {
     FilmAddPush push;
 };
 
-// Whether the camera rays themselves meet the scene.
-bvec4 covered_pixels(uint at, Group group) {
-    Hit hits[kGroupPixels] = group.hits;
-    if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);
-    bvec4 covered;
-    for (uint k = 0u; k < kGroupPixels; ++k)
-        covered[k] = group.inside[k] && is_surface(hits[k]);
-    return covered;
-}
+#include "lib/film_cover.glsl"
 
 void add_beauty(uint at, uint film_group, Group group) {
-    bvec4 covered = bvec4(true);
-    if (sums_coverage != 0u) {
-        covered = covered_pixels(at, group);
-        VX_ADD_FLOATS(Coverage, film_group, add_pair, mix(vec4(0.0), vec4(1.0), covered));
-    }
     vec3 color[kGroupPixels];
     uint hits = 0u;
     for (uint k = 0u; k < kGroupPixels; ++k) {
-        color[k] = group.inside[k] && covered[k] ? radiance(group, k) : vec3(0.0);
+        color[k] = group.inside[k] ? radiance(group, k) : vec3(0.0);
         hits += is_surface(group.hits[k]) ? 1u : 0u;
     }
     count(kWorkHits, hits);
+    if (sums_coverage != 0u) {
+        vec4 coverage = cover(at, group, color);
+        VX_ADD_FLOATS(Coverage, film_group, add_pair, coverage);
+    }
     VX_ADD_VECTORS(Beauty, film_group, add_pair, color);
     if (sums_squares != 0u) {
         VX_ADD_VECTORS(Squares, film_group, add_squares, color);

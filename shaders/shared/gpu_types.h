@@ -81,12 +81,6 @@ struct SphereNode {
     uint sphere;  // of a leaf; kNoSphere of the others
 };
 
-// How a camera maps directions to pixels: see projection.h. In the order of the scene's Projection.
-VX_CONST(uint, kPerspective, 0u);
-VX_CONST(uint, kOrthographic, 1u);
-VX_CONST(uint, kEquirectangular, 2u);
-VX_CONST(uint, kFisheye, 3u);
-
 // What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
 // the whole image or a window of it.
 struct FrameParams {
@@ -114,9 +108,11 @@ struct FrameParams {
     uint seed;
     float ao_radius;  // voxels
     vec3 sky_radiance;
-    vec3 sun_direction;     // unit, towards the sun
-    vec3 sun_irradiance;    // on a surface facing the sun
-    float sun_cone_height;  // cone_height of the sun's angular radius
+    vec3 sun_direction;      // unit, towards the sun
+    vec3 sun_irradiance;     // on a surface facing the sun
+    float sun_cone_height;   // cone_height of the sun's angular radius
+    uint ground_material;    // index of it; of no meaning without a ground
+    float ground_luminance;  // of the ground where nothing is in the light's way
     uint light_count;
     float light_power;  // of all emitters: brightness() times etendue, summed
     // Photons of one sample: those of the emitters first, then those of the sun, which start on a disc that

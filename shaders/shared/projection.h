@@ -18,6 +18,12 @@
 
 VX_BEGIN
 
+// How a camera maps directions to pixels, in the order of the scene's Projection.
+VX_CONST(uint, kPerspective, 0u);
+VX_CONST(uint, kOrthographic, 1u);
+VX_CONST(uint, kEquirectangular, 2u);
+VX_CONST(uint, kFisheye, 3u);
+
 // A number as its floor and the rest in [0, 1].
 struct PlaneCount {
     int whole;

@@ -84,7 +84,8 @@ class Session {
 
     void load(Scene scene, const std::string& input) {
         scene.settings.size = window_.size().x > 0 ? window_.size() : scene.settings.size;
-        scene.background = {};  // a window shows the sky
+        scene.background = {};  // a window shows the sky, and so the ground
+        scene.ground.shadow_only = false;
         scene.camera = camera_of(scene);
         // Images in motion are smaller, and the size of an orthographic one says what it shows.
         if (scene.camera->projection == Projection::orthographic) {
