@@ -84,7 +84,8 @@ TEST(Background, glass_is_opaque) {
     scene.models.clear();
     scene.instances.clear();
     scene.camera = test::camera_towards({0.1, -2.5, 0.1}, {0, 9, 0}, 40.0);  // inside
-    for (const float alpha : plane(render(scene, Backdrop::transparent), "A"))
+    const Image image = render(scene, Backdrop::transparent);
+    for (const float alpha : plane(image, "A"))
         EXPECT_EQ(alpha, 1.0f);
 }
 
@@ -128,7 +129,8 @@ TEST(Background, ground_without_shadows_is_not_there) {
     scene.spheres.clear();
     scene.ground = {.on = true, .shadow_only = true, .height = 0.0};
     scene.camera = test::camera_towards({9, -13, 8}, {0, 0, -5}, 30.0);
-    for (const float alpha : plane(render(scene, Backdrop::transparent), "A"))
+    const Image image = render(scene, Backdrop::transparent);
+    for (const float alpha : plane(image, "A"))
         EXPECT_NEAR(alpha, 0.0f, 2e-3f);  // the cosine varies over the sun's disc, by half its angle
 }
 
