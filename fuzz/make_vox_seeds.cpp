@@ -61,6 +61,11 @@ std::map<std::string, std::string> seeds() {
                    record("MATL", 1,
                           {{"_type", "_emit"}, {"_emit", "1e999"}, {"_flux", "nan"}, {"_rough", "-inf"}}))},
         {"unknown", file_text(model + chunk("rLIT", "abc", chunk("sub1", "")) + chunk("rAIR", ""))},
+        {"settings",
+         file_text(model + chunk("rOBJ", dict({{"_type", "_inf"}, {"_i", "2"}, {"_angle", "30 90"}})) +
+                   chunk("rOBJ", dict({{"_type", "_env"}, {"_mode", "1"}})) +
+                   chunk("rLEN", dict({{"_fov", "60"}, {"_exp", "-1"}})) +
+                   record("rCAM", 1, {{"_mode", "orth"}, {"_angle", "20 30 0"}, {"_radius", "9"}}))},
         {"tail", file_text(model) + "tail"},
     };
 }

@@ -8,10 +8,12 @@
 #include <span>
 
 #include "formats/vox_info.h"
+#include "formats/vox_objects.h"
 #include "formats/vox_read.h"
 #include "formats/vox_write.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_scene.h"
+#include "scene/vox_settings.h"
 #include "support/allocation_counter.h"
 
 namespace {
@@ -36,6 +38,21 @@ void check_rewrite(const voxilux::VoxFile& file) {
     require(voxilux::write_vox(second) == bytes, "a second write differs");
     second.warnings = file.warnings;  // they name bytes, and repairs are not needed twice
     require(second == file, "a written file reads back different");
+}
+
+void check_settings(const voxilux::VoxFile& file) {
+    voxilux::Scene scene;
+    voxilux::apply_vox_settings(file, voxilux::render_objects(file), scene);
+    const glm::vec3 light = scene.sun.irradiance + scene.sky.radiance + scene.background.radiance;
+    require(glm::all(glm::greaterThanEqual(light, glm::vec3(0.0f))) && light.x + light.y + light.z < 1e6f,
+            "light is not finite");
+    require(scene.framing_fov_y_deg > 0.0 && scene.framing_fov_y_deg < 180.0, "a field of view is none");
+    for (const voxilux::SavedCamera& saved : scene.cameras) {
+        const glm::dvec3 at = saved.camera.position;
+        require(glm::length(at) < 4e9, "a camera is nowhere");
+        require(saved.camera.pitch_deg >= -90.0 && saved.camera.pitch_deg <= 90.0,
+                "a camera stands on its head");
+    }
 }
 
 void check_scene(const voxilux::VoxFile& file, int frame) {
@@ -74,6 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     check_scene(file.value(), size > 0 ? static_cast<int>(data[size - 1]) - 8 : 0);
+    check_settings(file.value());
     check_rewrite(file.value());
     return 0;
 }

@@ -79,7 +79,8 @@ void add_old(std::string_view chunk, const VoxDict& dict, std::vector<VoxDict>& 
 }  // namespace
 
 std::vector<VoxDict> render_objects(const VoxFile& file) {
-    std::vector<VoxDict> objects = file.objects;
+    const auto count = static_cast<std::ptrdiff_t>(std::min(file.objects.size(), kVoxMaxObjects));
+    std::vector<VoxDict> objects(file.objects.begin(), file.objects.begin() + count);
     for (const VoxUnknownChunk& chunk : file.unknown) {
         if (objects.size() >= kVoxMaxObjects) break;
         add_old({chunk.id.data(), chunk.id.size()}, dict_of(chunk), objects);

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "base/assert.h"
+#include "base/colour.h"
 #include "base/error.h"
 #include "frame/frame.h"
 #include "scene/atmosphere.h"
@@ -85,6 +86,13 @@ void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
     params.sun_disc_radius = static_cast<float>(plan.world.lights.sun_disc.radius);
 }
 
+// Of a ground that the whole disc of the sun and all of the sky light.
+float open_luminance(const gpu::FrameParams& params, const Ground& ground) {
+    const float cosine = std::max(params.sun_direction.z, 0.0f) * (1.0f - 0.5f * params.sun_cone_height);
+    const glm::vec3 light = params.sun_irradiance * (cosine / gpu::kPi) + params.sky_radiance;
+    return luminance(ground.albedo * light);
+}
+
 }  // namespace
 
 gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world) {
@@ -107,6 +115,8 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.sun_cone_height =
         gpu::cone_height(static_cast<float>(radians(scene.sun.angular_diameter_deg) / 2.0));
     place_lights(params, plan);
+    params.ground_material = plan.material_count - 1;
+    params.ground_luminance = open_luminance(params, scene.ground);
     return params;
 }
 

@@ -66,6 +66,17 @@ void check_part(const RenderPlan& plan) {
     }
 }
 
+// What a shadow is missing is known where all light but that of the scene itself is.
+void check_shadows(const RenderPlan& plan, const Scene& scene) {
+    if (!plan.catches_shadows) return;
+    if (!plan.sums_coverage)
+        throw Error(ExitCode::input_refused,
+                    "[ground] 'shadow_only' needs a background: --alpha, or --background COLOR");
+    if (scene.sky.is_atmosphere())
+        throw Error(ExitCode::input_refused,
+                    "[ground] 'shadow_only' needs a constant sky, not an atmosphere");
+}
+
 // Paths that find caustics find all light.
 void check_paths(const RenderPlan& plan) {
     if (plan.is_by_paths(Effect::caustics) && !plan.is_by_paths(Effect::indirect))
@@ -183,6 +194,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size() + scene.ground.count(), "spheres");
     plan.has_ground = scene.ground.on;
     plan.sums_coverage = scene.background.shown != Backdrop::sky;
+    plan.catches_shadows = plan.has_ground && scene.ground.shadow_only;
+    check_shadows(plan, scene);
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     plan.has_specular_spheres = facts.has_specular_spheres;

@@ -81,6 +81,7 @@ struct RenderPlan {
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
     bool sums_bias = false;                // of photons
+    bool catches_shadows = false;          // the ground, and shows nothing else
     bool sums_coverage = false;            // of the scene, before a background that is not the sky
     std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
     std::uint32_t film_tile_count = 0;

@@ -123,6 +123,7 @@ struct Background {
 struct Ground {
     bool on = false;
     glm::vec3 albedo{0.3f};
+    bool shadow_only = false;      // before a background that is not the sky: nothing but its shadows
     std::optional<double> height;  // z; that of the scene's lowest voxel or sphere once a scene is loaded
 
     [[nodiscard]] std::size_t count() const { return on ? 1 : 0; }

@@ -185,10 +185,11 @@ void visit_settings(Background& background, auto&& visit) {
 }
 
 void visit_settings(Ground& ground, auto&& visit) {
-    auto& [on, albedo, height] = ground;
+    auto& [on, albedo, shadow_only, height] = ground;
     visit({"on", {}, "true where the section is there and does not say"}, on);
     visit({"albedo", {0, 1}, "share of light that is reflected, linear"}, albedo);
     visit({"color", {}, "the same in sRGB"}, HexColour{albedo, "albedo"});
+    visit({"shadow_only", {}, "before a background: nothing but shadows; see Ground"}, shadow_only);
     visit({"height", kReach, "of the plane, z in voxels; absent: the scene's lowest"}, height);
 }
 

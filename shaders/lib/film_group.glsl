@@ -20,10 +20,8 @@ VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
 VX_SPECIALIZED(uint, weights_stride, 1u);
 VX_SPECIALIZED(uint, has_emission, 1u);
-VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
 
 layout(rgba32ui) readonly uniform uimageBuffer Hits;
-layout(rgba32ui) readonly uniform uimageBuffer FirstHits;  // before mirrors and glass
 layout(rgba32ui) readonly uniform uimageBuffer Ao;
 layout(rgba32ui) readonly uniform uimageBuffer SkyLight;
 layout(rgba32ui) readonly uniform uimageBuffer Sun;
@@ -85,16 +83,6 @@ Group load_group(uint at, uint first, uint end) {
     group.photons = VX_GROUP_VECTORS(Photons, at, photons_stride);
     group.weights = VX_GROUP_VECTORS(Weights, at, weights_stride);
     return group;
-}
-
-// Whether the camera rays themselves meet the scene.
-bvec4 covered_pixels(uint at, Group group) {
-    Hit hits[kGroupPixels] = group.hits;
-    if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);
-    bvec4 covered;
-    for (uint k = 0u; k < kGroupPixels; ++k)
-        covered[k] = group.inside[k] && is_surface(hits[k]);
-    return covered;
 }
 
 vec3 radiance(Group group, uint k) {

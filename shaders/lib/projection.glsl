@@ -3,6 +3,7 @@
 #define VX_PROJECTION_GLSL
 
 #include "lib/constants.glsl"
+#include "shared/projection.h"
 
 VX_SPECIALIZED(uint, projection, 0u);  // kPerspective, ...
 

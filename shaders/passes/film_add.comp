@@ -13,6 +13,7 @@
 #include "lib/film_group.glsl"
 #include "lib/film_sums.glsl"
 
+VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
 VX_SPECIALIZED(uint, sums_squares, 1u);
 VX_SPECIALIZED(uint, sums_bias, 1u);
 VX_SPECIALIZED(uint, sums_coverage, 0u);  // a background is behind the scene: rays that meet nothing show nothing
@@ -21,6 +22,7 @@ VX_SPECIALIZED(uint, sums_ao, 1u);
 VX_SPECIALIZED(uint, sums_sun, 1u);
 VX_SPECIALIZED(uint, keeps_color, 1u);
 
+layout(rgba32ui) readonly uniform uimageBuffer FirstHits;  // before mirrors and glass
 layout(rgba32ui) readonly uniform uimageBuffer HalfAreaPhotons;
 VX_SUMS(Beauty);
 VX_SUMS(Squares);
@@ -35,19 +37,20 @@ layout(push_constant, scalar) uniform Push {
     FilmAddPush push;
 };
 
+#include "lib/film_cover.glsl"
+
 void add_beauty(uint at, uint film_group, Group group) {
-    bvec4 covered = bvec4(true);
-    if (sums_coverage != 0u) {
-        covered = covered_pixels(at, group);
-        VX_ADD_FLOATS(Coverage, film_group, add_pair, mix(vec4(0.0), vec4(1.0), covered));
-    }
     vec3 color[kGroupPixels];
     uint hits = 0u;
     for (uint k = 0u; k < kGroupPixels; ++k) {
-        color[k] = group.inside[k] && covered[k] ? radiance(group, k) : vec3(0.0);
+        color[k] = group.inside[k] ? radiance(group, k) : vec3(0.0);
         hits += is_surface(group.hits[k]) ? 1u : 0u;
     }
     count(kWorkHits, hits);
+    if (sums_coverage != 0u) {
+        vec4 coverage = cover(at, group, color);
+        VX_ADD_FLOATS(Coverage, film_group, add_pair, coverage);
+    }
     VX_ADD_VECTORS(Beauty, film_group, add_pair, color);
     if (sums_squares != 0u) {
         VX_ADD_VECTORS(Squares, film_group, add_squares, color);

@@ -108,9 +108,11 @@ struct FrameParams {
     uint seed;
     float ao_radius;  // voxels
     vec3 sky_radiance;
-    vec3 sun_direction;     // unit, towards the sun
-    vec3 sun_irradiance;    // on a surface facing the sun
-    float sun_cone_height;  // cone_height of the sun's angular radius
+    vec3 sun_direction;      // unit, towards the sun
+    vec3 sun_irradiance;     // on a surface facing the sun
+    float sun_cone_height;   // cone_height of the sun's angular radius
+    uint ground_material;    // index of it; of no meaning without a ground
+    float ground_luminance;  // of the ground where nothing is in the light's way
     uint light_count;
     float light_power;  // of all emitters: brightness() times etendue, summed
     // Photons of one sample: those of the emitters first, then those of the sun, which start on a disc that

@@ -18,7 +18,7 @@
 
 VX_BEGIN
 
-// How a camera maps directions to pixels. In the order of the scene's Projection.
+// How a camera maps directions to pixels, in the order of the scene's Projection.
 VX_CONST(uint, kPerspective, 0u);
 VX_CONST(uint, kOrthographic, 1u);
 VX_CONST(uint, kEquirectangular, 2u);

@@ -75,7 +75,8 @@ class Session {
 
     void load(Scene scene, const std::string& input) {
         scene.settings.size = window_.size().x > 0 ? window_.size() : scene.settings.size;
-        scene.background = {};  // a window shows the sky
+        scene.background = {};  // a window shows the sky, and so the ground
+        scene.ground.shadow_only = false;
         scene.camera = window_camera(scene);
         picture_.load(scene, command_.scene.request);
         picture_.set_max_samples(scene.settings.spp);

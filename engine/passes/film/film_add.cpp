@@ -44,6 +44,7 @@ std::vector<Constant> film_constants(const RenderPlan& plan, const FilmInputs& i
             {"sums_squares", plan.sums_squares ? 1u : 0u},
             {"sums_bias", plan.sums_bias ? 1u : 0u},
             {"sums_coverage", plan.sums_coverage ? 1u : 0u},
+            {"catches_shadows", plan.catches_shadows ? 1u : 0u},
             {"sums_surface", has_aov ? 1u : 0u},
             {"sums_ao", has_aov && plan.has(Effect::ao) ? 1u : 0u},
             {"sums_sun", has_aov && plan.has(Effect::sun) ? 1u : 0u},

@@ -221,5 +221,27 @@ TEST(TurntableCamera, scene_fits_in_every_frame) {
     EXPECT_GT(farthest_corner(scene, box), 1.5);
 }
 
+// Seen from the camera, the sun of a turned model stays where it is, and that of turned light goes round.
+TEST(TurntableCamera, model_or_light_turn_as_they_say) {
+    const Camera rest{.position = {10.0, -20.0, 5.0}, .yaw_deg = 110.0, .pitch_deg = -20.0};
+    const Sun sun{.azimuth_deg = 200.0f, .elevation_deg = 30.0f};
+    const auto seen = [](const Camera& camera, const Sun& shining) {
+        return glm::dvec3(shining.direction()) * camera_basis(camera);
+    };
+    Turntable table{.frames = 8, .turned = Turned::model};
+    for (std::int64_t frame = 1; frame <= 9; ++frame) {
+        const Camera camera = camera_on_turntable(table, rest, {1.0, 2.0}, frame);
+        EXPECT_LT(glm::length(seen(camera, sun_on_turntable(table, sun, frame)) - seen(rest, sun)), 1e-5);
+        EXPECT_NEAR(camera.yaw_deg, 110.0 - 45.0 * static_cast<double>((frame - 1) % 8), 1e-9);
+    }
+    table.turned = Turned::light;
+    EXPECT_EQ(camera_on_turntable(table, rest, {1.0, 2.0}, 3).position, rest.position);
+    EXPECT_NEAR(
+        std::remainder(static_cast<double>(sun_on_turntable(table, sun, 3).azimuth_deg) - 290.0, 360.0), 0.0,
+        1e-4);
+    table.turned = Turned::camera;
+    EXPECT_EQ(sun_on_turntable(table, sun, 3).azimuth_deg, sun.azimuth_deg);
+}
+
 }  // namespace
 }  // namespace voxilux

@@ -84,8 +84,54 @@ TEST(Background, glass_is_opaque) {
     scene.models.clear();
     scene.instances.clear();
     scene.camera = test::camera_towards({0.1, -2.5, 0.1}, {0, 9, 0}, 40.0);  // inside
-    for (const float alpha : plane(render(scene, Backdrop::transparent), "A"))
+    const Image image = render(scene, Backdrop::transparent);
+    for (const float alpha : plane(image, "A"))
         EXPECT_EQ(alpha, 1.0f);
+}
+
+// A slab over the ground, which its shadow and nothing else shows, in a sun without a sky: alpha is 1 in the
+// shadow and 0 elsewhere, over what the ground lacks of light.
+TEST(Background, ground_that_catches_shadows_covers_by_the_light_that_it_lacks) {
+    Scene scene = test::white_scene();
+    scene.materials[0].albedo = glm::vec3(0.0f);
+    test::add_box(scene, {0, 0, 3}, {4, 4, 4});
+    scene.sun = {.azimuth_deg = 180.0f, .elevation_deg = 45.0f, .angular_diameter_deg = 0.0f, .on = true};
+    scene.sky.radiance = glm::vec3(0.0f);
+    scene.ground = {.on = true, .albedo = glm::vec3(0.37f, 0.2f, 0.6f), .shadow_only = true, .height = 0.0};
+    scene.camera = test::camera_down({7.0, 2.0, 200.0}, 3.0);
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->pixels_per_voxel = 4.0;
+    scene.settings.size = {64, 24};
+    const Image image = render(scene, Backdrop::transparent);
+    int shadow = 0, open = 0;
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const double place = 7.0 + (x + 0.5 - 32.0) / 4.0, side = 2.0 - (y + 0.5 - 12.0) / 4.0;
+            const bool is_slab = place > 0.0 && place < 4.0 && side > 0.0 && side < 4.0;
+            // The sun is at -x, as high as it is far: shadows fall 3 to 4 voxels further.
+            const bool is_shadow = !is_slab && place > 3.0 && place < 8.0 && side > 0.0 && side < 4.0;
+            const float alpha = plane(image, "A")[static_cast<std::size_t>(64 * y + x)];
+            EXPECT_NEAR(alpha, is_slab || is_shadow ? 1.0f : 0.0f, 1e-5f) << x << " " << y;
+            EXPECT_EQ(plane(image, "R")[static_cast<std::size_t>(64 * y + x)], 0.0f);
+            shadow += is_shadow ? 1 : 0;
+            open += alpha < 0.5f ? 1 : 0;
+        }
+    }
+    EXPECT_GT(shadow, 200);
+    EXPECT_GT(open, 800);
+}
+
+// Nothing on it: no alpha, whatever sun and sky are.
+TEST(Background, ground_without_shadows_is_not_there) {
+    Scene scene = blocks(false);
+    scene.models.clear();
+    scene.instances.clear();
+    scene.spheres.clear();
+    scene.ground = {.on = true, .shadow_only = true, .height = 0.0};
+    scene.camera = test::camera_towards({9, -13, 8}, {0, 0, -5}, 30.0);
+    const Image image = render(scene, Backdrop::transparent);
+    for (const float alpha : plane(image, "A"))
+        EXPECT_NEAR(alpha, 0.0f, 2e-3f);  // the cosine varies over the sun's disc, by half its angle
 }
 
 std::uint8_t code(float decoded) {

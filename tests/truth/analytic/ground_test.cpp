@@ -109,7 +109,8 @@ TEST(Ground, lies_under_many_spheres_too) {
     scene.camera = test::camera_down({12.0, 6.0, 40.0}, 60.0);
     scene.settings.size = {40, 40};
     int balls = 0;
-    for (const gpu::Hit& hit : test::render_first_sample(scene).hits) {
+    const std::vector<gpu::Hit> hits = test::render_first_sample(scene).hits;
+    for (const gpu::Hit& hit : hits) {
         ASSERT_EQ(hit.face, gpu::kFaceSphere);
         balls += hit.sphere != 40u ? 1 : 0;
     }

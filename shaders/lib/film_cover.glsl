@@ -1,0 +1,23 @@
+// What the scene covers of a background. Include lib/film_group.glsl first; the pass declares FirstHits and has_specular.
+#ifndef VX_FILM_COVER_GLSL
+#define VX_FILM_COVER_GLSL
+
+VX_SPECIALIZED(uint, catches_shadows, 0u);  // the ground, which shows nothing else
+
+// Before a background: camera rays that meet nothing show nothing, and a ground that only catches shadows is black and
+// covers by as much light as it lacks.
+vec4 cover(uint at, Group group, inout vec3 color[kGroupPixels]) {
+    Hit hits[kGroupPixels] = group.hits;
+    if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);
+    vec4 coverage = vec4(0.0);
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        bool is_met = group.inside[k] && is_surface(hits[k]);
+        bool is_ground = catches_shadows != 0u && is_met && hits[k].material == frame.ground_material;
+        float lacks = 1.0 - dot(color[k], vec3(0.2126, 0.7152, 0.0722)) / frame.ground_luminance;
+        coverage[k] = is_ground ? lacks : (is_met ? 1.0 : 0.0);
+        color[k] = is_met && !is_ground ? color[k] : vec3(0.0);
+    }
+    return coverage;
+}
+
+#endif
