@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 
@@ -122,9 +123,25 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
 
+// --alpha takes the number of the photons' exponent; without one it asks for transparency.
+std::vector<const char*> with_transparent(int argc, const char* const* argv) {
+    std::vector<const char*> words(argv, argv + argc);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (std::string_view(words[i]) != "--alpha") continue;
+        const char* const next = i + 1 < words.size() ? words[i + 1] : "";
+        char* end = nullptr;
+        (void)std::strtod(next, &end);
+        if (end == next || *end != '\0') words[i] = "--transparent";
+    }
+    return words;
+}
+
 // The subcommands, and what each runs with the options that parsing has filled.
 class Commands {
   public:
+    // `words` follow the subcommand.
+    explicit Commands(std::vector<std::string> words) : words_(std::move(words)) {}
+
     template <class Options>
     void add(CLI::App& app, const std::string& name, const std::string& help,
              void (*add_flags)(Flags&, Options&), int (*run_command)(const Options&)) {
@@ -132,6 +149,7 @@ class Commands {
         const auto options = std::make_shared<Options>();
         Flags flags(*command);
         add_flags(flags, *options);
+        if constexpr (requires { options->words; }) options->words = words_;
         rows_.push_back({command, [=] { return run_command(*options); }});
     }
 
@@ -147,6 +165,7 @@ class Commands {
         std::function<int()> run;
     };
     std::vector<Row> rows_;
+    std::vector<std::string> words_;
 };
 
 void add_required_render_flags(Flags& flags, RenderCommand& command) {
@@ -180,7 +199,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
-    Commands commands;
+    Commands commands({argv + std::min(argc, 2), argv + argc});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
     commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
@@ -207,8 +226,9 @@ int run_command_line(int argc, const char* const* argv) {
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
+    const std::vector<const char*> words = with_transparent(argc, argv);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         return end_of_parse(app, error);
     }

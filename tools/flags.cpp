@@ -70,6 +70,11 @@ std::function<Flags::GivenWords()> Flags::given() const {
     };
 }
 
+void Flags::on_switch(const std::string& name, std::function<void()> take, const std::string& help) {
+    CLI::Option* const option = app_.add_flag_callback(name, std::move(take), help);
+    if (!group_.empty()) option->group(group_);
+}
+
 void Flags::add_switch(const std::string& name, bool& target, const std::string& help) {
     CLI::Option* const option = app_.add_flag(name, target, help);
     if (!group_.empty()) option->group(group_);

@@ -98,6 +98,9 @@ class Flags {
     using GivenWords = std::vector<std::pair<std::string, std::string>>;
     [[nodiscard]] std::function<GivenWords()> given() const;
 
+    // Calls `take` where the flag, which has no value, is given.
+    void on_switch(const std::string& name, std::function<void()> take, const std::string& help);
+
     // A flag without a value.
     void add_switch(const std::string& name, bool& target, const std::string& help);
 

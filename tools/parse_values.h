@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "camera_choice.h"
 #include "estimators/metrics.h"
 #include "film/tonemap.h"
 #include "jobs/frame_list.h"
@@ -69,8 +70,18 @@ struct Shard {
 [[nodiscard]] AoMethod parse_ao_method(std::string_view name);
 [[nodiscard]] Sequence parse_sequence(std::string_view name);
 
-// three-quarter, front, back, left, right, top or iso.
+// three-quarter, front, back, left, right, top, bottom or iso.
 [[nodiscard]] View parse_view(std::string_view name);
+// One of these, or any other word: the name of a camera in the file.
+[[nodiscard]] CameraChoice parse_camera(std::string_view name);
+
+// "#rrggbb" or "sky".
+[[nodiscard]] Background parse_background(std::string_view text);
+[[nodiscard]] Projection parse_projection(std::string_view name);
+[[nodiscard]] Turned parse_turned(std::string_view name);
+
+// "x,y,z,yaw,pitch,fov": a place in scene space and degrees.
+[[nodiscard]] Camera parse_viewpoint(std::string_view text);
 
 // "NAME=on|off|auto".
 struct EffectSwitch {

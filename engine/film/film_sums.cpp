@@ -30,6 +30,7 @@ std::string channel_of(const std::string& plane, std::size_t component, std::siz
     if (plane == "normal") return fmt::format("N.{}", kXyz[component]);
     if (plane == "position") return fmt::format("P.{}", kXyz[component]);
     if (plane == "depth") return "Z";
+    if (plane == "coverage") return "A";
     return fmt::format("{}.{}", plane, components == 1 ? "Y" : kRgb[component]);
 }
 

@@ -51,9 +51,10 @@ void add_rows(FilmSums& film, std::size_t first, const FilmSums& rows);
 void set_firsts(FilmSums& film, std::size_t first, const FilmSums& rows);
 
 // The pictures: those of film_image(), and for every other plane its mean over all samples, named
-// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample. variance.R .G .B is
-// the variance of the beauty by mean_variance(); above the truth where samples are not independent. bias.R .G
-// .B is what the radius of the photons adds to the beauty.
+// PLANE.R .G .B or PLANE.Y; A for the coverage, which the beauty is multiplied by; N.X .Y .Z for normals; P.X
+// .Y .Z and Z of the first sample. variance.R .G .B is the variance of the beauty by mean_variance(); above
+// the truth where samples are not independent. bias.R .G .B is what the radius of the photons adds to the
+// beauty.
 [[nodiscard]] Image picture_of(const FilmSums& film);
 // The same, with the planes gone one by one as they are used: there is hardly ever a second copy in memory.
 [[nodiscard]] Image picture_of(FilmSums&& film);

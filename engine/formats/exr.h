@@ -40,6 +40,7 @@ struct ExrOptions {
     bool reproducible = false;  // leaves the date out, so that equal pixels give equal bytes
     std::string software = "voxilux";
     std::string comments;
+    std::optional<glm::vec3> background;  // linear; what an image with an A is laid over before it is written
     std::optional<glm::mat4> world_to_camera;  // acting on column vectors, as GLM does
     std::optional<glm::mat4> world_to_ndc;
 };

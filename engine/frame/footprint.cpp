@@ -30,7 +30,7 @@ class FootprintSum {
 
     [[nodiscard]] Footprint sum() {
         for (PlannedBuffer& planned : sum_.buffers)
-            planned.by_address = addressed_.contains(planned.buffer) && !bound_.contains(planned.buffer);
+            planned.by_address = addressed_.contains(planned.buffer);
         return sum_;
     }
 
@@ -39,15 +39,13 @@ class FootprintSum {
         auto known = std::ranges::find(sum_.passes, dispatch.label, &PlannedPass::label);
         if (known == sum_.passes.end()) known = sum_.passes.insert(known, PlannedPass{dispatch.label});
         known->count += times;
-        for (const Binding& binding : dispatch.bindings)
-            bound_.insert(binding.buffer);
         for (const Address& address : dispatch.addresses)
             addressed_.insert(address.buffer);
     }
 
     Footprint sum_;
     std::map<std::string, std::size_t> buffers_;  // places in sum_
-    std::set<std::string> bound_, addressed_;
+    std::set<std::string> addressed_;
 };
 
 // Dispatch tiles of a film tile that differ in nothing but their first row.
@@ -70,6 +68,8 @@ std::vector<EqualDispatchTiles> tiles_of(const RenderPlan& plan) {
     }
     return all;
 }
+
+constexpr std::uint64_t kLeastPhotonStore = 1u << 20;  // bytes
 
 // Any camera: what is recorded does not depend on it.
 gpu::FrameParams some_params() {
@@ -151,7 +151,19 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
 RenderPlan plan_within_memory(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                               const PlanRequest& request, const DeviceLimits& limits) {
     RenderPlan plan = plan_render(scene, facts, world, request, limits);
-    check_memory(footprint(plan), request.memory_budget_bytes, limits);
+    Footprint needs = footprint(plan);
+    // Shorter runs of photons give the same picture in less memory.
+    PlanRequest with_runs = request;
+    with_runs.photon_store_bytes = limits.max_binding_bytes;
+    const auto is_over = [&] {
+        return request.memory_budget_bytes != 0 && needs.total_bytes() > request.memory_budget_bytes;
+    };
+    while (is_over() && plan.photons.runs() && with_runs.photon_store_bytes > kLeastPhotonStore) {
+        with_runs.photon_store_bytes /= 2;
+        plan = plan_render(scene, facts, world, with_runs, limits);
+        needs = footprint(plan);
+    }
+    check_memory(needs, request.memory_budget_bytes, limits);
     return plan;
 }
 

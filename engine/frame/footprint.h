@@ -22,7 +22,7 @@ struct PlannedBuffer {
     std::string buffer;
     std::uint64_t bytes = 0;
     bool persistent = false;  // its contents outlive a recording
-    bool by_address = false;  // shaders reach it by its address alone: it may be larger than a binding
+    bool by_address = false;  // shaders reach it by its address where it is too large to be bound
 
     bool operator==(const PlannedBuffer&) const = default;
 };

@@ -1,6 +1,13 @@
 #include "frame/footprint.h"
 
 namespace voxilux {
+namespace {
+
+std::string runs_text(const PhotonPlan& photons) {
+    return photons.run_count() > 1 ? fmt::format(" in {} runs", photons.run_count()) : "";
+}
+
+}  // namespace
 
 std::string describe(const RenderPlan& plan) {
     const RenderSettings& s = plan.settings;
@@ -28,8 +35,8 @@ std::string describe(const RenderPlan& plan) {
                                 reason);
     }
     if (plan.photons.runs())
-        text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
-                            plan.photons.count(), plan.photons.capacity,
+        text += fmt::format("photons   {} per iteration{}, room for {}, first radius {}, alpha {:.3g}\n",
+                            plan.photons.count(), runs_text(plan.photons), plan.photons.capacity,
                             plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
                             plan.settings.photons.alpha);
     if (plan.paths.runs())

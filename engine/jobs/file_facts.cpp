@@ -53,6 +53,7 @@ SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera&
               {"yaw_deg", camera.yaw_deg},
               {"pitch_deg", camera.pitch_deg},
               {"fov_y_deg", camera.fov_y_deg},
+              {"projection", kProjectionNames[static_cast<std::size_t>(camera.projection)]},
               {"of_the_file", scene.camera.has_value()}}},
             {"size", {s.size.x, s.size.y}},
             {"spp", s.spp},

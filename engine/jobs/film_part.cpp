@@ -37,10 +37,22 @@ std::optional<glm::mat4> matrix_of(const Json& json) {
     return matrix;
 }
 
+Json colour_json(const std::optional<glm::vec3>& colour) {
+    if (!colour) return nullptr;
+    return {colour->x, colour->y, colour->z};
+}
+
+std::optional<glm::vec3> colour_of(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    const auto numbers = json.get<std::array<float, 3>>();
+    return glm::vec3(numbers[0], numbers[1], numbers[2]);
+}
+
 Json file_json(const ExrOptions& file) {
     const ExrWindow& window = file.window;
     return {{"window", {window.x, window.y, window.full_width, window.full_height}},
             {"comments", file.comments},
+            {"background", colour_json(file.background)},
             {"world_to_camera", matrix_json(file.world_to_camera)},
             {"world_to_ndc", matrix_json(file.world_to_ndc)}};
 }
@@ -59,6 +71,7 @@ ExrOptions file_of(const Json& json, const FilmSums& film) {
           "its window is damaged");
     return {.window = {window[0], window[1], window[2], window[3]},
             .comments = json.at("comments").get<std::string>(),
+            .background = colour_of(json.at("background")),
             .world_to_camera = matrix_of(json.at("world_to_camera")),
             .world_to_ndc = matrix_of(json.at("world_to_ndc"))};
 }

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "base/error.h"
-#include "estimators/film_error.h"
 #include "jobs/report.h"
 
 namespace voxilux {
@@ -167,7 +166,8 @@ SampleSet missing_samples(const FilmPart& part) {
 Json merged_report(const FilmPart& total, bool reproducible) {
     Json report = reproducible ? reproducible_report(total.report) : total.report;
     report["samples"] = total.samples.size();
-    report["error"] = error_json(error_of(total.film));
+    report["error"] = error_json(
+        claimed_error_of(total.film, total.report.at("faults").get<std::map<std::string, std::uint64_t>>()));
     if (total.samples.is_leading())
         report.erase("sample_ranges");
     else

@@ -43,6 +43,9 @@ struct RenderOptions {
     std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
     bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
+    // Which files will be written of the picture: memory for that is kept while samples are taken.
+    bool writes_exr = false;
+    bool writes_png = false;
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
     // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();

@@ -58,6 +58,13 @@ struct RenderOutcome {
 // Adds what a step of this plan did: times, counters and faults.
 void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& statistics);
 
+// Whether the device cut off paths, photons or sums: light is missing then that no sample tells of.
+[[nodiscard]] bool lacks_light(const std::map<std::string, std::uint64_t>& faults);
+
+// The error of a film, without an upper end where light is missing.
+[[nodiscard]] ErrorEstimate claimed_error_of(const FilmSums& film,
+                                             const std::map<std::string, std::uint64_t>& faults);
+
 // Milliseconds on the device that went into samples. The building of the world is no part of them.
 [[nodiscard]] double sampling_ms(const RenderStatistics& statistics);
 

@@ -17,6 +17,17 @@ std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int lo
     return log2 == gpu::root_log2(static_cast<gpu::uint>(world.traversal)) ? buffers.roots : buffers.nodes;
 }
 
+// All but the leaves as texels.
+void point_to_cells(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
+    dispatch.addresses.insert(
+        dispatch.addresses.end(),
+        {{"roots", buffers.roots}, {"nodes", buffers.nodes}, {"leaves", buffers.leaves}});
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Roots", buffers.roots}, {"Nodes", buffers.nodes}});
+    dispatch.constants.insert(dispatch.constants.end(),
+                              {{"traversal", static_cast<std::uint32_t>(traversal)},
+                               {"has_world_texels", buffers.have_texels ? 1u : 0u}});
+}
+
 // Steps alternate between the level's own buffer and the scratch. Their number is odd: a level that starts in
 // the scratch ends in its own buffer.
 static_assert(gpu::kGrowthSteps % 2 == 1);
@@ -42,7 +53,7 @@ void record_growth(const MarchWorld& unexpanded, const GrowingLevel& level, cons
                           .addresses = {{"grown", target}},
                           .constants = {{"level", static_cast<std::uint32_t>(log2)}},
                           .push = to_bytes(push)};
-        point_to_world(unexpanded.traversal, read, dispatch);
+        point_to_cells(unexpanded.traversal, read, dispatch);
         recording.dispatch(std::move(dispatch));
         std::swap(source, target);
     }
@@ -59,10 +70,8 @@ void upload_ranges(const std::string& buffer, const std::vector<std::uint32_t>& 
 }  // namespace
 
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
-    dispatch.addresses.push_back({"roots", buffers.roots});
-    dispatch.addresses.push_back({"nodes", buffers.nodes});
-    dispatch.addresses.push_back({"leaves", buffers.leaves});
-    dispatch.constants.push_back({"traversal", static_cast<std::uint32_t>(traversal)});
+    point_to_cells(traversal, buffers, dispatch);
+    dispatch.bindings.push_back({"Leaves", buffers.leaves});
 }
 
 void record_world_build(const MarchWorld& unexpanded, const GrowthNeeds& growth, const WorldBuffers& buffers,

@@ -17,9 +17,10 @@ struct WorldBuffers {
     std::string leaves;
     std::string homes;
     std::string grown;
+    bool have_texels = false;  // shaders read the arrays as texels (loads_texels)
 };
 
-// Lets a dispatch march through a world or read it: gives it the pointers and the constant that
+// Lets a dispatch march through a world or read it: gives it the pointers, texels and constants that
 // shaders/lib/world_access.glsl asks for.
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch);
 

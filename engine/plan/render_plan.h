@@ -63,12 +63,15 @@ struct RenderPlan {
     SampleSet part;             // the samples to take; empty: the first settings.spp
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
+    Projection projection = Projection::perspective;
     EffectStates effects;
     std::vector<ChosenTechnique> techniques;
     AoPlan ao;  // the default when the effect is off
     WorldFacts world;
+    bool has_world_texels = false;  // shaders read the world's arrays as texels
     std::uint32_t material_count = 0;
-    std::uint32_t sphere_count = 0;
+    std::uint32_t sphere_count = 0;  // the ground included, which is the last one
+    bool has_ground = false;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
     bool has_specular_spheres = false;     // of glass or metal
@@ -78,6 +81,7 @@ struct RenderPlan {
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
     bool sums_bias = false;                // of photons
+    bool sums_coverage = false;            // of the scene, before a background that is not the sky
     std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
     std::uint32_t film_tile_count = 0;
     std::uint32_t tile_rows = 0;  // most rows that one recording renders
@@ -143,6 +147,7 @@ struct RenderPlan {
 struct PlanRequest {
     EffectRequest effects;
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
+    std::uint64_t photon_store_bytes = 0;   // that a run of photons may take; 0: as much as a binding
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
     SampleSet part;                         // the samples to take; empty: the first settings.spp

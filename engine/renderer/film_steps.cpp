@@ -112,13 +112,12 @@ FilmSums FilmSteps::counted(FilmSums film, std::uint32_t first_row) const {
     return film;
 }
 
-DisplayBuffer FilmSteps::display() {
+DisplayBuffer FilmSteps::display(const DisplayLook& look) {
+    VX_ASSERT(start_ == FilmPosition{});
     clear_film();
     Recording recording;
-    const SampleCounts counts{.samples = position_.samples - start_.samples,
-                              .rows_ahead = position_.rows_ahead,
-                              .rows_behind = start_.rows_ahead};
-    const DisplayBuffer shown = record_display_resolve(*plan_, counts, recording);
+    const DisplayBuffer shown =
+        record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, look, recording);
     (void)executor_->run(recording);
     return shown;
 }

@@ -65,8 +65,8 @@ class FilmSteps {
     // added to `done`. `kept`: buffers to read back when it is rendered.
     RunResult take(const DispatchTile& tile, StepResult& done, std::span<const std::string> kept = {});
 
-    // Means of the film in a buffer on the device.
-    DisplayBuffer display();
+    // The film as it is shown, in a buffer on the device. It has to begin with the first sample.
+    DisplayBuffer display(const DisplayLook& look);
 
     // The film of this frame with the samples of its rows; the second one without what no error needs.
     [[nodiscard]] FilmSums read();

@@ -1,5 +1,6 @@
 #include "vk/buffer.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -63,19 +64,23 @@ void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t ty
 }
 
 constexpr std::uint64_t kTexelBytes = 16;
+constexpr std::uint64_t kWordBytes = 4;
 
-void add_texels(const DeviceState& device, Buffer& buffer) {
-    const std::uint64_t texels = buffer.bytes / kTexelBytes;
-    if (texels == 0 || texels > device.properties.limits.maxTexelBufferElements) return;
+UniqueBufferView view_texels(const DeviceState& device, const Buffer& buffer, VkFormat format,
+                             std::uint64_t texel_bytes) {
+    std::uint64_t texels = buffer.bytes / texel_bytes;
+    const std::uint64_t most = device.properties.limits.maxTexelBufferElements;
+    if (texel_bytes == kWordBytes) texels = std::min(texels, most);
+    if (texels == 0 || texels > most) return {};
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = buffer.handle.get(),
-                                      .format = VK_FORMAT_R32G32B32A32_UINT,
-                                      .range = texels * kTexelBytes};
+                                      .format = format,
+                                      .range = texels * texel_bytes};
     VkBufferView view = VK_NULL_HANDLE;
     vk_check(vkCreateBufferView(device.handle, &info, nullptr, &view),
              fmt::format("view the texels of buffer '{}'", buffer.name));
-    buffer.texels = {device.handle, view};
     set_debug_name(device, VK_OBJECT_TYPE_BUFFER_VIEW, to_bits(view), buffer.name);
+    return {device.handle, view};
 }
 
 Buffer create(const DeviceState& device, const std::string& name, std::uint64_t bytes,
@@ -98,7 +103,8 @@ Buffer create(const DeviceState& device, const std::string& name, std::uint64_t 
     vkGetBufferMemoryRequirements(device.handle, handle, &needs);
     add_memory(device, needs.size, choose_type(device, needs.memoryTypeBits, wishes, name), buffer);
     set_debug_name(device, VK_OBJECT_TYPE_BUFFER, to_bits(handle), name);
-    add_texels(device, buffer);
+    buffer.texels = view_texels(device, buffer, VK_FORMAT_R32G32B32A32_UINT, kTexelBytes);
+    buffer.words = view_texels(device, buffer, VK_FORMAT_R32_UINT, kWordBytes);
     return buffer;
 }
 

@@ -17,6 +17,7 @@ struct Buffer {
     UniqueMemory memory;
     UniqueBuffer handle;
     UniqueBufferView texels;  // all of it, four words a texel; none where the device has no room for that
+    UniqueBufferView words;   // one word a texel: as many as the device takes
     std::byte* mapped = nullptr;
     std::uint64_t address = 0;
 };

@@ -38,14 +38,15 @@ VkDescriptorBufferInfo buffer_info(const DeviceState& device, const std::string&
     return {.buffer = buffer.handle.get(), .offset = 0, .range = buffer.bytes};
 }
 
-VkBufferView texels_of(const std::string& shader, const std::string& block, const Buffer& buffer) {
-    if (!buffer.texels) {
+VkBufferView texels_of(const std::string& shader, const BufferBlock& block, const Buffer& buffer) {
+    const UniqueBufferView& view = block.kind == BlockKind::words ? buffer.words : buffer.texels;
+    if (!view) {
         throw InternalError(
             fmt::format("internal error: shader '{}': buffer '{}' of {} bytes for texels '{}' has too few of "
                         "them, or more than the device takes",
-                        shader, buffer.name, buffer.bytes, block));
+                        shader, buffer.name, buffer.bytes, block.name));
     }
-    return buffer.texels.get();
+    return view.get();
 }
 
 }  // namespace
@@ -93,9 +94,8 @@ VkDescriptorSet create_set(const DeviceState& device, const Descriptors& descrip
                                    .dstBinding = block.binding,
                                    .descriptorCount = 1,
                                    .descriptorType = descriptor_type(block)};
-        if (block.kind == BlockKind::texels) {
-            write.pTexelBufferView =
-                &views.emplace_back(texels_of(dispatch.program->name, block.name, buffer));
+        if (block.kind == BlockKind::texels || block.kind == BlockKind::words) {
+            write.pTexelBufferView = &views.emplace_back(texels_of(dispatch.program->name, block, buffer));
         } else {
             write.pBufferInfo =
                 &infos.emplace_back(buffer_info(device, dispatch.program->name, block.name, buffer));

@@ -183,6 +183,7 @@ DeviceInfo describe_device(VkPhysicalDevice device, std::uint32_t index) {
                    .max_groups = {limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
                                   limits.maxComputeWorkGroupCount[2]},
                    .max_push_bytes = limits.maxPushConstantsSize,
+                   .max_texels = limits.maxTexelBufferElements,
                    .subgroup_size = subgroups.subgroupSize,
                    .is_cpu = base.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
                    .name = info.name};

@@ -96,6 +96,7 @@ VkDescriptorType descriptor_type(const BufferBlock& block) {
         case BlockKind::uniform:
             return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
         case BlockKind::texels:
+        case BlockKind::words:
             return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
         case BlockKind::storage:
             return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;

@@ -152,10 +152,11 @@ bool add_type(Module& module, const Instruction& in) {
             return add({.kind = Type::vector, .element = in.at(1), .count = in.at(2)});
         case op_type_matrix:
             return add({.kind = Type::matrix, .element = in.at(1), .count = in.at(2)});
-        case op_type_image:  // a storage texel buffer of four words a texel, or nothing that is known
-            if (in.at(2) != kDimBuffer || in.at(6) != kImageIsStorage || in.at(7) != kFormatRgba32ui)
-                return false;
-            return add({.kind = Type::texels});
+        case op_type_image:  // a storage texel buffer of four words a texel or of one, or nothing that is
+                             // known
+            if (in.at(2) != kDimBuffer || in.at(6) != kImageIsStorage) return false;
+            if (in.at(7) == kFormatRgba32ui) return add({.kind = Type::texels, .count = 4});
+            return in.at(7) == kFormatR32ui && add({.kind = Type::texels, .count = 1});
         case op_type_array:
             return add({.kind = Type::array, .element = in.at(1), .count = in.at(2)});
         case op_type_runtime_array:

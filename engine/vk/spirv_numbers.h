@@ -64,6 +64,7 @@ enum DecorationNumber : std::uint32_t {
 inline constexpr std::uint32_t kDimBuffer = 5;
 inline constexpr std::uint32_t kImageIsStorage = 2;
 inline constexpr std::uint32_t kFormatRgba32ui = 30;
+inline constexpr std::uint32_t kFormatR32ui = 33;
 inline constexpr std::uint32_t kModelGlCompute = 5;
 inline constexpr std::uint32_t kModeLocalSize = 17;
 inline constexpr std::uint32_t kModeLocalSizeId = 38;

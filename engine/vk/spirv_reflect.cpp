@@ -142,8 +142,8 @@ BufferBlock block_of(const Module& module, std::uint32_t variable_id, const spir
 
 // A storage texel buffer, by the name of its variable.
 BufferBlock texels_of(const Module& module, std::uint32_t variable_id, const spirv::Variable& variable) {
-    if (module.type(pointee(module, variable)).kind != Type::texels)
-        spirv::fail("a resource is not a buffer");
+    const Type& type = module.type(pointee(module, variable));
+    if (type.kind != Type::texels) spirv::fail("a resource is not a buffer");
     const spirv::VariableFacts facts = module.variable_facts(variable_id);
     if (!facts.binding) spirv::fail("a buffer has no binding");
     return {.name = module.name(variable_id),
@@ -151,7 +151,7 @@ BufferBlock texels_of(const Module& module, std::uint32_t variable_id, const spi
             .binding = *facts.binding,
             .readable = !facts.non_readable,
             .writable = !facts.non_writable,
-            .kind = BlockKind::texels};
+            .kind = type.count == 1 ? BlockKind::words : BlockKind::texels};
 }
 
 void check_blocks(const std::vector<BufferBlock>& blocks) {

@@ -11,8 +11,8 @@
 namespace voxilux {
 
 // How a shader sees a buffer: as a block of storage, as a uniform block (small, and the same words for all
-// invocations), or as texels of four words (a storage texel buffer).
-enum class BlockKind { storage, uniform, texels };
+// invocations), or as texels of four words or of one (a storage texel buffer).
+enum class BlockKind { storage, uniform, texels, words };
 
 // A buffer of a shader. `name` is the block's name: "Hits" of `readonly buffer Hits { Hit hits[]; };`.
 struct BufferBlock {

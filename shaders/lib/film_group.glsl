@@ -6,6 +6,7 @@
 
 #include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
+#include "lib/materials.glsl"
 #include "lib/spheres.glsl"
 #include "lib/texel_planes.glsl"
 #include "shared/limits.h"
@@ -20,7 +21,6 @@ VX_SPECIALIZED(uint, photons_stride, 1u);
 VX_SPECIALIZED(uint, weights_stride, 1u);
 VX_SPECIALIZED(uint, has_emission, 1u);
 
-layout(rgba32ui) readonly uniform uimageBuffer Materials;
 layout(rgba32ui) readonly uniform uimageBuffer Hits;
 layout(rgba32ui) readonly uniform uimageBuffer Ao;
 layout(rgba32ui) readonly uniform uimageBuffer SkyLight;
@@ -29,13 +29,9 @@ layout(rgba32ui) readonly uniform uimageBuffer Direct;
 layout(rgba32ui) readonly uniform uimageBuffer Photons;
 layout(rgba32ui) readonly uniform uimageBuffer Weights;
 
-const uint kMaterialAlbedo = 0u;  // texels of a material
-const uint kMaterialEmission = 1u;
-
-// Of no meaning for a miss.
-vec3 material_vector(Hit hit, uint texel) {
-    uint material = is_surface(hit) ? hit.material : 0u;
-    return uintBitsToFloat(VX_TEXEL(Materials, kMaterialTexels * material + texel).xyz);
+// 0 for a miss, whose material is of no meaning.
+uint material_of(Hit hit) {
+    return is_surface(hit) ? hit.material : 0u;
 }
 
 // What the film takes of the pixels of a group. Those outside the tile have nothing to add.
@@ -55,7 +51,7 @@ struct Group {
 void set_hits(inout Group group, Hit hits[kGroupPixels]) {
     for (uint k = 0u; k < kGroupPixels; ++k) {
         if (!group.inside[k]) hits[k].face = kFaceMiss;
-        group.albedo[k] = material_vector(hits[k], kMaterialAlbedo);
+        group.albedo[k] = material_albedo(material_of(hits[k]));
     }
     group.hits = hits;
 }
@@ -95,7 +91,7 @@ vec3 radiance(Group group, uint k) {
     if (is_surface(hit)) {
         vec3 sunlight = frame.sun_irradiance * (group.sun[k] * kInversePi);
         vec3 emitter_light = group.direct[k] + kInversePi * group.photons[k];
-        vec3 emission = has_emission != 0u ? material_vector(hit, kMaterialEmission) : vec3(0.0);
+        vec3 emission = has_emission != 0u ? material_emission(material_of(hit)) : vec3(0.0);
         if (hit.face == kFaceSphereInside) emission = vec3(0.0);
         radiance = emission + group.albedo[k] * (group.sky[k] + sunlight + emitter_light);
     }

@@ -5,12 +5,9 @@
 #include "shared/alias.h"
 #include "shared/light.h"
 
-layout(scalar) readonly buffer Lights {
-    LightRecord lights[];
-};
-layout(scalar) readonly buffer LightTable {
-    AliasEntry light_table[];
-};
+// Texels, because lavapipe loads those of eight invocations at once (lab/notes/film.md).
+layout(rgba32ui) readonly uniform uimageBuffer Lights;    // a LightRecord each
+layout(r32ui) readonly uniform uimageBuffer LightTable;  // kAliasWords for an AliasEntry
 
 // An emitter, and the probability with which it was drawn.
 struct DrawnLight {
@@ -20,15 +17,29 @@ struct DrawnLight {
     float pdf;
 };
 
+bool is_sphere(DrawnLight emitter) {
+    return sphere_count != 0u && emitter.parts.kind == kLightSphere;
+}
+
+AliasEntry load_alias(uint i) {
+    int first = int(kAliasWords * i);
+    AliasEntry entry;
+    entry.keep = uintBitsToFloat(imageLoad(LightTable, first).x);
+    entry.other = imageLoad(LightTable, first + 1).x;
+    entry.pdf = uintBitsToFloat(imageLoad(LightTable, first + 2).x);
+    return entry;
+}
+
 DrawnLight sample_light(uint bits, float u) {
     uint bucket = min(alias_bucket(bits, frame.light_count), frame.light_count - 1u);
-    uint i = alias_choice(light_table[bucket], bucket, u);
+    uint i = alias_choice(load_alias(bucket), bucket, u);
     DrawnLight drawn;
-    drawn.parts = light_parts(lights[i].what);
-    drawn.cell = lights[i].cell;
-    drawn.pdf = light_table[i].pdf;
-    uint material = drawn.parts.kind == kLightSphere ? spheres[drawn.parts.sphere].material : drawn.parts.material;
-    drawn.emission = materials[material].emission;
+    uvec4 light = imageLoad(Lights, int(i));
+    drawn.cell = ivec3(light.xyz);
+    drawn.parts = light_parts(light.w);
+    drawn.pdf = load_alias(i).pdf;
+    uint material = is_sphere(drawn) ? spheres[drawn.parts.sphere].material : drawn.parts.material;
+    drawn.emission = material_emission(material);
     return drawn;
 }
 
@@ -48,7 +59,7 @@ LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
     aim.emitter = sample_light(bits, u);
     aim.pdf = 0.0;
     aim.direction = vec3(0.0, 0.0, 1.0);
-    if (aim.emitter.parts.kind == kLightSphere) {
+    if (is_sphere(aim.emitter)) {
         Sphere shape = spheres[aim.emitter.parts.sphere].shape;
         SphereCone cone = sphere_cone(sphere_centre(shape) - origin, 1.0 / shape.curvature);
         if (cone.height > 0.0) {
@@ -70,7 +81,7 @@ LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
 }
 
 bool is_on_emitter(Hit hit, DrawnLight emitter) {
-    if (emitter.parts.kind == kLightSphere) return is_on_sphere(hit) && hit.sphere == emitter.parts.sphere;
+    if (is_sphere(emitter)) return is_on_sphere(hit) && hit.sphere == emitter.parts.sphere;
     return !is_on_sphere(hit) && hit.face == emitter.parts.face && hit.cell == emitter.cell;
 }
 

@@ -8,15 +8,13 @@
 #define VX_PATH_GLSL
 
 #include "lib/constants.glsl"
+#include "lib/materials.glsl"
 #include "lib/surface.glsl"
 #include "shared/dielectric.h"
 #include "shared/sppm.h"
 
 VX_SPECIALIZED(uint, has_glass_voxels, 0u);
-
-layout(scalar) readonly buffer Materials {
-    SurfaceMaterial materials[];
-};
+VX_SPECIALIZED(uint, start_anywhere, 0u);  // rays do, not just on surfaces
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
@@ -73,7 +71,7 @@ CellExit exit_cell(PathRay path) {
     ray.t_max = kUnbounded;
     MarchAxes axes = march_axes(ray);
     vec3 times = plane_times(axes, ivec3(1));
-    int axis = first_axis(times);
+    int axis = first_crossing(times).axis;
     CellExit result;
     result.t = max(min(times.x, min(times.y, times.z)), 0.0);
     result.face = uint(direction_number(axes, axis));
@@ -85,7 +83,7 @@ CellExit exit_cell(PathRay path) {
 }
 
 bool is_glass(uint material) {
-    return materials[material].glass > 0.0;
+    return material_glass(material) > 0.0;
 }
 
 // What is behind the glass voxel that a ray leaves. `probe` is the march of a ray of no length in the cell behind.
@@ -125,7 +123,11 @@ void find_voxel(PathRay path, inout PathHit found) {
         ray.fraction = inside ? probe.fraction : ray.fraction;
         ray.t_max = inside ? probe.t_max : ray.t_max;
     }
-    WorldEntry entry = enter_world(ray, frame.chunks << kChunkLog2);
+    WorldEntry entry;
+    entry.ray = ray;
+    entry.t = 0.0;
+    entry.enters = true;
+    if (start_anywhere != 0u || sphere_count != 0u) entry = enter_world(ray, frame.chunks << kChunkLog2);
     if (entry.enters) {
         MarchHit met = march(entry.ray, frame.chunks);
         march_steps = met.steps;
@@ -208,7 +210,7 @@ struct Interface {
 };
 
 float ior_of(uint medium) {
-    return medium == kNoMedium ? 1.0 : materials[medium].ior;
+    return medium == kNoMedium ? 1.0 : material_ior(medium);
 }
 
 // `own_ior` is that of the material that was hit.
@@ -254,7 +256,7 @@ struct BsdfSample {
 // of the surface and for Fresnel's. Mirror and glass are drawn with the probability that is their share, and
 // reflection with that of the reflectance, so that no weight but the albedo remains.
 BsdfSample path_event(PathRay path, PathHit found, vec2 u) {
-    SurfaceMaterial material = materials[found.hit.material];
+    SurfaceMaterial material = load_material(found.hit.material);
     bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
     bool is_glass_here = material.glass > 0.0 && (from_inside || u.x < material.glass);
     bool is_mirror_here = !is_glass_here && u.x < material.glass + material.mirror;

@@ -79,7 +79,7 @@ float samples_of_sun(vec3 direction, uint medium) {
     if (has_images == 0u) return own;
     float samples = own + images_in(direction, 1u) / float(kImages - 1u);
     if (has_glass_voxels == 0u || medium == kNoMedium) return samples;
-    float ior = materials[medium].ior;
+    float ior = material_ior(medium);
     samples = 0.0;
     for (uint axis = 0u; axis < kAxes; ++axis) {
         vec3 outside = across_face(direction, axis, 1.0 / ior);

@@ -1,7 +1,7 @@
 // A path from a visible point on, ray by ray. Each diffuse surface sends up to four rays, one after the other: to the
 // sun, to a mirror image of the sun, to an emitter, and on. The balance heuristic weighs what several of them can find
 // (Veach and Guibas 1995).
-// Include lib/path.glsl, lib/lights.glsl and lib/photon_start.glsl first.
+// Include lib/path.glsl and lib/lights.glsl first.
 //
 // Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
 // sun.trace and direct.trace, so the path leaves them out. From sun and emitters by mirrors and glass to a diffuse
@@ -91,19 +91,20 @@ Walk no_walk() {
 }
 
 // A start without a direction becomes a path that carries nothing.
-Walk first_walk(PhotonStart start) {
+Walk first_walk(PathStart start, vec3 light) {
     bool is_path = start.direction != vec3(0.0);
     Walk walk = no_walk();
     walk.kind = kRayOn;
     walk.ray.cell = start.cell;
     walk.ray.fraction = start.fraction;
     walk.ray.direction = is_path ? start.direction : walk.ray.direction;
-    walk.ray.own = start.sphere;
+    walk.ray.own = start.own;
     walk.vertex = walk.ray;
+    walk.vertex.medium = start.medium;
     walk.ahead = walk.ray.direction;
-    walk.stream = start.noise;
+    walk.stream = start.stream;
     walk.throughput = vec3(is_path ? 1.0 : 0.0);
-    walk.light = start.power;
+    walk.light = light;
     return walk;
 }
 
@@ -162,7 +163,7 @@ float share_of_path(Walk walk, float emitter_pdf, uint finds_caustics) {
 }
 
 void take_emission(inout Walk walk, PathHit found) {
-    vec3 emission = materials[found.hit.material].emission;
+    vec3 emission = material_emission(found.hit.material);
     vec3 origin = local_position(walk.ray.cell, walk.ray.fraction);
     float emitter_pdf = light_pdf(origin, walk.ray.direction, found.hit, emission);
     if (!(emitter_pdf > 0.0)) return;
@@ -195,7 +196,7 @@ BsdfSample event_at(Walk walk, PathHit found, vec2 u) {
     if (has_specular != 0u) return path_event(walk.ray, found, u);
     BsdfSample event;
     event.kind = kEventDiffuse;
-    event.albedo = materials[found.hit.material].albedo;
+    event.albedo = material_albedo(found.hit.material);
     return event;
 }
 
@@ -252,7 +253,7 @@ bool leave_to_sun(inout Walk walk, uint use) {
     uint image = use == kUseSun ? 0u : 1u + min(uint(u.z * float(kImages - 1u)), kImages - 2u);
     GlassImage glass_image = draw_glass_image(u.z);
     vec3 direction = uniform_cone(image_direction(is_in_glass ? glass_image.image : image), sun_height, u.xy);
-    if (is_in_glass) direction = across_face(direction, glass_image.axis, materials[walk.vertex.medium].ior);
+    if (is_in_glass) direction = across_face(direction, glass_image.axis, material_ior(walk.vertex.medium));
     set_direction(walk, direction);
     walk.expected = walk.throughput * sun_irradiance * (walk.scale * walk.pdf);
     return walk.pdf > 0.0;

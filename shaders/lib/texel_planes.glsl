@@ -4,7 +4,7 @@
 #ifndef VX_TEXEL_PLANES_GLSL
 #define VX_TEXEL_PLANES_GLSL
 
-#include "shared/gpu_types.h"
+#include "lib/hit_words.glsl"
 
 vec3[kGroupPixels] vectors_of(vec4 a, vec4 b, vec4 c) {
     return vec3[kGroupPixels](a.xyz, vec3(a.w, b.xy), vec3(b.zw, c.x), c.yzw);
@@ -20,12 +20,7 @@ Hit[kGroupPixels] hits_of(uvec4 texels[kHitWords]) {
         uint words[kHitWords];
         for (uint i = 0u; i < kHitWords; ++i)
             words[i] = texels[(kHitWords * k + i) / 4u][(kHitWords * k + i) % 4u];
-        hits[k].cell = ivec3(words[0], words[1], words[2]);
-        hits[k].face = words[3];
-        hits[k].fraction = uintBitsToFloat(uvec3(words[4], words[5], words[6]));
-        hits[k].t = uintBitsToFloat(words[7]);
-        hits[k].material = words[8];
-        hits[k].sphere = words[9];
+        hits[k] = hit_of(words);
     }
     return hits;
 }

@@ -34,20 +34,28 @@ void init_world() {
     leaf_cells = VX_POINTER(WorldWords, leaves);
 }
 
-// Lavapipe loads for one invocation after the other and moves the arithmetic of the index into that loop, unless it
-// ends in a minimum: with it a march is 3 % faster. (A bound below 2^30 words would undo that: addresses would
-// then be spilled as vectors of 64 bits, and a march takes 1.5 times as long.)
+// The arrays as texels of one word, where the device has room for them. Lavapipe loads those for eight invocations
+// at once, where behind a pointer it loads for one after the other (lab/notes/march.md).
+VX_SPECIALIZED(uint, has_world_texels, 0u);
+
+layout(r32ui) readonly uniform uimageBuffer Roots;
+layout(r32ui) readonly uniform uimageBuffer Nodes;
+layout(r32ui) readonly uniform uimageBuffer Leaves;
+
+// Behind a pointer, lavapipe moves the arithmetic of the index into the loop over invocations, unless it ends in a
+// minimum: with it a march is 3 % faster. (A bound below 2^30 words would undo that: addresses would then be spilled
+// as vectors of 64 bits, and a march takes 1.5 times as long.)
 uint bounded(uint i) {
     return min(i, kLastWorldWord);
 }
 uint load_root(uint i) {
-    return root_cells.words[bounded(i)];
+    return has_world_texels != 0u ? imageLoad(Roots, int(i)).x : root_cells.words[bounded(i)];
 }
 uint load_node(uint i) {
-    return node_cells.words[bounded(i)];
+    return has_world_texels != 0u ? imageLoad(Nodes, int(i)).x : node_cells.words[bounded(i)];
 }
 uint load_leaf(uint i) {
-    return leaf_cells.words[bounded(i)];
+    return has_world_texels != 0u ? imageLoad(Leaves, int(i)).x : leaf_cells.words[bounded(i)];
 }
 
 #define VX_WORLD_PARAM

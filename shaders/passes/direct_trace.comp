@@ -11,13 +11,11 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/hits.glsl"
 #include "lib/path.glsl"
 
 #include "lib/lights.glsl"
 
-layout(scalar) readonly buffer Hits {
-    Hit hits[];
-};
 layout(scalar) writeonly buffer Direct {
     vec3 direct[];
 };
@@ -26,7 +24,7 @@ void main() {
     init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
-    Hit hit = hits[pixel.index];
+    Hit hit = load_hit(pixel.index);
     vec3 light = vec3(0.0);
     uint rays = 0u;
     if (is_surface(hit) && hit.face != kFaceInside) {
@@ -45,7 +43,7 @@ void main() {
             ++rays;
             Hit met = next_hit(path_from(hit, direction)).hit;
             if (!is_surface(met) || (i == 0u && !is_on_emitter(met, aim.emitter))) continue;
-            vec3 emission = materials[met.material].emission;
+            vec3 emission = material_emission(met.material);
             float emitter_pdf = light_pdf(origin, direction, met, emission);
             if (emitter_pdf == 0.0) continue;
             float surface_pdf = cosine * kInversePi;

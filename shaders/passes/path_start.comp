@@ -2,32 +2,19 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the path of each visible point starts: its first direction by the cosine, and what emitters were found to send
-// there straight. A pass of its own, because software devices would run through it in every turn of the loop of
-// path_trace. Directions of zero start no path.
+// Where the path of each visible point starts: its first direction, by the cosine. A pass of its own, because software
+// devices would run through it in every turn of the loop of path_trace.
 
 #include "lib/address.glsl"
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/hits.glsl"
 #include "lib/path.glsl"
+#include "lib/path_start.glsl"
 
-#include "lib/photon_start.glsl"
-
-VX_SPECIALIZED(uint, direct_stride, 1u);
-VX_SPECIALIZED(uint, media_stride, 0u);
-
-layout(scalar) readonly buffer Hits {
-    Hit hits[];
-};
-// Materials of the glass voxels that visible points are in.
-layout(scalar) writeonly buffer Media {
-    uint media[];
-};
-layout(scalar) readonly buffer Direct {
-    vec3 direct[];
-};
+VX_SPECIALIZED(uint, finds_media, 0u);  // the glass voxels that visible points are in
 
 uint medium_at(Ray ray) {
     ray.t_max = kProbeLength;
@@ -42,22 +29,22 @@ void main() {
     init_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
-    Hit hit = hits[pixel.index];
-    PhotonStart start;
+    Hit hit = load_hit(pixel.index);
+    PathStart start;
     start.cell = ivec3(-1);
     start.fraction = vec3(0.5);
     start.direction = vec3(0.0);
-    start.sphere = kNoSphere;
-    start.power = direct[pixel.index * direct_stride];
-    start.noise = pixel_stream(pixel);
+    start.own = kNoSphere;
+    start.medium = kNoMedium;
+    start.stream = pixel_stream(pixel);
     if (is_surface(hit) && hit.face != kFaceInside) {
         vec2 u = draw_2d(pixel_key(pixel), kPairPath);
         Ray ray = ray_from(hit, cosine_about(surface_normal(hit), u), kUnbounded);
         start.cell = ray.cell;
         start.fraction = ray.fraction;
         start.direction = ray.direction;
-        start.sphere = own_sphere(hit);
-        if (media_stride != 0u) media[pixel.index] = medium_at(ray);
+        start.own = own_sphere(hit);
+        if (finds_media != 0u) start.medium = medium_at(ray);
     }
-    put_start(pixel.index, start);
+    put_path_start(pixel.index, start);
 }

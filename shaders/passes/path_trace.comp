@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Light that reaches each visible point by way of other surfaces, and the sky's: the mean radiance over the
-// cosine-weighted hemisphere, irradiance / pi, on top of what its start holds. One path for each pixel. An invocation
+// cosine-weighted hemisphere, irradiance / pi, and what emitters send there straight. One path for each pixel. An invocation
 // traces many of them, ray by ray in one loop, so that those that end early do not wait for the others. Where its loops
 // have turned too often it goes on in the next round.
 
@@ -20,23 +20,31 @@
 
 #include "lib/loops.glsl"
 #include "lib/path_walk.glsl"
-#include "lib/photon_start.glsl"
+#include "lib/path_start.glsl"
 
-VX_SPECIALIZED(uint, media_stride, 0u);
+VX_SPECIALIZED(uint, direct_stride, 0u);
 VX_SPECIALIZED(uint, has_rounds, 0u);  // paths go on from States
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
 };
-layout(scalar) readonly buffer Media {
-    uint media[];
-};
+layout(r32ui) readonly uniform uimageBuffer Direct;
 layout(scalar) writeonly buffer Light {
     vec3 light[];
 };
 layout(scalar) buffer States {
     PathState states[];
 };
+
+// What emitters were found to send straight to the visible point.
+vec3 direct_light(uint i) {
+    uvec3 words = uvec3(0u);
+    if (direct_stride != 0u) {
+        for (uint k = 0u; k < 3u; ++k)
+            words[k] = imageLoad(Direct, int(3u * i + k)).x;
+    }
+    return uintBitsToFloat(words);
+}
 
 // Whether the ray may be followed to what it has met.
 bool is_met(Walk walk, PathHit found) {
@@ -53,8 +61,9 @@ void main() {
     Walk walk = no_walk();
     uint next_id = frame.first_element + lane;
     if (has_rounds != 0u && states[lane].next_id != 0u) {
-        walk = walk_of(states[lane]);
         next_id = states[lane].next_id;
+        if (next_id >= end && states[lane].kind == kRayNone) return;  // an earlier round has ended its paths
+        walk = walk_of(states[lane]);
     }
     uint turns = 0u;
     uint segments = 0u;
@@ -63,10 +72,9 @@ void main() {
         if (walk.kind <= kRayOn && turns > kRoundTurns) break;
         if (walk.kind == kRayNone) {
             if (next_id >= end) break;
-            walk = first_walk(photon_start(next_id));
+            walk = first_walk(path_start(next_id), direct_light(next_id));
             if (has_glints && is_surface(hits[next_id])) {
                 walk.normal = surface_normal(hits[next_id]);
-                if (media_stride != 0u) walk.vertex.medium = media[next_id];
                 leave(walk, kRayNone);
             }
             next_id += push.lanes;
@@ -97,7 +105,7 @@ void main() {
         ++left;
     }
     for (; push.is_last != 0u && next_id < end; next_id += push.lanes) {
-        light[next_id] = photon_start(next_id).power;
+        light[next_id] = direct_light(next_id);
         ++left;
     }
     count(kWorkPathSegments, segments);

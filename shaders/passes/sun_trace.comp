@@ -10,11 +10,9 @@
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
 
+#include "lib/hits.glsl"
 #include "lib/surface.glsl"
 
-layout(scalar) readonly buffer Hits {
-    Hit hits[];
-};
 layout(scalar) writeonly buffer Sun {
     float sun[];
 };
@@ -23,7 +21,7 @@ void main() {
     init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
-    Hit hit = hits[pixel.index];
+    Hit hit = load_hit(pixel.index);
     float lit = 0.0;
     bool traced = false;
     if (is_surface(hit) && hit.face != kFaceInside) {

@@ -14,6 +14,7 @@ struct AliasEntry {
     uint other;  // taken instead
     float pdf;   // probability that a draw gives i, all buckets together
 };
+VX_CONST(uint, kAliasWords, 3u);
 
 // floor(bits n / 2^32): an index below n, each as likely within 2^-32. In halves, because 64-bit products are
 // not everywhere.

@@ -79,8 +79,7 @@ VX_FN MarchAxes march_axes(Ray ray) {
         ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
               axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
     axes.inverse_direction =
-        vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
-             used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
+        min(1.0f / axes.speed, vec3(kNeverCrossed));
     axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.sign_mask);
     axes.direction_numbers = ivec3(1, 3, 5) + axes.sign_mask;
     axes.far_shift = axes.direction_numbers * int(kFarBits);
@@ -99,17 +98,32 @@ VX_FN vec3 plane_times(MarchAxes axes, ivec3 j) {
     return t;
 }
 
-// First of the three in the order (time, axis).
-VX_FN int first_axis(vec3 t) {
-    const int yz = t.z < t.y ? 2 : 1;
-    return min(t.y, t.z) < t.x ? yz : 0;
+// First of three crossings in the order (time, axis).
+struct NextCrossing {
+    int axis;
+    float t;
+};
+
+VX_FN NextCrossing first_crossing(vec3 t) {
+    const bool z_before_y = t.z < t.y;
+    const float yz = z_before_y ? t.z : t.y;
+    const bool yz_before_x = yz < t.x;
+    NextCrossing first;
+    first.axis = yz_before_x ? (z_before_y ? 2 : 1) : 0;
+    first.t = yz_before_x ? yz : t.x;
+    return first;
+}
+
+// The cell that a ray is in after so many crossings.
+VX_FN ivec3 cell_behind(MarchAxes axes, ivec3 crossed) {
+    return axes.cell + (crossed ^ axes.sign_mask) - axes.sign_mask;
 }
 
 // Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
 // `high` are not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
 VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
     const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.sign_mask) - kPlaneMargin;
-    ivec3 n = clamp(ivec3(floor(estimate)), low, high);
+    ivec3 n = clamp(ivec3(estimate), low, high);  // what is negative is below `low` either way
     const vec3 next = plane_times(axes, n + 1);
     n.x += next.x < t || (next.x == t && 0 < axis) ? 1 : 0;
     n.y += next.y < t || (next.y == t && 1 < axis) ? 1 : 0;
@@ -152,38 +166,39 @@ VX_FN MarchHit march_nothing(Ray ray) {
 }
 
 // The hit of march() for a ray that is known to meet no solid cell before the time `start`: it steps from
-// there.
+// there. The loop has one way out and changes few values, because software devices blend each of them for all
+// invocations, at each way out.
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
-    const uint limit = planes_ahead(axes, size) + kMarchSlack;
     MarchHit hit = march_nothing(ray);
     const float from = hit.fault == kMarchFine ? max(start, 0.0f) : ray.t_max;
-    if (!(from < ray.t_max)) return hit;
+    const uint limit = from < ray.t_max ? planes_ahead(axes, size) + kMarchSlack : 0u;
     int axis = -1;
-    if (start > 0.0f) {
+    if (start > 0.0f && limit != 0u) {
         hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMaxPlanes));
-        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
+        hit.cell = cell_behind(axes, hit.crossed);
     }
+    uint last = make_cell(kCellEmpty, 0u);
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
-        if (is_outside(hit.cell, size)) return hit;
-        const MarchCell found = find_cell(VX_WORLD_ARG hit.cell, chunks);
-        if (cell_state(found.cell) == kCellSolid) {
-            hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
-            hit.material = cell_payload(found.cell);
-            return hit;
-        }
+        const bool outside = is_outside(hit.cell, size);
+        const MarchCell found = find_cell(VX_WORLD_ARG outside ? ivec3(0) : hit.cell, chunks);
         const ivec3 exit = hit.crossed + planes_to_exit(found, hit.cell, axes);
-        const vec3 times = plane_times(axes, exit);
-        axis = first_axis(times);
-        const float t = min(times.x, min(times.y, times.z));
-        if (!(t < ray.t_max)) return hit;
-        const ivec3 n = planes_before(axes, t, axis, hit.crossed, exit - 1);
+        const NextCrossing next = first_crossing(plane_times(axes, exit));
+        last = found.cell;
+        if (outside || cell_state(last) == kCellSolid || !(next.t < ray.t_max)) break;
+        axis = next.axis;
+        const ivec3 n = planes_before(axes, next.t, axis, hit.crossed, exit - 1);
         hit.crossed = ivec3(axis == 0 ? exit.x : n.x, axis == 1 ? exit.y : n.y, axis == 2 ? exit.z : n.z);
-        hit.cell = axes.cell + (hit.crossed ^ axes.sign_mask) - axes.sign_mask;
-        hit.t = t;
+        hit.cell = cell_behind(axes, hit.crossed);
+        hit.t = next.t;
     }
-    hit.fault = kMarchExhausted;
+    if (hit.steps == limit && limit != 0u) {
+        hit.fault = kMarchExhausted;
+    } else if (cell_state(last) == kCellSolid && !is_outside(hit.cell, size)) {
+        hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
+        hit.material = cell_payload(last);
+    }
     return hit;
 }
 

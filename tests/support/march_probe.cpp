@@ -30,7 +30,7 @@ void upload(Recording& recording, const std::string& name, const std::vector<T>&
 }  // namespace
 
 std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, const std::vector<gpu::Ray>& rays,
-                                             double* device_ms) {
+                                             WorldAccess access) {
     if (rays.empty()) return {};
     const auto count = checked_cast<std::uint32_t>(rays.size(), "rays");
     Recording recording;
@@ -45,11 +45,14 @@ std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, cons
                       .bindings = {{"In", "probe.rays"}, {"Out", "probe.marched"}},
                       .push = to_bytes(MarchPush{count, march_world.chunks_size})};
     point_to_world(march_world.traversal,
-                   {.roots = "probe.roots", .nodes = "probe.nodes", .leaves = "probe.leaves"}, dispatch);
+                   {.roots = "probe.roots",
+                    .nodes = "probe.nodes",
+                    .leaves = "probe.leaves",
+                    .have_texels = access == WorldAccess::texels},
+                   dispatch);
     recording.dispatch(std::move(dispatch));
     recording.readback("probe.marched");
     const RunResult result = test_executor().run(recording);
-    if (device_ms != nullptr) *device_ms = result.passes.front().ms;
     return values_of<gpu::MarchProbe>(result, "probe.marched");
 }
 

@@ -18,10 +18,12 @@
 
 namespace voxilux::test {
 
-// Device time of the last call, ms, when asked for.
+// How the device reads the world's arrays.
+enum class WorldAccess : std::uint8_t { texels, pointers };
+
 [[nodiscard]] std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world,
                                                            const std::vector<gpu::Ray>& rays,
-                                                           double* device_ms = nullptr);
+                                                           WorldAccess access = WorldAccess::texels);
 
 [[nodiscard]] std::vector<gpu::MarchProbe> march_in_cpp(const MarchWorld& march_world,
                                                         const std::vector<gpu::Ray>& rays);

@@ -11,12 +11,12 @@
 #include "jobs/report.h"
 #include "parse_values.h"
 #include "render/print_render.h"
+#include "render/render_batch.h"
 #include "render/render_job.h"
 #include "scene/scene_hash.h"
 #include "write_json.h"
 
 namespace voxilux {
-namespace {
 
 // A picture that nobody named must not replace one that somebody kept.
 void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
@@ -35,6 +35,8 @@ void check_outputs_of(const RenderCommand& command, const std::vector<std::strin
     }
     check_outputs(files, {command.scene.input});
 }
+
+namespace {
 
 // A part that is there already, whole and sound: a command that is run again has nothing left to do.
 bool is_finished(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
@@ -77,6 +79,7 @@ int render_picture(const RenderCommand& command, RenderSession& session, const R
 }  // namespace
 
 int run_render(const RenderCommand& command) {
+    if (is_batch(command)) return render_batch(command);
     Checkpoint checkpoint = checkpoint_of(command);
     RenderOptions options = render_options(command);
     use_checkpoint(checkpoint, command.resume, options);

@@ -21,6 +21,7 @@ struct RenderCommand {
     SampleSet samples;                   // empty: all of them, or those of the shard
     std::optional<double> checkpoint_s;  // 0: none
     bool resume = false;
+    std::string sheet;  // a contact sheet of all pictures
 };
 
 // Samples per pixel at which a render with --error and without --spp gives up.
@@ -30,8 +31,12 @@ inline constexpr std::uint32_t kMaxSamplesForError = 65536;
 Flag add_render_flags(Flags& flags, RenderCommand& command);
 
 // The pictures that a render writes: those asked for, else one PNG in the current folder with the name of the
-// input.
+// input. {name} stands for that name, {camera} for the camera's.
 [[nodiscard]] PictureFiles pictures_of(const RenderCommand& command);
+
+// Throws Error(usage) for outputs that are inputs or each other, and for one that nobody named and that is
+// there already.
+void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs);
 
 // The checkpoint of a render. Throws Error(usage) where --samples, --shard, --resume or --checkpoint do not
 // go with the other flags.

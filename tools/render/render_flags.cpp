@@ -15,7 +15,9 @@ constexpr double kCheckpointEvery_s = 60.0;
 void add_output_flags(Flags& flags, RenderCommand& command) {
     flags.begin_group("Output");
     add_picture_flag(flags, command.pictures.files,
-                     "picture to write, .exr or .png; may repeat (default: INPUT's name .png, here)");
+                     "picture to write, .exr or .png; may repeat; {name} and {camera} are INPUT's and the "
+                     "camera's (default: {name}.png, here)");
+    flags.add("--sheet", "FILE.png", command.sheet, "a contact sheet of all pictures, too");
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
     flags.add_switch("--reproducible", command.pictures.reproducible,
@@ -23,6 +25,12 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     add_progress_flag(flags, command.progress);
     flags.add_switch("-v,--verbose", command.verbose,
                      "print the plan too (render), the first frame too (plan)");
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+    return text;
 }
 
 void add_stop_flags(Flags& flags, RenderCommand& command) {
@@ -71,7 +79,7 @@ void refuse_parts_of_a_range(const RenderCommand& command) {
 }
 
 void check_part_flags(const RenderCommand& command, bool writes_exr) {
-    if (command.scene.frames) refuse_parts_of_a_range(command);
+    if (command.scene.frames || command.scene.turntable) refuse_parts_of_a_range(command);
     if (is_part(command) && command.error_target)
         refuse(fmt::format("{} and --error: the error of the whole picture is not known before voxilux merge",
                            part_flag(command)));
@@ -86,7 +94,7 @@ void check_part_flags(const RenderCommand& command, bool writes_exr) {
 }  // namespace
 
 Flag add_render_flags(Flags& flags, RenderCommand& command) {
-    const Flag input = add_scene_flags(flags, command.scene);
+    const Flag input = add_scene_flags(flags, command.scene, PicturesOf::inputs);
     add_output_flags(flags, command);
     add_stop_flags(flags, command);
     add_part_flags(flags, command);
@@ -120,7 +128,11 @@ PictureFiles pictures_of(const RenderCommand& command) {
     const std::filesystem::path input = command.scene.input;
     pictures.is_part = is_part(command);
     pictures.scene_name = input.filename().string();
-    if (pictures.files.empty()) pictures.files = {input.stem().string() + ".png"};
+    if (pictures.files.empty())
+        pictures.files = {command.scene.cameras.size() > 1 ? "{name}_{camera}.png" : "{name}.png"};
+    const std::string camera = command.scene.camera ? command.scene.camera->name : "default";
+    for (std::string& file : pictures.files)
+        file = replaced(replaced(file, "{name}", input.stem().string()), "{camera}", camera);
     return pictures;
 }
 
@@ -132,7 +144,8 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
     };
     checkpoint.warn = [](const std::string& line) { print_message("warning: {}\n", line); };
     check_part_flags(command, std::ranges::any_of(checkpoint.pictures.files, is_exr));
-    if (!command.scene.frames) checkpoint.file = checkpoint_file(checkpoint.pictures);
+    if (!command.scene.frames && !command.scene.turntable)
+        checkpoint.file = checkpoint_file(checkpoint.pictures);
     return checkpoint;
 }
 

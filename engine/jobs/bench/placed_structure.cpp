@@ -24,27 +24,24 @@ std::string declare(const std::string& name, std::uint64_t bytes, bool is_persis
     return name;
 }
 
-WorldBuffers declare_structure(Traversal traversal, const StructureBytes& bytes, Recording& recording) {
-    return {.roots = declare(buffer_of(traversal, "roots"), bytes.roots, true, recording),
-            .nodes = declare(buffer_of(traversal, "nodes"), bytes.nodes, true, recording),
-            .leaves = declare(buffer_of(traversal, "leaves"), bytes.leaves, true, recording)};
+WorldBuffers declare_structure(const PlacedStructure& structure, Recording& recording) {
+    const auto array = [&](const char* part, std::uint64_t bytes) {
+        return declare(buffer_of(structure.traversal, part), bytes, true, recording);
+    };
+    return {.roots = array("roots", structure.bytes.roots),
+            .nodes = array("nodes", structure.bytes.nodes),
+            .leaves = array("leaves", structure.bytes.leaves),
+            .have_texels = structure.have_texels};
 }
 
-void build_on_device(const MarchWorld& unexpanded, Executor& executor) {
+void build_on_device(const PlacedStructure& placed, const MarchWorld& unexpanded, Executor& executor) {
     Recording recording;
     const GrowthNeeds needs = growth_needs(unexpanded);
-    WorldBuffers buffers = declare_structure(unexpanded.traversal, bytes_of(unexpanded), recording);
+    WorldBuffers buffers = declare_structure(placed, recording);
     buffers.homes = declare("bench.homes", needs.home_bytes, false, recording);
     buffers.grown = declare("bench.grown", needs.grown_bytes, false, recording);
     record_world_build(unexpanded, needs, buffers, recording);
     executor.run(recording);
-}
-
-// Builds a world of one voxel: compiles what builds the others.
-void warm_up(Traversal traversal, Executor& executor) {
-    VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
-    world.set(glm::ivec3(8), 0);
-    build_on_device(build_unexpanded_world(world, traversal), executor);
 }
 
 // Bytes that the structure takes even if all its bricks are equal: the paper's form stores those once.
@@ -68,9 +65,27 @@ std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
     return "";
 }
 
-void upload(const MarchWorld& built, Executor& executor) {
+// Sets the size, how shaders read it and the reason; returns whether there is none.
+bool is_fit(PlacedStructure& placed, const MarchWorld& built, const DeviceLimits& limits) {
+    placed.bytes = bytes_of(built);
+    placed.have_texels =
+        loads_texels(limits, std::max({placed.bytes.roots, placed.bytes.nodes, placed.bytes.leaves}));
+    placed.reason = misfit(placed.bytes, limits);
+    return placed.reason.empty();
+}
+
+// Builds a world of one voxel: compiles what builds the others.
+void warm_up(Traversal traversal, const DeviceLimits& limits, Executor& executor) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
+    world.set(glm::ivec3(8), 0);
+    const MarchWorld unexpanded = build_unexpanded_world(world, traversal);
+    PlacedStructure placed{.traversal = traversal};
+    if (is_fit(placed, unexpanded, limits)) build_on_device(placed, unexpanded, executor);
+}
+
+void upload(const PlacedStructure& placed, const MarchWorld& built, Executor& executor) {
     Recording recording;
-    const WorldBuffers buffers = declare_structure(built.traversal, bytes_of(built), recording);
+    const WorldBuffers buffers = declare_structure(placed, recording);
     const auto upload_words = [&](const std::string& buffer, const std::vector<std::uint32_t>& words) {
         if (!words.empty()) recording.upload(buffer, std::as_bytes(std::span(words)));
     };
@@ -97,20 +112,13 @@ void compare_builds(const MarchWorld& built, Executor& executor) {
     }
 }
 
-// Sets the size and the reason; returns whether there is none.
-bool is_fit(PlacedStructure& placed, const MarchWorld& built, const DeviceLimits& limits) {
-    placed.bytes = bytes_of(built);
-    placed.reason = misfit(placed.bytes, limits);
-    return placed.reason.empty();
-}
-
 void place_from_device(PlacedStructure& placed, const VoxelWorld& world, const DeviceLimits& limits,
                        Executor& executor) {
-    warm_up(placed.traversal, executor);
+    warm_up(placed.traversal, limits, executor);
     const Stopwatch watch;
     const MarchWorld unexpanded = build_unexpanded_world(world, placed.traversal);
     if (!is_fit(placed, unexpanded, limits)) return;
-    build_on_device(unexpanded, executor);
+    build_on_device(placed, unexpanded, executor);
     placed.device_build = watch.elapsed();
 }
 
@@ -123,7 +131,7 @@ void place_from_cpu(PlacedStructure& placed, const VoxelWorld& world, const Devi
     if (placed.device_build)
         compare_builds(built, executor);
     else
-        upload(built, executor);
+        upload(placed, built, executor);
 }
 
 }  // namespace
@@ -145,8 +153,7 @@ PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Bu
 }
 
 void point_to_structure(const PlacedStructure& structure, Recording& recording, Dispatch& dispatch) {
-    const WorldBuffers buffers = declare_structure(structure.traversal, structure.bytes, recording);
-    point_to_world(structure.traversal, buffers, dispatch);
+    point_to_world(structure.traversal, declare_structure(structure, recording), dispatch);
 }
 
 }  // namespace voxilux

@@ -18,6 +18,7 @@ enum class Builder : std::uint8_t { cpu, device, both };
 struct PlacedStructure {
     Traversal traversal;
     StructureBytes bytes;
+    bool have_texels = false;  // shaders read them as texels
     glm::ivec3 chunks{0};
     std::optional<double> cpu_build;  // seconds of build_march_world
     std::optional<Seconds>

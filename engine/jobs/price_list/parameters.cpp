@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/technique_choice.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -110,6 +111,25 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
     for (const std::uint32_t factor : {1u, 2u, 4u, 8u})
         designer.add(fmt::format("{}", factor * rays),
                      [&](Configuration& configuration) { configuration.settings.ao_rays = factor * rays; });
+}
+
+// What paths cost and save against what is there without them.
+void design_indirect(const RenderPlan& plan, Designer& designer) {
+    designer.begin(
+        {.name = "indirect",
+         .label = "indirect light",
+         .axis = "what finds light between surfaces",
+         .why = "Paths find it without bias. Occlusion stands for the sky's alone, and without either "
+                "surfaces receive light straight from sun, sky and emitters only."});
+    designer.add("paths", [](Configuration&) {});
+    const auto leave_out = [](Configuration& configuration) {
+        choose_technique("indirect", "none", configuration.settings);
+    };
+    if (plan.has(Effect::sky)) designer.add("ao", leave_out);
+    designer.add("off", [&](Configuration& configuration) {
+        leave_out(configuration);
+        configuration.request.effects.switches[Effect::ao] = Switch::off;
+    });
 }
 
 void set_photon_method(const std::string& method, PhotonSettings& photons) {
@@ -227,6 +247,7 @@ ParameterDesign design_parameters(const RenderPlan& plan, const Configuration& b
     design_sequence(designer);
     if (plan.has(Effect::voxels)) design_traversal(plan, designer);
     if (plan.has(Effect::ao)) design_occlusion(plan, designer);
+    if (plan.is_by_paths(Effect::indirect)) design_indirect(plan, designer);
     if (plan.photons.runs()) {
         design_photon_numbers(plan, designer);
         design_photon_methods(designer);

@@ -18,7 +18,8 @@ struct Configuration {
 
     bool operator==(const Configuration& other) const {
         return settings == other.settings && traversal == other.traversal &&
-               request.wants_error == other.request.wants_error;
+               request.wants_error == other.request.wants_error &&
+               request.effects.switches == other.request.effects.switches;
     }
 };
 

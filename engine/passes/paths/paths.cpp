@@ -6,16 +6,8 @@
 namespace voxilux {
 namespace {
 
-// Of visible points in glass, where paths aim at images of the sun from there.
-Plane media_plane(const RenderPlan& plan, Recording& recording) {
-    const bool are_needed = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
-    if (!are_needed) return {placeholder_buffer(recording), 0};
-    return {declare_plane<gpu::uint>(plan, "path.media", recording)};
-}
-
 void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
-                       const Plane& direct, const std::string& starts, Recording& recording) {
-    const Plane media = media_plane(plan, recording);
+                       const std::string& starts, Recording& recording) {
     Dispatch dispatch{.label = "path.start",
                       .shader = "path_start",
                       .extent = pixel_extent(plan, tile),
@@ -24,18 +16,17 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"Materials", materials_buffer(plan, recording)},
                                    {"Hits", hits.buffer},
-                                   {"Direct", direct.buffer},
-                                   {"Media", media.buffer},
                                    {"Starts", starts}},
                       .constants = path_constants(plan)};
-    dispatch.constants.insert(dispatch.constants.end(),
-                              {{"direct_stride", direct.stride}, {"media_stride", media.stride}});
+    // Where paths aim at images of the sun from visible points in glass.
+    const bool finds_media = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
+    dispatch.constants.push_back({"finds_media", finds_media ? 1u : 0u});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
 
-Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hits, const std::string& starts,
-                    const std::string& light, Recording& recording) {
+Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hits, const Plane& direct,
+                    const std::string& starts, const std::string& light, Recording& recording) {
     const bool has_emitters = plan.has(Effect::emission) && plan.world.lights.count != 0;
     const std::string states =
         plan.paths.rounds > 1
@@ -46,7 +37,6 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
                       .extent = {lanes, 1, 1},
                       .bindings = path_bindings(plan, recording),
                       .constants = path_constants(plan)};
-    const Plane media = media_plane(plan, recording);
     const auto emitter_buffer = [&](std::string (*buffer)(const RenderPlan&, Recording&)) {
         return has_emitters ? buffer(plan, recording) : placeholder_buffer(recording);
     };
@@ -54,7 +44,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
                                                        {"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"Starts", starts},
-                                                       {"Media", media.buffer},
+                                                       {"Direct", direct.buffer},
                                                        {"States", states},
                                                        {"Light", light}});
     const std::vector<Binding> sky = sky_bindings(plan, recording);
@@ -69,7 +59,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
          {"finds_sun_caustics", plan.paths_find_sun_caustics ? 1u : 0u},
          {"finds_emitter_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
          {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
-         {"media_stride", media.stride},
+         {"direct_stride", direct.stride},
          {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     return dispatch;
@@ -79,11 +69,11 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
 
 Plane record_paths(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const Plane& direct,
                    Recording& recording) {
-    const std::string starts = declare_plane<gpu::PhotonStart>(plan, "path.starts", recording);
+    const std::string starts = declare_plane<gpu::PathStart>(plan, "path.starts", recording);
     const Plane light{declare_plane<gpu::vec3>(plan, "path.light", recording)};
-    record_path_start(plan, tile, hits, direct, starts, recording);
+    record_path_start(plan, tile, hits, starts, recording);
     const std::uint32_t lanes = plan.path_lanes(tile.row_count);
-    const Dispatch dispatch = path_trace(plan, lanes, hits, starts, light.buffer, recording);
+    const Dispatch dispatch = path_trace(plan, lanes, hits, direct, starts, light.buffer, recording);
     if (plan.paths.rounds > 1) recording.clear("path.states");
     for (std::uint32_t round = 1; round <= plan.paths.rounds; ++round) {
         Dispatch trace = dispatch;

@@ -39,11 +39,13 @@ TEST_P(MarchOnDevice, every_family_in_every_world_gives_the_bits_of_cpp) {
             const std::vector<gpu::Ray> far = moved_back(all_rays(march_world.size(), 300), distance);
             rays.insert(rays.end(), far.begin(), far.end());
         }
-        const auto got = test::march_on_device(march_world, rays);
         const auto want = test::march_in_cpp(march_world, rays);
-        const auto difference = test::differing_bits<gpu::MarchProbe>(got, want);
-        EXPECT_EQ(difference.count, 0u)
-            << named.name << " ray " << test::print(rays[difference.first]) << ", " << difference.detail;
+        for (const auto access : {test::WorldAccess::texels, test::WorldAccess::pointers}) {
+            const auto got = test::march_on_device(march_world, rays, access);
+            const auto difference = test::differing_bits<gpu::MarchProbe>(got, want);
+            EXPECT_EQ(difference.count, 0u)
+                << named.name << " ray " << test::print(rays[difference.first]) << ", " << difference.detail;
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -74,7 +75,7 @@ FilmPart part_after(const SampleSet& part, std::uint32_t done, std::uint32_t see
     outcome.statistics.samples = done;
     outcome.statistics.wall_s = 1.0;
     outcome.statistics.work["hits"] = 10 * done;
-    outcome.statistics.faults["film_clamped"] = done;
+    outcome.statistics.faults["ao_table_full"] = done;
     fill(*outcome.film, part, done);
     const nlohmann::ordered_json report = report_json(job.scene, outcome);
     return part_of(job.scene, outcome, report, {.comments = "s.toml", .world_to_camera = glm::mat4(0.1f)},
@@ -315,7 +316,7 @@ TEST(MergeParts, report_of_the_whole_adds_counts_and_times) {
         add_part(sum, part_of_samples(shard_of(index + 1, 3)), "p");
     const nlohmann::ordered_json report = merged_report(sum.total, false);
     EXPECT_EQ(report["work"]["hits"], 10 * kSamples);
-    EXPECT_EQ(report["faults"]["film_clamped"], kSamples);
+    EXPECT_EQ(report["faults"]["ao_table_full"], kSamples);
     EXPECT_EQ(report["samples"], kSamples);
     EXPECT_EQ(report["wall_s"], 3.0);
     EXPECT_FALSE(report.contains("shard"));
@@ -323,6 +324,19 @@ TEST(MergeParts, report_of_the_whole_adds_counts_and_times) {
     nlohmann::ordered_json expected = reproducible_report(whole.report);
     expected["error"] = error_json(error_of(whole.film));
     EXPECT_EQ(merged_report(sum.total, true).dump(), expected.dump()) << "the order of keys, too";
+}
+
+TEST(MergeParts, error_has_no_upper_end_where_a_part_lacks_light) {
+    PartSum sum;
+    add_part(sum, part_of_samples(shard_of(1, 2)), "0");
+    FilmPart cut = part_of_samples(shard_of(2, 2));
+    cut.report["faults"]["loop_cut"] = 1;
+    const ErrorEstimate error = error_of(part_of_samples(kAll).film);
+    ASSERT_TRUE(std::isfinite(error.high));
+    add_part(sum, std::move(cut), "1");
+    const nlohmann::ordered_json claim = merged_report(sum.total, true)["error"];
+    EXPECT_EQ(claim["estimate"], error.estimate);
+    EXPECT_TRUE(claim["high"].is_null());
 }
 
 TEST(MergeParts, missing_samples_are_named) {

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "jobs/price_list/price_list.h"
+#include "scene/technique_choice.h"
 
 namespace voxilux {
 namespace {
@@ -45,6 +48,24 @@ TEST(Parameters, are_those_of_what_the_plan_uses) {
     EXPECT_EQ(parameters_of(design_parameters(photons, {.settings = {.photons = {.radius = 2.0}}})),
               (std::set<std::string>{"samples", "sequence", "photons", "radius", "alpha", "gather", "paths",
                                      "estimate"}));
+}
+
+TEST(Parameters, price_paths_against_occlusion_where_there_is_a_sky_and_against_nothing) {
+    const auto settings_of = [](std::initializer_list<Effect> effects) {
+        const ParameterDesign design = design_parameters(plan_with(effects), {});
+        const auto indirect = std::ranges::find(design.parameters, "indirect", &Parameter::name);
+        std::map<std::string, Configuration> settings;
+        for (const ParameterSetting& setting : indirect->settings)
+            settings[setting.name] = design.configurations[setting.configuration];
+        return settings;
+    };
+    auto outside = settings_of({Effect::voxels, Effect::sky, Effect::indirect});
+    EXPECT_EQ(outside.size(), 3u);
+    EXPECT_EQ(outside["paths"], Configuration{});
+    EXPECT_TRUE(is_chosen("indirect", "none", outside["ao"].settings));
+    EXPECT_TRUE(outside["ao"].request.effects.switches.empty());
+    EXPECT_EQ(outside["off"].request.effects.switches.at(Effect::ao), Switch::off);
+    EXPECT_FALSE(settings_of({Effect::voxels, Effect::emission, Effect::indirect}).contains("ao"));
 }
 
 TEST(Parameters, change_one_setting_and_share_the_default) {

@@ -45,5 +45,13 @@ TEST(ChooseTraversal, level_over_the_largest_allocation_is_passed_over) {
     EXPECT_EQ(choose_traversal(census_of(glm::ivec3(25), 1000), {}, 0, small).traversal, Traversal::deep);
 }
 
+TEST(ChooseTraversal, texels_are_loaded_by_software_devices_that_have_room_for_them) {
+    DeviceLimits limits{.max_texels = 1000};
+    EXPECT_TRUE(loads_texels(limits, 4000));
+    EXPECT_FALSE(loads_texels(limits, 4004));
+    limits.is_cpu = false;
+    EXPECT_FALSE(loads_texels(limits, 4000));
+}
+
 }  // namespace
 }  // namespace voxilux

@@ -249,11 +249,15 @@ TEST(Reflect, texel_buffers_go_by_the_names_of_their_variables) {
     EXPECT_TRUE(read->kind == BlockKind::texels && read->readable && !read->writable);
     EXPECT_TRUE(summed->kind == BlockKind::storage && !summed->readable && summed->writable);
     EXPECT_TRUE(written->kind == BlockKind::texels && !written->readable && written->writable);
+    const auto march = std::ranges::find(pass_shaders(), "primary_march", &EmbeddedShader::name);
+    ASSERT_NE(march, pass_shaders().end());
+    EXPECT_EQ(reflect(march->spirv).find_block("Leaves")->kind, BlockKind::words);
     EXPECT_EQ(info.find_block("Counters")->kind, BlockKind::storage);
     EXPECT_EQ(info.find_block("Frame")->kind, BlockKind::uniform);
 }
 
-// Of images reflection knows storage texel buffers of four words: dimension, kind and format in the type.
+// Of images reflection knows storage texel buffers of four words and of one: dimension, kind and format in
+// the type.
 TEST(Reflect, images_that_are_no_texel_buffers_are_refused) {
     const auto module_with = [](std::uint32_t dimension, std::uint32_t sampled, std::uint32_t format) {
         Assembler module = small_module();
@@ -263,6 +267,8 @@ TEST(Reflect, images_that_are_no_texel_buffers_are_refused) {
         return with_use(module.op(kLoad, {62, 64, 61}));
     };
     EXPECT_EQ(reflect(module_with(5, 2, 30)).find_block("Texels")->binding, 7u);
+    EXPECT_EQ(reflect(module_with(5, 2, 30)).find_block("Texels")->kind, BlockKind::texels);
+    EXPECT_EQ(reflect(module_with(5, 2, 33)).find_block("Texels")->kind, BlockKind::words);
     EXPECT_THROW((void)reflect(module_with(1, 2, 30)), InternalError) << "a picture";
     EXPECT_THROW((void)reflect(module_with(5, 1, 30)), InternalError) << "sampled";
     EXPECT_THROW((void)reflect(module_with(5, 2, 1)), InternalError) << "floats";

@@ -1,0 +1,31 @@
+// Where paths start, by texels: lavapipe loads those of eight invocations at once (lab/notes/film.md).
+#ifndef VX_PATH_START_GLSL
+#define VX_PATH_START_GLSL
+
+#include "shared/gpu_types.h"
+
+layout(rgba32ui) uniform uimageBuffer Starts;
+
+void put_path_start(uint i, PathStart start) {
+    int first = int(kPathStartTexels * i);
+    imageStore(Starts, first, uvec4(start.cell, start.stream));
+    imageStore(Starts, first + 1, uvec4(floatBitsToUint(start.fraction), start.own));
+    imageStore(Starts, first + 2, uvec4(floatBitsToUint(start.direction), start.medium));
+}
+
+PathStart path_start(uint i) {
+    int first = int(kPathStartTexels * i);
+    uvec4 origin = imageLoad(Starts, first);
+    uvec4 fraction = imageLoad(Starts, first + 1);
+    uvec4 direction = imageLoad(Starts, first + 2);
+    PathStart start;
+    start.cell = ivec3(origin.xyz);
+    start.stream = origin.w;
+    start.fraction = uintBitsToFloat(fraction.xyz);
+    start.own = fraction.w;
+    start.direction = uintBitsToFloat(direction.xyz);
+    start.medium = direction.w;
+    return start;
+}
+
+#endif
