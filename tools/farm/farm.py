@@ -7,20 +7,18 @@ import os
 import pathlib
 import shutil
 import signal
-import subprocess
 import sys
 import time
 import uuid
 
 from farm_cluster import Cluster, Member
 from farm_job import Job, Part, Stop, files_of_scene, say, sha256_of
+from farm_orders import first_round, order_of
 from farm_picture import Merger, Picture, missing_line, next_round, samples_of
-from farm_ranges import size, text
-from farm_report import Progress, print_report, report_of
+from farm_report import Progress, facts_of, print_report, report_of
 from farm_work import MAX_TRIES, Task, Work
 
 NEVER = (2, 3, 70)  # exit codes of a render that will be the same on every worker
-FIRST_ROUND = 64  # samples, where no forecast tells the number
 POLL_S = 0.25
 END_S = 2.0  # of a time limit, beside twice the last merge, for writing the picture
 
@@ -48,8 +46,6 @@ class Farm:
         self.by_frames = False
         self.last_line = ""
 
-    # What is to do
-
     def open_cluster(self) -> None:
         words = self.options["words"]
         setup = {"id": self.job.manifest["id"], "folder": str(self.job.folder), "scene": self.scene, "words": words,
@@ -73,42 +69,8 @@ class Farm:
             return
         for picture in self.pictures:
             if self.options["error"] is not None:
-                picture.end = max(self.first_round(picture), samples_of(self.job, picture))
+                picture.end = max(first_round(self.options, picture.frame), samples_of(self.job, picture))
             self.work.add(picture.frame, self.job.missing(picture.frame, picture.end))
-
-    def first_round(self, picture: Picture) -> int:
-        """What the pilot of the renderer says, as for a render of its own."""
-        words = [self.options["binary"], "plan", self.options["scene"], *self.options["words"], "--error",
-                 str(self.options["error"]), "--spp", str(self.options["spp"]), *self.frame_words(picture.frame),
-                 "-q", "--json", "-"]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise Stop(done.returncode, done.stderr.strip().split("\n")[-1].removeprefix("voxilux: "))
-        forecast = json.loads(done.stdout).get("forecast") or {}
-        return min(forecast.get("samples") or FIRST_ROUND, self.options["spp"])
-
-    def frame_words(self, frame: int) -> list[str]:
-        return ["--frame", str(frame)] if self.options["is_animation"] else []
-
-    def order_of(self, task: Task, worker: str) -> dict:
-        """What a worker is told of a task."""
-        if self.by_frames:
-            units = [self.frame_unit(index) for index in range(task.first, task.end)]
-        else:
-            name = f"parts/f{task.lane:06d}.s{task.first}-{task.end - 1}.exr"
-            units = [{"frame": task.lane, "ranges": [(task.first, task.end)], "files": [name],
-                      "words": [*self.frame_words(task.lane), "--samples", text([(task.first, task.end)])]}]
-        return {"units": units, "words": [], "patience_s": self.work.patience_s(task, worker)}
-
-    def frame_unit(self, index: int) -> dict:
-        frame, outputs = self.frames[index], self.options["outputs"][index]
-        words = [*self.frame_words(frame), "--spp", str(self.options["spp"]), *self.options["tone_words"]]
-        if self.options["error"] is not None:
-            words += ["--error", str(self.options["error"])]
-        files = [f"parts/f{frame:06d}.{i}{pathlib.Path(output).suffix}" for i, output in enumerate(outputs)]
-        return {"frame": frame, "ranges": [], "files": files, "words": words}
-
-    # The loop
 
     def run(self) -> int:
         self.open_cluster()
@@ -128,7 +90,7 @@ class Farm:
             self.show()
         self.progress.finish()
         self.report()
-        self.remove_folder()
+        shutil.rmtree(self.job.folder, ignore_errors=True)
         return 0 if self.reached_error() else 4
 
     def hand_out(self) -> None:
@@ -137,7 +99,8 @@ class Farm:
             task = self.work.next_task(member.address, ready, time.monotonic())
             if task is None:
                 return
-            self.cluster.run(member, task, self.order_of(task, member.address))
+            patience_s = self.work.patience_s(task, member.address)
+            self.cluster.run(member, task, order_of(self.options, task, self.by_frames, patience_s))
 
     def take(self, member: Member, kind: str, future) -> None:
         """A worker has answered, or failed to."""
@@ -164,8 +127,7 @@ class Farm:
     def take_results(self, member: Member, task: Task, results: list[dict]) -> None:
         failed = results[-1] if results[-1]["code"] not in (0, 4) else None
         began_s = task.runs.get(member.address, time.monotonic())
-        units = self.order_of(task, member.address)["units"]
-        for unit, result in zip(units, results):
+        for unit, result in zip(member.order["units"], results):
             if result["code"] in (0, 4):
                 self.keep(unit, result, member)
         if failed is None:
@@ -175,7 +137,8 @@ class Farm:
         if failed["code"] in NEVER:
             raise Stop(failed["code"], failed["line"].removeprefix("voxilux: "))
         self.last_line = failed["line"].removeprefix("voxilux: ")
-        task.first += len(results) - 1 if self.by_frames else 0  # the frames before are done
+        if self.by_frames and len(task.runs) == 1:
+            task.first += len(results) - 1  # the frames before are done
         self.give_back(task, member)
         self.cluster.failed(member, self.last_line)
 
@@ -246,8 +209,6 @@ class Farm:
             self.work.add(picture.frame, self.job.missing(picture.frame, picture.end))
         return None
 
-    # The end
-
     def is_out_of_time(self) -> bool:
         limit_s = self.options["time_limit_s"]
         return limit_s is not None and time.monotonic() - self.start_s > limit_s - END_S - 2.0 * self.merger.took_s
@@ -273,19 +234,15 @@ class Farm:
                 picture.error = result.get("report", {}).get("error")
 
     def missing(self) -> str:
-        if self.by_frames:
-            frames = [picture.frame for picture in self.pictures if not picture.is_written]
-            return f"{len(frames)} of {len(self.pictures)} frames are missing, from {frames[0]} on" if frames else \
-                "nothing is missing"
+        frames = [picture.frame for picture in self.pictures if not picture.is_written]
+        if self.by_frames and frames:
+            return f"{len(frames)} of {len(self.pictures)} frames are missing, from {frames[0]} on"
         return f"missing: {missing_line(self.job, self.pictures)}"
 
     def reached_error(self) -> bool:
         target = self.options["error"]
         highs = [(picture.error or {}).get("high") for picture in self.pictures]
         return target is None or all(high is not None and high <= target for high in highs)
-
-    def remove_folder(self) -> None:
-        shutil.rmtree(self.job.folder, ignore_errors=True)
 
     def show(self) -> None:
         error = next((picture.error["high"] for picture in self.pictures if picture.error), None)
@@ -299,14 +256,7 @@ class Farm:
         self.progress.show(min(1.0, done / max(total, 1)), samples, len(ready), self.work.remaining_s(ready), error)
 
     def report(self) -> None:
-        outputs = [output for picture in self.pictures if picture.samples for output in picture.outputs]
-        errors = [picture.error for picture in self.pictures if picture.error]
-        facts = {"samples": min((picture.samples for picture in self.pictures), default=0),
-                 "parts": sum(part.count for part in self.job.parts.values()),
-                 "retries": self.job.retries, "workers": 0, "wall_s": time.monotonic() - self.start_s,
-                 "cpu_s": sum(part.cpu_s for part in self.job.parts.values()),
-                 "error": max(errors, key=lambda one: one["high"] or 0.0) if errors else None,
-                 "output": outputs[0] if len(outputs) == 1 else outputs}
+        facts = facts_of(self.job, self.pictures, time.monotonic() - self.start_s)
         print_report(report_of(self.work, facts), self.options)
 
 

@@ -15,6 +15,12 @@ from farm_worker import prepare, run_task, store
 CORES_OF_A_WORKER = 8  # without a GPU; more threads on one picture gain little
 MAX_FAILURES = 3  # in a row, and a worker gets no more tasks
 CONNECT_S = 30.0
+DASK_SETTINGS = {
+    "logging.distributed": "critical", "distributed.scheduler.transition-log-length": "1000",
+    "distributed.scheduler.events-log-length": "1000", "distributed.admin.log-length": "1000",
+    "distributed.worker.profile.interval": "10s",
+    "distributed.admin.tick.interval": "1s", "distributed.admin.tick.limit": "60s",
+    "distributed.admin.system-monitor.interval": "5s"}
 LONELY_S = 60.0  # without any worker, and the job ends
 
 
@@ -28,6 +34,7 @@ class Member:
     shares: bool = False  # sees the job's folder
     failures: int = 0
     task: object = None
+    order: dict = dataclasses.field(default_factory=dict)
     future: object = None
 
 
@@ -46,8 +53,10 @@ def core_groups(workers: int) -> list[list[int]]:
 
 
 def quiet_dask() -> None:
-    """What matters of it is said in our own words."""
-    os.environ["DASK_LOGGING__DISTRIBUTED"] = "critical"
+    """What matters of it is said in our own words; its logs in memory stay short; and it neither profiles workers that
+    wait for a render nor wakes up 50 times a second. Workers of this machine inherit that."""
+    for name, value in DASK_SETTINGS.items():
+        os.environ.setdefault(f"DASK_{name.replace('.', '__').replace('-', '_').upper()}", value)
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
@@ -55,9 +64,11 @@ def quiet_dask() -> None:
 def open_local(workers: int):
     """A cluster of this machine that listens on the loopback alone."""
     from distributed import Client, LocalCluster
-    cluster = LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, host="127.0.0.1", memory_limit=0,
+    cluster = LocalCluster(n_workers=0, threads_per_worker=1, processes=True, host="127.0.0.1", memory_limit=0,
                            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
-    return Client(cluster), cluster
+    client = Client(cluster)
+    cluster.scale(workers)  # without waiting for them: one that dies while it starts would be waited for in vain
+    return client, cluster
 
 
 def open_remote(address: str):
@@ -159,7 +170,7 @@ class Cluster:
         return [member for member in self.ready() if member.task is None]
 
     def run(self, member: Member, task, order: dict) -> None:
-        member.task = task
+        member.task, member.order = task, order
         order |= {"cores": self.groups[member.slot] if member.slot < len(self.groups) else [],
                   "shares": member.shares}
         if self.gpus:

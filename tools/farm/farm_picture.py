@@ -11,8 +11,8 @@ from farm_job import Job, Part, Stop
 from farm_ranges import Ranges, size, text, union
 
 MAX_PARTS = 32  # of a frame, before they are merged into one
-PREVIEW_S = 30.0  # from one preview to the next, and
-PREVIEW_PAUSES = 20.0  # times as long as a merge takes
+PREVIEW_S = 120.0  # from one preview to the next, and
+PREVIEW_PAUSES = 100.0  # times as long as a merge takes
 ROUND_MARGIN = 1.05  # more samples than the error law says
 MIN_ROUND = 1.1  # times as many samples as before
 

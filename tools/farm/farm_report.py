@@ -5,6 +5,8 @@ import math
 import sys
 import time
 
+from farm_job import Job
+from farm_picture import Picture
 from farm_work import Work
 
 FASTEST, SLOWEST = 0.8, 1.3  # of the time that is expected to remain
@@ -52,6 +54,17 @@ class Progress:
 def worker_rows(work: Work, wall_s: float) -> list[dict]:
     return [{"worker": worker, "units": speed.units, "units_per_s": speed.units_per_s,
              "utilisation": min(1.0, speed.busy_s / wall_s)} for worker, speed in sorted(work.speeds.items())]
+
+
+def facts_of(job: Job, pictures: list[Picture], wall_s: float) -> dict:
+    """Of a film: the fewest samples and the largest error of a frame."""
+    outputs = [output for picture in pictures if picture.samples for output in picture.outputs]
+    errors = [picture.error for picture in pictures if picture.error]
+    return {"samples": min((picture.samples for picture in pictures), default=0),
+            "parts": sum(part.count for part in job.parts.values()), "retries": job.retries, "workers": 0,
+            "wall_s": wall_s, "cpu_s": sum(part.cpu_s for part in job.parts.values()),
+            "error": max(errors, key=lambda one: one["high"] or 0.0) if errors else None,
+            "output": outputs[0] if len(outputs) == 1 else outputs}
 
 
 def report_of(work: Work, facts: dict) -> dict:

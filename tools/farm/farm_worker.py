@@ -108,7 +108,8 @@ def run_one(setup: dict, task: dict, unit: dict) -> dict:
     if child.returncode not in (0, 4):
         return result
     report = json.loads(out)
-    result |= {"cpu_s": report["cpu_s"], "samples": report["samples"], "error": report["error"]["high"],
+    # A part that was there already, of a worker that was given up, has no times.
+    result |= {"cpu_s": report.get("cpu_s", 0.0), "samples": report["samples"], "error": report["error"]["high"],
                "sha256": [file_hash(file) for file in files]}
     if not task["shares"]:
         result["bytes"] = [file.read_bytes() for file in files]

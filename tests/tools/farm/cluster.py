@@ -94,11 +94,11 @@ def can_hide_folders():
 class Cluster:
     """A Dask scheduler and workers, as others start them."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, host="127.0.0.1"):
         self.folder, self.port = folder, free_port()
-        self.address = f"tcp://127.0.0.1:{self.port}"
+        self.address = f"tcp://{host}:{self.port}"
         self.processes = []
-        self.run("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", str(self.port), "--no-dashboard")
+        self.run("distributed.cli.dask_scheduler", "--host", host, "--port", str(self.port), "--no-dashboard")
 
     def run(self, module, *words, before=()):
         self.processes.append(subprocess.Popen(
@@ -106,11 +106,14 @@ class Cluster:
             start_new_session=True))
         return self.processes[-1]
 
-    def add_worker(self, is_apart=False):
-        """One that is apart does not see the folder of this test, as a machine without a shared disk does not."""
+    def add_worker(self, before=(), host=""):
         words = [self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", "/tmp"]
-        before = ["unshare", "-m", "sh", "-c", f'mount -t tmpfs none {self.folder} && exec "$@"', "sh"]
-        return self.run("distributed.cli.dask_worker", *words, before=before if is_apart else ())
+        words += ["--host", host] if host else []
+        return self.run("distributed.cli.dask_worker", *words, before=before)
+
+    def hidden(self):
+        """Words before a command that does not see the folder of this test: as on a machine without a shared disk."""
+        return ["unshare", "-m", "sh", "-c", f'mount -t tmpfs none {self.folder} && exec "$@"', "sh"]
 
     def __enter__(self):
         return self

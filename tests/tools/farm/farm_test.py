@@ -69,7 +69,7 @@ class Farm(unittest.TestCase):
     def test_worker_without_the_folder_gets_the_scene_and_sends_its_parts(self):
         whole = BENCH.render("mixed", "whole.exr", *SMALL)
         with Cluster(BENCH.top) as cluster:
-            cluster.add_worker(is_apart=True)
+            cluster.add_worker(before=cluster.hidden())
             BENCH.farm("mixed", "r.exr", *SMALL, "--scheduler", cluster.address, "-q")
         self.assertEqual((BENCH.top / "r.exr").read_bytes(), whole)
 

@@ -1,0 +1,47 @@
+"""What a worker is told of a task: the renders that it consists of."""
+
+import json
+import pathlib
+import subprocess
+
+from farm_job import Stop
+from farm_ranges import text
+from farm_work import Task
+
+FIRST_ROUND = 64  # samples, where no forecast tells the number
+
+
+def frame_words(options: dict, frame: int) -> list[str]:
+    return ["--frame", str(frame)] if options["is_animation"] else []
+
+
+def order_of(options: dict, task: Task, by_frames: bool, patience_s: float) -> dict:
+    """A task of a film is a run of its frames, one of a picture a range of its samples."""
+    if by_frames:
+        units = [frame_unit(options, index) for index in range(task.first, task.end)]
+    else:
+        ranges = [(task.first, task.end)]
+        units = [{"frame": task.lane, "ranges": ranges,
+                  "files": [f"parts/f{task.lane:06d}.s{task.first}-{task.end - 1}.exr"],
+                  "words": [*frame_words(options, task.lane), "--samples", text(ranges)]}]
+    return {"units": units, "words": [], "patience_s": patience_s}
+
+
+def frame_unit(options: dict, index: int) -> dict:
+    frame, outputs = options["frames"][index], options["outputs"][index]
+    words = [*frame_words(options, frame), "--spp", str(options["spp"]), *options["tone_words"]]
+    if options["error"] is not None:
+        words += ["--error", str(options["error"])]
+    files = [f"parts/f{frame:06d}.{i}{pathlib.Path(output).suffix}" for i, output in enumerate(outputs)]
+    return {"frame": frame, "ranges": [], "files": files, "words": words}
+
+
+def first_round(options: dict, frame: int) -> int:
+    """Samples that the pilot of the renderer asks for, as for a render of its own."""
+    words = [options["binary"], "plan", options["scene"], *options["words"], "--error", str(options["error"]), "--spp",
+             str(options["spp"]), *frame_words(options, frame), "-q", "--json", "-"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise Stop(done.returncode, done.stderr.strip().split("\n")[-1].removeprefix("voxilux: "))
+    forecast = json.loads(done.stdout).get("forecast") or {}
+    return min(forecast.get("samples") or FIRST_ROUND, options["spp"])
