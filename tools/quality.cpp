@@ -37,7 +37,7 @@ std::vector<std::string> overrides_of(const QualityPreset& preset) {
 std::string quality_help() {
     std::string text = fmt::format(
         "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
-        "medians of {} scenes under the sky and {} where emitters send photons, on\n{}:",
+        "medians of {} scenes under the sky and {} with emitters, on\n{}:",
         kSkyScenes, kEmitterScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {
         text += fmt::format("\n{:<9}", preset.name);

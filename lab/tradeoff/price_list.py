@@ -25,7 +25,7 @@ PRICES, PRESETS = HERE / "prices.csv", TOP / "tools" / "quality_presets.inc"
 BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
 SKY, LAMPS = ("256x192", "90s"), ("96x72", "120s")  # size of the picture, and time for all runs of a scene
 SCENES = {"first_light": SKY, "night": SKY, "overcast": SKY, "slit": SKY, "spheres": SKY, "mixed": SKY,
-          "emitters": SKY, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
+          "emitters": LAMPS, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
 MOST_SAMPLES = 256  # asked of each scene; the time decides how many are measured
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
 MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given

@@ -39,17 +39,10 @@ TEST(Quality, explicit_flags_win) {
     EXPECT_EQ(samples_of({"--quality", "fine", "--iterations", "7"}), 7u);
 }
 
-TEST(Quality, light_by_paths_takes_the_samples_of_the_sky) {
-    const Words by_paths{"--quality",      "normal",      "--technique",
-                         "indirect=paths", "--technique", "caustics=paths"};
-    EXPECT_EQ(samples_of(by_paths, "cornell"), samples_of({"--quality", "normal"}));
-    const Words by_photons{"--quality", "normal", "--technique", "indirect=photons"};
-    EXPECT_EQ(samples_of(by_photons), samples_of({"--quality", "normal"}, "cornell"));
-}
-
-TEST(Quality, scenes_with_photons_have_samples_of_their_own) {
+TEST(Quality, scenes_with_light_between_surfaces_have_samples_of_their_own) {
     const auto iterations = [](const Words& more) { return samples_of(more, "cornell"); };
     const std::uint64_t preset = iterations({"--quality", "normal"});
+    EXPECT_EQ(preset, samples_of({"--quality", "normal"}));
     const Words without{"--quality", "normal", "--effect", "indirect=off", "--effect", "caustics=off"};
     EXPECT_LT(iterations(without), preset);
     EXPECT_EQ(iterations(without), samples_of(without));
