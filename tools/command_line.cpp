@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 
@@ -11,6 +12,7 @@
 #include "bench/bench.h"
 #include "compare/compare.h"
 #include "devices/devices.h"
+#include "farm/farm.h"
 #include "info/info.h"
 #include "merge/merge.h"
 #include "plan/plan.h"
@@ -31,7 +33,7 @@ constexpr const char* kFooter =
     "    3  an input was refused\n"
     "    4  stopped by --time-limit before --error was reached; the picture is written\n"
     "    5  compare: over a --max- threshold\n"
-    "   69  no usable Vulkan device\n"
+    "   69  no usable Vulkan device; farm: no Dask\n"
     "   70  internal error\n"
     "   71  the device was lost\n"
     "   73  an output cannot be written\n"
@@ -121,9 +123,25 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
 
+// --alpha takes the number of the photons' exponent; without one it asks for transparency.
+std::vector<const char*> with_transparent(int argc, const char* const* argv) {
+    std::vector<const char*> words(argv, argv + argc);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (std::string_view(words[i]) != "--alpha") continue;
+        const char* const next = i + 1 < words.size() ? words[i + 1] : "";
+        char* end = nullptr;
+        (void)std::strtod(next, &end);
+        if (end == next || *end != '\0') words[i] = "--transparent";
+    }
+    return words;
+}
+
 // The subcommands, and what each runs with the options that parsing has filled.
 class Commands {
   public:
+    // `words` follow the subcommand.
+    explicit Commands(std::vector<std::string> words) : words_(std::move(words)) {}
+
     template <class Options>
     void add(CLI::App& app, const std::string& name, const std::string& help,
              void (*add_flags)(Flags&, Options&), int (*run_command)(const Options&)) {
@@ -131,6 +149,7 @@ class Commands {
         const auto options = std::make_shared<Options>();
         Flags flags(*command);
         add_flags(flags, *options);
+        if constexpr (requires { options->words; }) options->words = words_;
         rows_.push_back({command, [=] { return run_command(*options); }});
     }
 
@@ -146,6 +165,7 @@ class Commands {
         std::function<int()> run;
     };
     std::vector<Row> rows_;
+    std::vector<std::string> words_;
 };
 
 void add_required_render_flags(Flags& flags, RenderCommand& command) {
@@ -179,7 +199,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
-    Commands commands;
+    Commands commands({argv + std::min(argc, 2), argv + argc});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
     commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
@@ -195,16 +215,20 @@ int run_command_line(int argc, const char* const* argv) {
                                  add_devices_flags, run_devices);
     commands.add<CompareOptions>(app, "compare", "metrics between two images (EXR or PNG) in linear light",
                                  add_compare_flags, run_compare);
-    commands.add<MergeCommand>(app, "merge", "join the parts of one render that render --shard wrote",
+    commands.add<MergeCommand>(app, "merge",
+                               "join parts of one render that render --samples or --shard wrote",
                                add_merge_flags, run_merge);
+    commands.add<FarmCommand>(app, "farm", "one picture or a film on many machines, by Dask", add_farm_flags,
+                              run_farm);
     commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
                                   add_voxelize_flags, run_voxelize);
     add_bench(app, commands);
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
+    const std::vector<const char*> words = with_transparent(argc, argv);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
         return end_of_parse(app, error);
     }

@@ -57,6 +57,24 @@ template Flag Flags::on<double>(const Text&, const Text&, Take<double>, const Te
 template Flag Flags::on<std::vector<Text>>(const Text&, const Text&, Take<std::vector<Text>>, const Text&);
 template Flag Flags::on<std::vector<int>>(const Text&, const Text&, Take<std::vector<int>>, const Text&);
 
+std::function<Flags::GivenWords()> Flags::given() const {
+    return [options = app_.get_options()] {
+        GivenWords words;
+        for (const CLI::Option* option : options) {
+            const std::string name = option->get_name();
+            if (!name.starts_with("-")) continue;
+            for (const std::string& value : option->reduced_results())
+                words.emplace_back(name, value);
+        }
+        return words;
+    };
+}
+
+void Flags::on_switch(const std::string& name, std::function<void()> take, const std::string& help) {
+    CLI::Option* const option = app_.add_flag_callback(name, std::move(take), help);
+    if (!group_.empty()) option->group(group_);
+}
+
 void Flags::add_switch(const std::string& name, bool& target, const std::string& help) {
     CLI::Option* const option = app_.add_flag(name, target, help);
     if (!group_.empty()) option->group(group_);

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/colour.h"
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "scene/settings.h"
@@ -46,6 +47,15 @@ std::optional<std::array<int, 4>> parse_box(std::string_view text) {
 
 template <class T, std::size_t N>
 using Names = std::array<std::pair<std::string_view, T>, N>;
+
+// Values that are numbered in the order of their names.
+template <class T, std::size_t N>
+Names<T, N> in_order(const std::array<std::string_view, N>& names) {
+    Names<T, N> table;
+    for (std::size_t i = 0; i < N; ++i)
+        table[i] = {names[i], static_cast<T>(i)};
+    return table;
+}
 
 template <class T, std::size_t N>
 std::optional<T> value_named(std::string_view typed, const Names<T, N>& table) {
@@ -159,10 +169,19 @@ Shard parse_shard(std::string_view text) {
     const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
     const auto second = has_slash ? std::from_chars(first.ptr + 1, end, count) : first;
     const bool is_read = has_slash && second.ec == std::errc() && second.ptr == end;
-    if (!is_read || number < 1 || number > count || count > kMaxShards)
+    if (!is_read || number < 1 || number > count || count > kMaxPartSamples)
         refuse(fmt::format("--shard: '{}' is not I/N with I from 1 to N, such as 2/4, and N up to {}", text,
-                           kMaxShards));
+                           kMaxPartSamples));
     return {number - 1, count};
+}
+
+SampleSet parse_samples(std::string_view text) {
+    const std::optional<SampleSet> samples = SampleSet::parse(text);
+    if (!samples || samples->end() > kMaxPartSamples)
+        refuse(
+            fmt::format("--samples: '{}' is not a list of different samples from 0 to {}, such as 0-7,16-31",
+                        text, kMaxPartSamples - 1));
+    return *samples;
 }
 
 AoMethod parse_ao_method(std::string_view name) {
@@ -179,14 +198,59 @@ Sequence parse_sequence(std::string_view name) {
 }
 
 View parse_view(std::string_view name) {
-    static constexpr Names<View, 7> kNames = {{{"three-quarter", View::three_quarter},
+    static constexpr Names<View, 8> kNames = {{{"three-quarter", View::three_quarter},
                                                {"front", View::front},
                                                {"back", View::back},
                                                {"left", View::left},
                                                {"right", View::right},
                                                {"top", View::top},
+                                               {"bottom", View::bottom},
                                                {"iso", View::iso}}};
     return parse_name("--camera", name, kNames);
+}
+
+Camera parse_viewpoint(std::string_view text) {
+    std::array<double, 6> values{};
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto [rest, error] = std::from_chars(at, end, values[i]);
+        const bool is_last = i + 1 == values.size();
+        const bool goes_on = is_last ? rest == end : rest != end && *rest == ',';
+        if (error != std::errc() || !std::isfinite(values[i]) || !goes_on)
+            refuse(fmt::format("--viewpoint: '{}' is not x,y,z,yaw,pitch,fov", text));
+        at = rest + 1;
+    }
+    const Camera camera{{values[0], values[1], values[2]}, values[3], values[4], values[5]};
+    if (!(glm::length(camera.position) <= kMaxCoordinate)) refuse("--viewpoint: lies beyond 2^30 voxels");
+    if (!(std::abs(camera.pitch_deg) <= 90.0)) refuse("--viewpoint: the pitch is from -90 to 90 degrees");
+    if (!(camera.fov_y_deg > 0.0 && camera.fov_y_deg < 180.0))
+        refuse("--viewpoint: the field of view is between 0 and 180 degrees");
+    return camera;
+}
+
+CameraChoice parse_camera(std::string_view name) {
+    const bool is_number = !name.empty() && name.find_first_not_of("0123456789") == name.npos;
+    if (is_number) return {.side = {}, .name = std::string(name)};
+    return {parse_view(name), std::string(name)};
+}
+
+Background parse_background(std::string_view text) {
+    if (text == "sky") return {};
+    std::uint32_t rrggbb = 0;
+    const bool has_digits = text.size() == 7 && text[0] == '#';
+    const char* const end = text.data() + text.size();
+    if (!has_digits || std::from_chars(text.data() + 1, end, rrggbb, 16).ptr != end)
+        refuse(fmt::format("--background: '{}' is no colour; an example is #20a0ff, or sky", text));
+    return {Backdrop::color, linear_from_srgb_hex(rrggbb)};
+}
+
+Projection parse_projection(std::string_view name) {
+    return parse_name("--projection", name, in_order<Projection>(kProjectionNames));
+}
+
+Turned parse_turned(std::string_view name) {
+    return parse_name("--turn", name, in_order<Turned>(kTurnedNames));
 }
 
 EffectSwitch parse_effect_switch(std::string_view text) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "camera_choice.h"
 #include "estimators/metrics.h"
 #include "film/tonemap.h"
 #include "jobs/frame_list.h"
@@ -42,7 +43,14 @@ namespace voxilux {
 [[nodiscard]] double parse_error_target(std::string_view text);
 
 // "2/4": the second of four shards.
+struct Shard {
+    std::uint32_t index = 0;  // from 0
+    std::uint32_t count = 1;
+};
 [[nodiscard]] Shard parse_shard(std::string_view text);
+
+// "0-7,16-31x2": samples of a render.
+[[nodiscard]] SampleSet parse_samples(std::string_view text);
 
 // "2.5", a radius of photons in voxels; nothing for "auto".
 [[nodiscard]] std::optional<double> parse_photon_radius(std::string_view text);
@@ -62,8 +70,18 @@ namespace voxilux {
 [[nodiscard]] AoMethod parse_ao_method(std::string_view name);
 [[nodiscard]] Sequence parse_sequence(std::string_view name);
 
-// three-quarter, front, back, left, right, top or iso.
+// three-quarter, front, back, left, right, top, bottom or iso.
 [[nodiscard]] View parse_view(std::string_view name);
+// One of these, or any other word: the name of a camera in the file.
+[[nodiscard]] CameraChoice parse_camera(std::string_view name);
+
+// "#rrggbb" or "sky".
+[[nodiscard]] Background parse_background(std::string_view text);
+[[nodiscard]] Projection parse_projection(std::string_view name);
+[[nodiscard]] Turned parse_turned(std::string_view name);
+
+// "x,y,z,yaw,pitch,fov": a place in scene space and degrees.
+[[nodiscard]] Camera parse_viewpoint(std::string_view text);
 
 // "NAME=on|off|auto".
 struct EffectSwitch {

@@ -12,6 +12,7 @@
 #include "scene/animation.h"
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
+#include "scene/settings.h"
 
 namespace voxilux {
 namespace {
@@ -93,6 +94,114 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
         scene.settings.spp = options.quality->emitters.samples;
 }
 
+void add_projection_flags(Flags& flags, SceneOptions& options) {
+    flags.add_parsed("--projection", "NAME", options.projection, parse_projection,
+                     "perspective, orthographic, equirectangular or fisheye");
+    flags.on<double>(
+        "--pixels-per-voxel", "N",
+        [&options](double pixels) {
+            options.pixels_per_voxel =
+                in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
+        },
+        "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given");
+}
+
+Camera saved_camera(const Scene& scene, const std::string& name) {
+    const auto saved = std::ranges::find(scene.cameras, name, &SavedCamera::name);
+    if (saved == scene.cameras.end()) {
+        std::vector<std::string> names;
+        for (const SavedCamera& one : scene.cameras)
+            names.push_back(one.name);
+        throw Error(ExitCode::usage,
+                    fmt::format("--camera: there is no '{}'; known are three-quarter, front, back, left, "
+                                "right, top, bottom, iso{}{}",
+                                name, names.empty() ? "" : ", and of the file ", fmt::join(names, ", ")));
+    }
+    Camera camera = saved->camera;
+    if (camera.projection == Projection::orthographic) {
+        if (saved->height == 0.0) return framing_camera(scene, camera);
+        camera.pixels_per_voxel = scene.settings.size.y / saved->height;
+    }
+    return camera;
+}
+
+// What flags say of the camera: where it stands, or its lens, with which it frames the scene.
+void apply_camera_flags(const SceneOptions& options, Scene& scene) {
+    if (!options.camera && !options.projection && !options.pixels_per_voxel) return;
+    const bool is_saved = options.camera && !options.camera->side;
+    if (is_saved) scene.camera = saved_camera(scene, options.camera->name);
+    if (is_saved) scene.animation.camera_keys.clear();
+    if (is_saved && !options.projection && !options.pixels_per_voxel) return;
+    const Camera own = scene.camera.value_or(looking_along(View::three_quarter, scene.framing_fov_y_deg));
+    const bool is_side = options.camera && options.camera->side;
+    Camera looking = is_side ? looking_along(*options.camera->side, own.fov_y_deg) : own;
+    looking.projection = options.projection.value_or(own.projection);
+    looking.pixels_per_voxel = own.pixels_per_voxel;
+    if (options.pixels_per_voxel) {
+        if (options.projection.value_or(Projection::orthographic) != Projection::orthographic)
+            refuse("--pixels-per-voxel is of orthographic pictures");
+        looking.projection = Projection::orthographic;
+        looking.pixels_per_voxel = *options.pixels_per_voxel;
+        if (!options.names_size) scene.settings.size = sprite_size(scene, looking);
+    }
+    scene.animation.camera_keys.clear();
+    scene.camera = framing_camera(scene, looking);
+}
+
+void add_turntable_flags(Flags& flags, SceneOptions& options) {
+    flags
+        .on<std::int64_t>(
+            "--turntable", "N",
+            [&options](std::int64_t frames) {
+                options.turntable = in_range<Turntable>("--turntable", "frames", frames);
+            },
+            "N pictures of a whole turn, numbered as frames")
+        .excludes("--frame");
+    flags.add_parsed("--turn", "WHAT", options.turned, parse_turned,
+                     "what turns: camera, model (light and camera stay) or light");
+}
+
+Flag add_input_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
+    if (pictures != PicturesOf::inputs)
+        return flags.add("INPUT", "", options.input, "a .vox file, or a scene file .toml");
+    return flags.on<std::vector<std::string>>(
+        "INPUT", "",
+        [&options](const std::vector<std::string>& files) {
+            options.inputs = files;
+            options.input = files.front();
+        },
+        "a .vox file, or a scene file .toml; several give a picture of each");
+}
+
+void add_camera_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
+    const std::string help =
+        "a side that frames it (three-quarter, front, back, left, right, top, bottom, iso), or the number of "
+        "a camera in the file";
+    if (pictures != PicturesOf::inputs) {
+        flags.add_parsed("--camera", "SIDE|N", options.camera, parse_camera, help);
+        return;
+    }
+    flags.on<std::vector<std::string>>(
+        "--camera", "SIDE|N",
+        [&options](const std::vector<std::string>& names) {
+            options.cameras.clear();
+            for (const std::string& name : names)
+                options.cameras.push_back(parse_camera(name));
+            options.camera = options.cameras.front();
+        },
+        help + "; may repeat");
+}
+
+void add_background_flags(Flags& flags, SceneOptions& options) {
+    flags.add_parsed("--background", "COLOR", options.background, parse_background,
+                     "#rrggbb behind the scene, or sky");
+    flags.on_switch(
+        "--transparent", [&options] { options.background = Background{.shown = Backdrop::transparent}; },
+        "nothing behind the scene: a PNG or EXR with alpha; --alpha without a number is the same");
+    flags.add_switch("--ignore-file-settings", options.ignores_file_settings,
+                     "leave out light, ground, background, lens and film of a .vox file");
+}
+
 }  // namespace
 
 void add_photon_flags(Flags& flags, SettingsChanges& changes) {
@@ -113,26 +222,31 @@ void add_photon_flags(Flags& flags, SettingsChanges& changes) {
              "how slowly that radius declines, above 0 and up to 1, where it stays");
 }
 
-Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges) {
+Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     PlanRequest& request = options.request;
-    const Flag input = flags.add("INPUT", "", options.input, "a .vox file, or a scene file .toml");
+    const Flag input = add_input_flag(flags, options, pictures);
     flags.begin_group("Scene");
     flags.on<std::string>(
         "--size", "WxH",
-        [take = change(options.changes, &RenderSettings::size)](const std::string& text) {
+        [&options, take = change(options.changes, &RenderSettings::size)](const std::string& text) {
             take(parse_size("--size", text));
+            options.names_size = true;
         },
         "picture size in pixels");
-    flags.add_parsed("--camera", "SIDE", options.view, parse_view,
-                     "frame it from three-quarter, front, back, left, right, top or iso");
+    add_camera_flag(flags, options, pictures);
+    flags.add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
+                     "stand there: voxels and degrees, as the window says them");
+    add_projection_flags(flags, options);
+    add_background_flags(flags, options);
     flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
                      "render columns X0 to X1-1 and rows Y0 to Y1-1 only");
     flags.add("--frame", "N", options.frame, "one picture, of this frame of an animated scene").from_zero();
-    if (renders_ranges)
+    if (pictures != PicturesOf::scene)
         flags
             .add_parsed("--frames", "A-B[xS]", options.frames, parse_frames,
                         "a picture for each frame from A to B, every Sth: x.png gives x.0001.png, ...")
             .excludes("--frame");
+    if (pictures != PicturesOf::scene) add_turntable_flags(flags, options);
     flags.on<std::vector<std::string>>(
         "--effect", "NAME=STATE",
         [&request](const std::vector<std::string>& texts) {
@@ -162,22 +276,33 @@ Scene load_scene_with(const SceneOptions& options) {
     std::vector<std::string> overrides;
     if (options.quality != nullptr) overrides = overrides_of(*options.quality);
     overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    Scene scene = load_scene(options.input, {.overrides = overrides});
+    Scene scene = load_scene(
+        options.input, {.overrides = overrides, .ignores_file_settings = options.ignores_file_settings});
     set_iterations_of_quality(options, scene);
     for (const auto& change : options.changes)
         change(scene.settings);
     choose_techniques(options.techniques, scene.settings);
     scene.settings.spp = options.spp.value_or(scene.settings.spp);
-    if (options.view) {
-        const double fov_y_deg = scene.camera ? scene.camera->fov_y_deg : kDefaultFovYDeg;
-        scene.camera = framing_camera(scene, *options.view, fov_y_deg);
+    if (options.background) scene.background = *options.background;
+    if (options.turntable) {
+        scene.animation.turntable = Turntable{.frames = *options.turntable, .turned = options.turned};
         scene.animation.camera_keys.clear();
+    } else if (options.turned != Turned::camera) {
+        refuse("--turn needs --turntable");
     }
+    if (options.viewpoint) {
+        scene.camera = options.viewpoint;
+        scene.animation.camera_keys.clear();
+        scene.animation.turntable.reset();
+    }
+    apply_camera_flags(options, scene);
     return scene;
 }
 
 FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
     const std::optional<FrameRange> all = frames_of(scene);
+    if (options.turntable && !options.frames)
+        return {.first = 1, .last = *options.turntable, .is_sequence = true};
     if (!options.frames) {
         const std::int64_t frame = options.frame.value_or(all.value_or(FrameRange{}).first);
         return {.first = frame, .last = frame};
@@ -196,7 +321,7 @@ void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& re
 
 void print_frame_note(const SceneOptions& options, const Scene& scene) {
     const std::optional<FrameRange> all = frames_of(scene);
-    if (!all || options.frame || options.frames) return;
+    if (!all || options.frame || options.frames || options.turntable) return;
     print_message("note: this is frame {0} of an animation; --frames {0}-{1} renders all {2}\n", all->first,
                   all->last, all->last - all->first + 1);
 }

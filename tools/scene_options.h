@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "camera_choice.h"
 #include "flags.h"
 #include "jobs/frame_list.h"
 #include "plan/render_plan.h"
@@ -28,14 +29,28 @@ struct SceneOptions {
     SettingsChanges changes;
     std::vector<NamedTechnique> techniques;
     std::optional<std::uint32_t> spp;  // or iterations
-    std::optional<View> view;
-    std::optional<std::int64_t> frame;  // one picture
-    std::optional<FrameList> frames;    // a picture for each
-    PlanRequest request;                // the caller knows which channels its outputs hold
+    std::vector<std::string> inputs;   // of a render that takes several; `input` is the first
+    std::optional<CameraChoice> camera;
+    std::vector<CameraChoice> cameras;  // likewise
+    std::optional<Camera> viewpoint;
+    std::optional<Background> background;
+    bool ignores_file_settings = false;
+    std::optional<Projection> projection;
+    std::optional<double> pixels_per_voxel;
+    bool names_size = false;
+    std::optional<std::int64_t> frame;      // one picture
+    std::optional<FrameList> frames;        // a picture for each
+    std::optional<std::int64_t> turntable;  // of so many pictures, without [camera.turntable]
+    Turned turned = Turned::camera;
+    PlanRequest request;  // the caller knows which channels its outputs hold
 };
 
-// Returns the flag of INPUT. `renders_ranges`: with --frames, a picture for each.
-Flag add_scene_flags(Flags& flags, SceneOptions& options, bool renders_ranges = true);
+// What a subcommand makes of a scene: one picture, or a picture for each frame, too (--frames), or also one
+// for each of several inputs and cameras.
+enum class PicturesOf : std::uint8_t { scene, frames, inputs };
+
+// Returns the flag of INPUT.
+Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures = PicturesOf::frames);
 
 // --photons, --radius and --alpha.
 void add_photon_flags(Flags& flags, SettingsChanges& changes);

@@ -43,8 +43,13 @@ Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::
 void add_tone_flags(Flags& flags, ToneMapOptions& tone) {
     flags.add_parsed("--tone", "NAME", tone.curve, parse_tone,
                      "tone curve of a PNG: filmic or plain (default filmic)");
-    flags.add_parsed("--exposure", "EV|auto", tone.exposure_ev, parse_exposure,
-                     "exposure of a PNG in stops (default 0); auto shows its mean as middle grey");
+    flags.on<std::string>(
+        "--exposure", "EV|auto",
+        [&tone](const std::string& text) {
+            tone.exposure_ev = parse_exposure(text);
+            tone.is_exposure_given = true;
+        },
+        "exposure of a PNG in stops (default 0, or the file's); auto shows its mean as middle grey");
 }
 
 std::filesystem::path DeviceOptions::cache_dir() const {

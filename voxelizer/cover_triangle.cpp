@@ -16,7 +16,7 @@ HalfPlane half_plane(std::int64_t a, std::int64_t b, glm::ivec2 p, std::int64_t 
     return {a * unit, b * unit, bound + (is_strict ? 1 : 0)};
 }
 
-Projection project(const LatticeTriangle& triangle, int u, int v, std::int64_t unit) {
+PlaneProjection project(const LatticeTriangle& triangle, int u, int v, std::int64_t unit) {
     std::array<glm::ivec2, 3> p;
     for (std::size_t i = 0; i < 3; ++i)
         p[i] = {triangle[i][u], triangle[i][v]};
@@ -24,7 +24,7 @@ Projection project(const LatticeTriangle& triangle, int u, int v, std::int64_t u
     const glm::i64vec2 e = side(0);
     const glm::i64vec2 f = side(1);
     const std::int64_t area = e.x * f.y - e.y * f.x;
-    Projection result;
+    PlaneProjection result;
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::i64vec2 d = side(i);
         const auto add = [&](std::int64_t sign) {
@@ -94,7 +94,7 @@ CellBox cell_box(const LatticeTriangle& triangle, std::int32_t unit) {
     return {glm::min(glm::min(a, b), c) / unit, glm::max(glm::max(a, b), c) / unit};
 }
 
-CellRange Projection::cells_at(std::int32_t v, CellRange range) const {
+CellRange PlaneProjection::cells_at(std::int32_t v, CellRange range) const {
     std::int64_t first = range.first;
     std::int64_t last = range.last;
     for (int i = 0; i < count; ++i) {

@@ -46,7 +46,7 @@ struct HalfPlane {
 };
 
 // The triangle's projection along one axis. Three half-planes, or six when it is a segment or a point.
-struct Projection {
+struct PlaneProjection {
     std::array<HalfPlane, 6> rules;
     int count = 0;
 
@@ -74,7 +74,7 @@ struct Slab {
 // All that is known of a triangle before cells are visited.
 struct TriangleCover {
     CellBox box;
-    Projection xy, xz, yz;  // u is the first axis
+    PlaneProjection xy, xz, yz;  // u is the first axis
     Slab<std::int64_t> slab;
     Slab<__int128> wide_slab;  // for triangles too large for the other
     bool is_wide = false;

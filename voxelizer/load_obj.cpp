@@ -70,13 +70,26 @@ void read_uv(ObjLines& lines, ObjPoints& points, MeshNotes& notes) {
     points.uvs.push_back(is_finite ? uv : glm::vec2(0.0f));
 }
 
-void read_points(std::string_view text, ObjLoading& loading) {
+// The rest of the line is one name with blanks where such a file is there, else each word is a name.
+void read_libraries(ObjLoading& loading, ObjLines& lines) {
+    const std::string whole(lines.rest());
+    std::error_code ignored;
+    if (whole.find(' ') == std::string::npos ||
+        std::filesystem::exists(loading.library.folder / whole, ignored))
+        return load_mtl(whole, loading.library, loading.mesh, loading.notes);
+    for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word())
+        load_mtl(std::string(word), loading.library, loading.mesh, loading.notes);
+}
+
+// What faces name, wherever it stands in the file.
+void read_definitions(std::string_view text, ObjLoading& loading) {
     ObjLines lines(text);
     const std::uint64_t limit = loading.request.limits.vertices;
     while (lines.next_line()) {
         const std::string_view key = lines.next_word();
         if (key == "v") read_position(lines, loading.points);
         if (key == "vt") read_uv(lines, loading.points, loading.notes);
+        if (key == "mtllib") read_libraries(loading, lines);
         if (loading.points.positions.size() > limit || loading.points.uvs.size() > limit)
             lines.refuse(fmt::format("over {} vertices are not read", limit));
     }
@@ -161,17 +174,6 @@ void read_face(ObjLoading& loading, ObjLines& lines) {
         loading.mesh.triangles.push_back({{vertices[a], vertices[b], vertices[c]}, material});
 }
 
-// The rest of the line is one name with blanks where such a file is there, else each word is a name.
-void read_libraries(ObjLoading& loading, ObjLines& lines) {
-    const std::string whole(lines.rest());
-    std::error_code ignored;
-    if (whole.find(' ') == std::string::npos ||
-        std::filesystem::exists(loading.library.folder / whole, ignored))
-        return load_mtl(whole, loading.library, loading.mesh, loading.notes);
-    for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word())
-        load_mtl(std::string(word), loading.library, loading.mesh, loading.notes);
-}
-
 void use_material(ObjLoading& loading, const ObjLines& lines) {
     const std::string name(lines.rest());
     const auto found = loading.library.materials.find(name);
@@ -192,11 +194,9 @@ void read_faces(std::string_view text, ObjLoading& loading) {
             ++loading.uvs_so_far;
         else if (key == "f")
             read_face(loading, lines);
-        else if (key == "mtllib")
-            read_libraries(loading, lines);
         else if (key == "usemtl")
             use_material(loading, lines);
-        else if (key != "vn")
+        else if (key != "vn" && key != "mtllib")
             note_feature(FeatureKind::obj_keyword, key, loading.notes);
     }
 }
@@ -209,7 +209,7 @@ Mesh load_obj(std::span<const std::byte> bytes, const std::filesystem::path& fol
     loading.library.folder = folder;
     loading.library.budget.limits = request.limits;
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    read_points(text, loading);
+    read_definitions(text, loading);
     read_faces(text, loading);
     return std::move(loading.mesh);
 }

@@ -12,6 +12,7 @@ namespace voxilux {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r\v\f";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8
 
 std::string_view without_blanks(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kBlank);
@@ -20,6 +21,9 @@ std::string_view without_blanks(std::string_view text) {
 }
 
 }  // namespace
+
+ObjLines::ObjLines(std::string_view text)
+    : text_(text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0)) {}
 
 bool ObjLines::next_line() {
     while (at_ < text_.size()) {

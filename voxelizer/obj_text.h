@@ -9,10 +9,10 @@
 namespace voxilux {
 
 // The words of an OBJ or MTL file, line by line, without comments. A backslash at the end of a line joins the
-// next one to it.
+// next one to it. A byte order mark before the text is no part of it.
 class ObjLines {
   public:
-    explicit ObjLines(std::string_view text) : text_(text) {}
+    explicit ObjLines(std::string_view text);
     ObjLines(const ObjLines&) = delete;  // line_ may view joined_
     ObjLines& operator=(const ObjLines&) = delete;
 

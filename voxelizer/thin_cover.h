@@ -28,7 +28,7 @@ class LineCrossings {
     [[nodiscard]] std::int64_t crossing(std::int32_t u, std::int32_t v) const;
 
   private:
-    Projection projection_;
+    PlaneProjection projection_;
     std::int64_t area_ = 0;
     std::array<__int128, 3> normal_{};  // along u, v and the axis; the last above 0
     glm::ivec3 corner_{0};              // likewise

@@ -1,6 +1,7 @@
 #include "estimators/metrics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/statistics.h"
 
 namespace voxilux {
@@ -15,11 +17,26 @@ namespace {
 
 using ColourPlanes = std::array<std::span<const float>, 3>;
 
+// The first few names of channels, for a message.
+std::string names_text(const Image& image) {
+    constexpr std::size_t kMostNames = 8;
+    std::vector<std::string> names;
+    for (const auto& [name, channel] : image.channels) {
+        if (names.size() == kMostNames) {
+            names.emplace_back("...");
+            break;
+        }
+        names.push_back(quoted_name(name));
+    }
+    return names.empty() ? "none at all" : fmt::format("{}", fmt::join(names, ", "));
+}
+
 ColourPlanes colours_of(const Image& image, const char* which) {
     const auto planes = colour_planes(image);
     if (!planes) {
-        throw Error(ExitCode::input_refused,
-                    fmt::format("the {} has no channels R, G, B and no channel Y", which));
+        throw Error(
+            ExitCode::input_refused,
+            fmt::format("the {} has no channels R, G, B and no channel Y, but {}", which, names_text(image)));
     }
     return *planes;
 }

@@ -30,6 +30,7 @@ std::string channel_of(const std::string& plane, std::size_t component, std::siz
     if (plane == "normal") return fmt::format("N.{}", kXyz[component]);
     if (plane == "position") return fmt::format("P.{}", kXyz[component]);
     if (plane == "depth") return "Z";
+    if (plane == "coverage") return "A";
     return fmt::format("{}.{}", plane, components == 1 ? "Y" : kRgb[component]);
 }
 
@@ -107,6 +108,19 @@ void add_bias(const FilmSums& film, Image& image) {
     sums = film.sums.at("bias_a");
     std::ranges::transform(sums, film.sums.at("bias_b"), sums.begin(), wrapped_sum);
     add_means(whole, "bias", image);
+}
+
+bool is_aov(const std::string& plane) {
+    return !is_half(plane) && plane != kSquaresPlane;
+}
+
+// The beauty, its variance and its bias.
+Image beauty_of(const FilmSums& film) {
+    const FilmHalves halves(film);
+    Image image = film_image(film.width, film.height, halves.a, halves.b);
+    if (film.sums.contains(kSquaresPlane)) add_variance(film, halves, image);
+    if (film.sums.contains("bias_a")) add_bias(film, image);
+    return image;
 }
 
 // Sums that are 0 or above; a full one stays full, so that the order does not matter.
@@ -188,29 +202,60 @@ void add_film(FilmSums& film, const FilmSums& more) {
     VX_ASSERT(film.width == more.width && film.height == more.height);
     VX_ASSERT_EQ(film.sums.size(), more.sums.size());
     add_firsts(film, more);
-    for (auto& [name, sums] : film.sums) {
-        const std::vector<std::int64_t>& others = more.sums.at(name);
-        VX_ASSERT_EQ(sums.size(), others.size());
-        std::ranges::transform(sums, others, sums.begin(), name == kSquaresPlane ? full_sum : wrapped_sum);
-    }
+    add_rows(film, 0, more);
     std::ranges::transform(film.even, more.even, film.even.begin(), std::plus());
     std::ranges::transform(film.odd, more.odd, film.odd.begin(), std::plus());
 }
 
+void add_rows(FilmSums& film, std::size_t first, const FilmSums& rows) {
+    VX_ASSERT_EQ(film.width, rows.width);
+    VX_ASSERT(first + static_cast<std::size_t>(rows.height) <= static_cast<std::size_t>(film.height));
+    for (const auto& [name, more] : rows.sums) {
+        const std::size_t row_sums = more.size() / static_cast<std::size_t>(rows.height);
+        std::vector<std::int64_t>& sums = film.sums[name];
+        if (sums.empty()) sums.resize(row_sums * static_cast<std::size_t>(film.height));
+        VX_ASSERT_EQ(sums.size(), row_sums * static_cast<std::size_t>(film.height));
+        const auto own = std::span(sums).subspan(first * row_sums, more.size());
+        std::ranges::transform(own, more, own.begin(), name == kSquaresPlane ? full_sum : wrapped_sum);
+    }
+}
+
+void set_firsts(FilmSums& film, std::size_t first, const FilmSums& rows) {
+    for (const auto& [name, more] : rows.firsts) {
+        const std::size_t row_values = more.size() / static_cast<std::size_t>(rows.height);
+        std::vector<float>& values = film.firsts[name];
+        values.resize(row_values * static_cast<std::size_t>(film.height));
+        std::ranges::copy(more, values.begin() + static_cast<std::ptrdiff_t>(first * row_values));
+    }
+}
+
 Image picture_of(const FilmSums& film) {
-    const FilmHalves halves(film);
-    Image image = film_image(film.width, film.height, halves.a, halves.b);
+    Image image = beauty_of(film);
     for (const auto& [name, sums] : film.sums) {
-        if (!is_half(name) && name != kSquaresPlane) add_means(film, name, image);
+        if (is_aov(name)) add_means(film, name, image);
     }
     for (const auto& [name, values] : film.firsts)
         add_first(film, name, image);
-    if (film.sums.contains(kSquaresPlane)) add_variance(film, halves, image);
-    if (film.sums.contains("bias_a")) add_bias(film, image);
+    return image;
+}
+
+Image picture_of(FilmSums&& film) {
+    Image aovs;
+    for (auto plane = film.sums.begin(); plane != film.sums.end();) {
+        if (is_aov(plane->first)) add_means(film, plane->first, aovs);
+        plane = is_aov(plane->first) ? film.sums.erase(plane) : std::next(plane);
+    }
+    for (const auto& [name, values] : film.firsts)
+        add_first(film, name, aovs);
+    film.firsts.clear();
+    Image image = beauty_of(film);
+    film.sums.clear();
+    image.channels.merge(aovs.channels);
     return image;
 }
 
 void store_sums(FilmSums film, Image& image) {
+    film.firsts.clear();  // the image has them
     while (!film.sums.empty()) {
         const auto plane = film.sums.extract(film.sums.begin());
         const std::size_t components = plane.mapped().size() / pixels_of(film);

@@ -44,11 +44,20 @@ struct FilmHalves {
 // `film` stay.
 void add_film(FilmSums& film, const FilmSums& more);
 
+// Adds rows of another film of the same planes, which begin at row `first`; planes that `film` lacks are
+// made. The samples of rows are left as they are, and so are positions and depths.
+void add_rows(FilmSums& film, std::size_t first, const FilmSums& rows);
+// Takes positions and depths from such rows.
+void set_firsts(FilmSums& film, std::size_t first, const FilmSums& rows);
+
 // The pictures: those of film_image(), and for every other plane its mean over all samples, named
-// PLANE.R .G .B or PLANE.Y; N.X .Y .Z for normals; P.X .Y .Z and Z of the first sample. variance.R .G .B is
-// the variance of the beauty by mean_variance(); above the truth where samples are not independent. bias.R .G
-// .B is what the radius of the photons adds to the beauty.
+// PLANE.R .G .B or PLANE.Y; A for the coverage, which the beauty is multiplied by; N.X .Y .Z for normals; P.X
+// .Y .Z and Z of the first sample. variance.R .G .B is the variance of the beauty by mean_variance(); above
+// the truth where samples are not independent. bias.R .G .B is what the radius of the photons adds to the
+// beauty.
 [[nodiscard]] Image picture_of(const FilmSums& film);
+// The same, with the planes gone one by one as they are used: there is hardly ever a second copy in memory.
+[[nodiscard]] Image picture_of(FilmSums&& film);
 
 // Moves the sums into the whole-number planes of an image: sums.PLANE.COMPONENT.lo and .hi (kSumsLayer).
 // Planes leave the film one by one, so that there is hardly ever a second copy in memory.

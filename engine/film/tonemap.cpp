@@ -22,6 +22,18 @@ void count(float value, DisplayImage& display) {
     }
 }
 
+// Colours of an image with A, without it.
+float straight(float value, float alpha) {
+    return alpha > 0.0f ? value / alpha : 0.0f;
+}
+
+// The code of a shown value that covers the share `alpha` of a pixel before a background.
+std::uint8_t code_over(float shown, float alpha, float background) {
+    const float behind = gpu::encode_srgb(glm::clamp(background, 0.0f, 1.0f));
+    const float code = alpha * gpu::encode_srgb(shown) + (1.0f - alpha) * behind;
+    return static_cast<std::uint8_t>(std::clamp(code, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
 }  // namespace
 
 float tone_map(float linear, ToneMap curve) {
@@ -53,6 +65,9 @@ DisplayImage to_display(const Image& image, const ToneMapOptions& options) {
     const float ev = options.exposure_ev ? *options.exposure_ev : automatic_exposure_ev(image);
     const float scale = std::min(std::exp2(ev), std::numeric_limits<float>::max());
     const std::array<float, 256> decoded = decoded_srgb_codes();
+    const auto coverage = image.channels.find("A");
+    const std::vector<float>* alpha = coverage != image.channels.end() ? &coverage->second.pixels : nullptr;
+    if (alpha != nullptr && !options.background) display.image.channels["A"].pixels = *alpha;
     const std::array<float, 3> magenta = {1.0f, 0.0f, 1.0f};
     for (std::size_t c = 0; c < names.size(); ++c) {
         std::vector<float>& shown = display.image.channels[names[c]].pixels;
@@ -62,7 +77,16 @@ DisplayImage to_display(const Image& image, const ToneMapOptions& options) {
             const bool has_nan =
                 options.debug_nan &&
                 (std::isnan((*planes)[0][i]) || std::isnan((*planes)[1][i]) || std::isnan((*planes)[2][i]));
-            shown[i] = has_nan ? magenta[c] : decoded[srgb_code(tone_map(value * scale, options.curve))];
+            if (has_nan) {
+                shown[i] = magenta[c];
+                continue;
+            }
+            const float own = alpha != nullptr ? straight(value, (*alpha)[i]) : value;
+            const float mapped = tone_map(own * scale, options.curve);
+            const bool is_laid = alpha != nullptr && options.background.has_value();
+            shown[i] =
+                decoded[is_laid ? code_over(mapped, (*alpha)[i], (*options.background)[static_cast<int>(c)])
+                                : srgb_code(mapped)];
         }
     }
     return display;

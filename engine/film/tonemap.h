@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include <glm/glm.hpp>
+
 #include "formats/image.h"
 
 namespace voxilux {
@@ -12,8 +14,10 @@ enum class ToneMap : std::uint8_t { plain, filmic };
 struct ToneMapOptions {
     ToneMap curve = ToneMap::filmic;
     std::optional<float> exposure_ev =
-        0.0f;                // stops: colours are multiplied by 2^exposure_ev; none: automatic
-    bool debug_nan = false;  // a pixel with a NaN becomes magenta instead of black
+        0.0f;                             // stops: colours are multiplied by 2^exposure_ev; none: automatic
+    bool is_exposure_given = false;       // by the user, and so stronger than a scene's
+    std::optional<glm::vec3> background;  // linear; what an image with an A is laid over
+    bool debug_nan = false;               // a pixel with a NaN becomes magenta instead of black
 };
 
 // An image for the screen, and how many values had no place on it.
@@ -35,7 +39,9 @@ struct DisplayImage {
 [[nodiscard]] float automatic_exposure_ev(const Image& image);
 
 // Exposes, tone maps and rounds to 8-bit sRGB codes; the result holds their decoded values, so write_png
-// stores just these codes. Needs R G B or Y (asserted).
+// stores just these codes. Needs R G B or Y (asserted). Of an image with A, whose colours are multiplied by
+// it, the result has straight colours and A; or it is laid over the background, code by code, as browsers
+// and paint programs lay images over each other.
 [[nodiscard]] DisplayImage to_display(const Image& image, const ToneMapOptions& options = {});
 
 }  // namespace voxilux

@@ -134,7 +134,8 @@ Imf::Header make_header(const Image& image, const ExrOptions& options) {
     return header;
 }
 
-// The planes as they are stored; they outlive the frame buffer that points into them.
+// The planes as they are stored, but for those that are stored as the image has them. They outlive the frame
+// buffer that points into them.
 struct Planes {
     std::map<std::string, std::vector<half>> halves;
     std::map<std::string, std::vector<float>> singles;
@@ -150,6 +151,7 @@ Planes make_planes(const Image& image, WriteReport& report) {
             for (const float v : channel.pixels)
                 plane.emplace_back(storable(v, kLargestHalf, report));
         } else {
+            if (std::ranges::all_of(channel.pixels, [](float v) { return std::isfinite(v); })) continue;
             std::vector<float>& plane = planes.singles[name];
             plane.reserve(channel.pixels.size());
             const float largest = std::numeric_limits<float>::max();
@@ -171,8 +173,13 @@ void write_planes(Imf::OStream& stream, const Imf::Header& header, const Planes&
     const Imath::Box2i window = header.dataWindow();
     for (const auto& [name, plane] : planes.halves)
         frame.insert(name, slice_of(Imf::HALF, plane, window));
-    for (const auto& [name, plane] : planes.singles)
-        frame.insert(name, slice_of(Imf::FLOAT, plane, window));
+    for (const auto& [name, channel] : image.channels) {
+        if (planes.halves.contains(name)) continue;
+        const auto changed = planes.singles.find(name);
+        frame.insert(
+            name,
+            slice_of(Imf::FLOAT, changed == planes.singles.end() ? channel.pixels : changed->second, window));
+    }
     for (const auto& [name, words] : image.words) {
         VX_ASSERT_EQ(words.size(), pixel_count(image));
         frame.insert(name, slice_of(Imf::UINT, words, window));

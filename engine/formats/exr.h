@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,7 @@ struct ExrOptions {
     bool reproducible = false;  // leaves the date out, so that equal pixels give equal bytes
     std::string software = "voxilux";
     std::string comments;
+    std::optional<glm::vec3> background;  // linear; what an image with an A is laid over before it is written
     std::optional<glm::mat4> world_to_camera;  // acting on column vectors, as GLM does
     std::optional<glm::mat4> world_to_ndc;
 };
@@ -59,9 +61,24 @@ WriteReport write_exr(const std::filesystem::path& path, const Image& image, con
 // for whatever cannot be read, deep and subsampled data included.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
 
-// The first part of an EXR as it was written: the data window alone, UINT channels as whole numbers. Throws
-// as read_exr.
-[[nodiscard]] Image read_exr_part(const std::filesystem::path& path);
+// The first part of an EXR as it was written, some rows at a time: the data window alone, UINT channels as
+// whole numbers. Everything throws as read_exr.
+class ExrRows {
+  public:
+    explicit ExrRows(const std::filesystem::path& path);
+    ~ExrRows();
+    ExrRows(const ExrRows&) = delete;
+    ExrRows& operator=(const ExrRows&) = delete;
+
+    // Size and attributes of the whole, without planes.
+    [[nodiscard]] const Image& head() const;
+    // `count` rows from `first` on, row 0 on top.
+    [[nodiscard]] Image read(int first, int count);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 // As read_exr, from bytes in memory; `name` stands for the file in messages.
 [[nodiscard]] Image decode_exr(std::span<const std::byte> bytes, const std::string& name);

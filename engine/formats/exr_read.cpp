@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -43,6 +45,33 @@ class MemoryStream : public Imf::IStream {
   private:
     std::span<const std::byte> bytes_;
     std::size_t at_ = 0;
+};
+
+// A file as it lies on the disk.
+class FileStream : public Imf::IStream {
+  public:
+    explicit FileStream(const std::filesystem::path& path)
+        : Imf::IStream(path.string().c_str()), in_(path, std::ios::binary) {
+        if (!in_)
+            throw Error(ExitCode::input_refused,
+                        fmt::format("{}: cannot open: {}", path.string(), std::strerror(errno)));
+    }
+
+    bool read(char c[], int n) override {
+        if (!in_.read(c, n)) throw std::runtime_error("the file ends early");
+        return in_.peek() != std::ifstream::traits_type::eof();
+    }
+    std::uint64_t tellg() override {
+        return static_cast<std::uint64_t>(static_cast<std::streamoff>(in_.tellg()));
+    }
+    void seekg(std::uint64_t position) override {
+        in_.clear();
+        in_.seekg(static_cast<std::streamoff>(position));
+    }
+    void clear() override { in_.clear(); }
+
+  private:
+    std::ifstream in_;
 };
 
 struct Window {
@@ -128,12 +157,6 @@ void read_attributes(const Imf::Header& header, Image& image) {
     }
 }
 
-// What is read of a file.
-enum class Area {
-    frame,  // the display window, sums left out
-    data,   // the data window, whole numbers as such
-};
-
 template <class T>
 Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box2i& box) {
     static_assert(sizeof(T) == 4);
@@ -143,49 +166,61 @@ Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box
                             sizeof(T) * static_cast<std::size_t>(data.width));
 }
 
-void read_channels(Imf::InputPart& part, Area area, Image& image) {
+// The channels inside `box`, rows of the data window. Whole numbers are read as such into `image.words`, or,
+// with `as_float`, as numbers like others, but for sums.
+void read_channels(Imf::InputPart& part, const Imath::Box2i& box, bool as_float, Image& image) {
     const Imf::Header& header = part.header();
-    const Imath::Box2i box = header.dataWindow();
-    std::map<std::string, std::vector<float>> planes;
     Imf::FrameBuffer frame;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         const std::string name = printable(c.name());
         if (image.channels.contains(name) || image.words.contains(name))
             throw std::runtime_error(fmt::format("two channels are called {}", quoted_name(name)));
         const bool is_whole_number = c.channel().type == Imf::UINT;
-        if (is_whole_number && area == Area::data) {
+        if (is_whole_number && !as_float) {
             frame.insert(c.name(), slice_of(Imf::UINT, image.words[name], box));
         } else if (!is_whole_number || !name.starts_with(kSumsLayer)) {
-            frame.insert(c.name(), slice_of(Imf::FLOAT, planes[name], box));
-            image.channels[name].precision =
+            Image::Channel& channel = image.channels[name];
+            frame.insert(c.name(), slice_of(Imf::FLOAT, channel.pixels, box));
+            channel.precision =
                 c.channel().type == Imf::HALF ? Image::Precision::half : Image::Precision::single;
         }
     }
     part.setFrameBuffer(frame);
     part.readPixels(box.min.y, box.max.y);
-    const bool is_whole = area == Area::data || header.dataWindow() == header.displayWindow();
-    for (auto& [name, plane] : planes)
-        image.channels[name].pixels =
-            is_whole ? std::move(plane)
-                     : place(plane, window_of(header.dataWindow()), window_of(header.displayWindow()));
 }
 
-Image decode(std::span<const std::byte> bytes, const std::string& name, Area area) {
+Image read_frame(Imf::MultiPartInputFile& file) {
+    Imf::InputPart part(file, 0);
+    const Imf::Header& header = part.header();
+    const Window display = window_of(header.displayWindow());
+    Image image{.width = static_cast<int>(display.width),
+                .height = static_cast<int>(display.height),
+                .stored = stored_pixels(header)};
+    read_attributes(header, image);
+    read_channels(part, header.dataWindow(), true, image);
+    if (header.dataWindow() == header.displayWindow()) return image;
+    for (auto& [name, channel] : image.channels)
+        channel.pixels = place(channel.pixels, window_of(header.dataWindow()), display);
+    return image;
+}
+
+// The library sizes tables from the header while it opens a file; this makes it look at the header first.
+void limit_library() {
+    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
+}
+
+std::unique_ptr<Imf::IStream> open_stream(const std::filesystem::path& path) {
+    limit_library();
+    return std::make_unique<FileStream>(path);
+}
+
+// What `read` returns; whatever it throws becomes one line.
+template <class Read>
+auto guarded(const std::string& name, Read read) {
     try {
-        // The library sizes tables from the header while it opens a file; this makes it look at the header
-        // first.
-        Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
-        MemoryStream stream(bytes, name);
-        Imf::MultiPartInputFile file(stream, 0, false);
-        const Imf::Header& header = file.header(0);
-        check_header(header, bytes.size());
-        const Window window = window_of(area == Area::data ? header.dataWindow() : header.displayWindow());
-        Image image{.width = static_cast<int>(window.width), .height = static_cast<int>(window.height)};
-        if (area == Area::frame) image.stored = stored_pixels(header);
-        Imf::InputPart part(file, 0);
-        read_attributes(part.header(), image);
-        read_channels(part, area, image);
-        return image;
+        return read();
+    } catch (const Error&) {
+        throw;
     } catch (const std::exception& cause) {
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: not a readable EXR: {}", name, printable(cause.what())));
@@ -194,16 +229,56 @@ Image decode(std::span<const std::byte> bytes, const std::string& name, Area are
 
 }  // namespace
 
+struct ExrRows::State {
+    explicit State(const std::filesystem::path& path)
+        : name(path.string()), stream(open_stream(path)), file(*stream, 0, false) {
+        check_header(file.header(0), std::filesystem::file_size(path));
+        part.emplace(file, 0);
+        const Window data = window_of(part->header().dataWindow());
+        head = {.width = static_cast<int>(data.width), .height = static_cast<int>(data.height)};
+        read_attributes(part->header(), head);
+    }
+
+    std::string name;
+    std::unique_ptr<Imf::IStream> stream;
+    Imf::MultiPartInputFile file;
+    std::optional<Imf::InputPart> part;
+    Image head;
+};
+
+ExrRows::ExrRows(const std::filesystem::path& path)
+    : state_(guarded(path.string(), [&] { return std::make_unique<State>(path); })) {}
+
+ExrRows::~ExrRows() = default;
+
+const Image& ExrRows::head() const {
+    return state_->head;
+}
+
+Image ExrRows::read(int first, int count) {
+    VX_ASSERT(first >= 0 && count > 0 && count <= state_->head.height - first);
+    return guarded(state_->name, [&] {
+        Imath::Box2i box = state_->part->header().dataWindow();
+        box.min.y += first;
+        box.max.y = box.min.y + count - 1;
+        Image rows{.width = state_->head.width, .height = count};
+        read_channels(*state_->part, box, false, rows);
+        return rows;
+    });
+}
+
 Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
-    return decode(bytes, name, Area::frame);
+    return guarded(name, [&] {
+        limit_library();
+        MemoryStream stream(bytes, name);
+        Imf::MultiPartInputFile file(stream, 0, false);
+        check_header(file.header(0), bytes.size());
+        return read_frame(file);
+    });
 }
 
 Image read_exr(const std::filesystem::path& path) {
     return decode_exr(read_file(path, kMaxExrFileBytes), path.string());
-}
-
-Image read_exr_part(const std::filesystem::path& path) {
-    return decode(read_file(path, kMaxExrFileBytes), path.string(), Area::data);
 }
 
 }  // namespace voxilux

@@ -10,9 +10,12 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "formats/toml_scene.h"
+#include "formats/vox_objects.h"
 #include "formats/vox_read.h"
+#include "scene/animation.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"
+#include "scene/vox_settings.h"
 
 namespace voxilux {
 namespace {
@@ -119,7 +122,7 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
     }
     const TomlSection sections(root, "the scene",
                                {"render", "ao", "photons", "paths", "technique", "camera", "sun", "sky",
-                                "material", "model", "shape", "sphere"});
+                                "background", "ground", "material", "model", "shape", "sphere"});
     TomlScene in{.root = root, .folder = file.parent_path(), .frame = options.frame, .scene = scene};
     visit_sections(scene, [&](std::string_view name, auto& settings) {
         if (const toml::table* table = find_section(in, name))
@@ -130,6 +133,13 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
     read_models(in);
     read_shapes(in);
     read_spheres(in);
+    if (const toml::table* ground = find_section(in, "ground"); ground != nullptr && !ground->contains("on"))
+        scene.ground.on = true;
+    const toml::table* background = find_section(in, "background");
+    const bool has_colour =
+        background != nullptr && (background->contains("color") || background->contains("radiance"));
+    if (has_colour && !background->contains("shown")) scene.background.shown = Backdrop::color;
+    if (scene.ground.on && !scene.ground.height) scene.ground.height = bounds_of_frames(scene).lo.z;
     read_camera(in);
 }
 
@@ -175,7 +185,9 @@ Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) 
     const std::string extension = lower_extension(file);
     if (extension == ".vox") {
         Scene scene;
-        place_vox(scene, add_vox(scene, load_vox(file), options.frame), Rotation{}, glm::ivec3(0));
+        const VoxFile vox = load_vox(file);
+        place_vox(scene, add_vox(scene, vox, options.frame), Rotation{}, glm::ivec3(0));
+        if (!options.ignores_file_settings) apply_vox_settings(vox, render_objects(vox), scene);
         toml::table root;
         read_tree(root, file, options, scene);
         return scene;

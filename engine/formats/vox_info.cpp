@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
+#include "formats/vox_objects.h"
 #include "scene/vox_graph.h"
 #include "scene/vox_instances.h"
+#include "scene/vox_settings.h"
 
 namespace voxilux {
 namespace {
@@ -105,6 +107,52 @@ std::string text_of(const std::map<std::string, std::size_t>& counts) {
     return text.empty() ? "none" : text;
 }
 
+nlohmann::json json_of(const VoxDict& dict) {
+    nlohmann::json object = nlohmann::json::object();
+    for (const auto& [key, value] : dict)
+        object[printable(key, kNameLength)] = printable(value);
+    return object;
+}
+
+nlohmann::json json_of(const SavedCamera& saved) {
+    const Camera& camera = saved.camera;
+    return {{"name", saved.name},
+            {"position", {camera.position.x, camera.position.y, camera.position.z}},
+            {"yaw_deg", camera.yaw_deg},
+            {"pitch_deg", camera.pitch_deg},
+            {"fov_y_deg", camera.fov_y_deg},
+            {"projection", kProjectionNames[static_cast<std::size_t>(camera.projection)]},
+            {"height", saved.height}};
+}
+
+template <class T>
+nlohmann::json list_of(const std::vector<T>& items) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const T& item : items)
+        list.push_back(json_of(item));
+    return list;
+}
+
+// "_inf: _i 0.7, _k 255 255 255".
+std::string text_of(const VoxDict& dict) {
+    std::string text;
+    for (const auto& [key, value] : dict) {
+        const std::string shown = printable(value, kNameLength);
+        if (key == "_type") continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", printable(key, kNameLength), shown);
+    }
+    const std::string* type = find_value(dict, "_type");
+    return fmt::format("{}: {}", type != nullptr ? printable(*type, kNameLength) : "(no type)", text);
+}
+
+std::string text_of(const SavedCamera& saved) {
+    const Camera& camera = saved.camera;
+    return fmt::format("{}: at {:.6g} {:.6g} {:.6g}, yaw {:.6g}, pitch {:.6g}, fov {:.6g}, {}", saved.name,
+                       camera.position.x, camera.position.y, camera.position.z, camera.yaw_deg,
+                       camera.pitch_deg, camera.fov_y_deg,
+                       kProjectionNames[static_cast<std::size_t>(camera.projection)]);
+}
+
 }  // namespace
 
 Result<VoxInfo> summarize(const VoxFile& file) {
@@ -115,6 +163,8 @@ Result<VoxInfo> summarize(const VoxFile& file) {
                  .old_materials = file.old_materials.size(),
                  .has_palette = file.has_palette,
                  .has_imap = file.imap.has_value(),
+                 .settings = render_objects(file),
+                 .saved_cameras = saved_cameras(file),
                  .warnings = file.warnings};
     auto placed = has_graph(file) ? vox_instances(file, 0) : Result(corner_instances(file));
     if (!placed) return Failure{placed.reason()};
@@ -158,6 +208,8 @@ nlohmann::json to_json(const VoxInfo& info) {
             {"index0", info.index0},
             {"imap", info.has_imap},
             {"unknown_chunks", nlohmann::json(info.unknown_chunks)},
+            {"settings", list_of(info.settings)},
+            {"saved_cameras", list_of(info.saved_cameras)},
             {"warnings", info.warnings}};
 }
 
@@ -180,7 +232,12 @@ std::string describe(const VoxInfo& info) {
     line("materials", text_of(info.materials));
     if (info.old_materials > 0) line("old materials", fmt::format("{} (MATT)", info.old_materials));
     line("layers", fmt::format("{}", info.layers));
-    line("cameras", fmt::format("{}", info.cameras));
+    const std::string set = fmt::format(", {} of them set", info.saved_cameras.size());
+    line("cameras", fmt::format("{}{}", info.cameras, info.cameras > 0 ? set : ""));
+    for (const SavedCamera& camera : info.saved_cameras)
+        line("", text_of(camera));
+    for (std::size_t i = 0; i < info.settings.size(); ++i)
+        line(i == 0 ? "settings" : "", text_of(info.settings[i]));
     line("frames", fmt::format("{} keys in a transform, {} models in a shape, at most", info.max_frames,
                                info.max_models_per_shape));
     line("oddities", fmt::format("{} voxels out of size, {} duplicates, {} of index 0", info.out_of_size,

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/error.h"
+#include "scene/scene.h"
 #include "scene/vox_file.h"
 
 namespace voxilux {
@@ -40,6 +41,8 @@ struct VoxInfo {
     std::uint64_t duplicates = 0;
     std::uint64_t index0 = 0;
     std::map<std::string, std::size_t> unknown_chunks;  // by id
+    std::vector<VoxDict> settings;                      // render_objects()
+    std::vector<SavedCamera> saved_cameras;             // those that were set
     std::vector<std::string> warnings;
 };
 

@@ -69,6 +69,8 @@ std::vector<EqualDispatchTiles> tiles_of(const RenderPlan& plan) {
     return all;
 }
 
+constexpr std::uint64_t kLeastPhotonStore = 1u << 20;  // bytes
+
 // Any camera: what is recorded does not depend on it.
 gpu::FrameParams some_params() {
     gpu::FrameParams params{};
@@ -130,7 +132,7 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
         FrameState state = fullest_state(plan);
         for (std::uint32_t i = 0; i < std::min(samples, 2u); ++i) {
             Recording recording;
-            record(plan, equal.tile, params, {plan.shard.sample(i), state, plan.shard.index}, recording);
+            record(plan, equal.tile, params, {plan.part.sample(i), state, plan.part.first()}, recording);
             sum.add(recording, equal.count * (i == 0 ? 1 : samples - 1));
             state.finish_sample(params);
         }
@@ -149,7 +151,19 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
 RenderPlan plan_within_memory(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                               const PlanRequest& request, const DeviceLimits& limits) {
     RenderPlan plan = plan_render(scene, facts, world, request, limits);
-    check_memory(footprint(plan), request.memory_budget_bytes, limits);
+    Footprint needs = footprint(plan);
+    // Shorter runs of photons give the same picture in less memory.
+    PlanRequest with_runs = request;
+    with_runs.photon_store_bytes = limits.max_binding_bytes;
+    const auto is_over = [&] {
+        return request.memory_budget_bytes != 0 && needs.total_bytes() > request.memory_budget_bytes;
+    };
+    while (is_over() && plan.photons.runs() && with_runs.photon_store_bytes > kLeastPhotonStore) {
+        with_runs.photon_store_bytes /= 2;
+        plan = plan_render(scene, facts, world, with_runs, limits);
+        needs = footprint(plan);
+    }
+    check_memory(needs, request.memory_budget_bytes, limits);
     return plan;
 }
 

@@ -14,6 +14,7 @@
 #include "passes/upload.h"
 #include "plan/film_planes.h"
 #include "shared/hash.h"
+#include "shared/projection.h"
 
 namespace voxilux {
 namespace {
@@ -34,10 +35,20 @@ gpu::vec3 dual_axis(gpu::vec3 half_axis) {
     return half_axis / glm::dot(half_axis, half_axis);
 }
 
+// Wanted width of an occlusion cell at distance 1, or of a camera with parallel rays at any.
+float wanted_cell_width(const RenderPlan& plan, const gpu::FrameParams& params) {
+    const float cell_px = plan.settings.ao.cell_px;
+    if (plan.projection == Projection::perspective)
+        return cell_px * 2.0f * glm::length(params.camera_up) / static_cast<float>(params.height);
+    return cell_px * gpu::pixel_width(params, static_cast<gpu::uint>(plan.projection));
+}
+
 gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, const SampleNumber& number) {
     const FrameState& state = number.state;
     const gpu::FrameParams& last = state.last_camera.value_or(params);
     const auto frame = static_cast<gpu::uint>(state.frames_done);  // wraps
+    const bool is_parallel = plan.projection == Projection::orthographic;
+    const float width = wanted_cell_width(plan, params);
     return {.last_camera_cell = last.camera_cell,
             .last_camera_fraction = last.camera_fraction,
             .last_right = dual_axis(last.camera_right),
@@ -49,8 +60,8 @@ gpu::AoParams ao_params(const RenderPlan& plan, const gpu::FrameParams& params, 
             .table_mask = plan.ao.slots - 1,
             .max_age = cell_age(plan, state.live_cells),
             .sample_limit = plan.settings.ao.sample_limit,
-            .cell_width = plan.settings.ao.cell_px * 2.0f * glm::length(params.camera_up) /
-                          static_cast<float>(params.height)};
+            .cell_width = is_parallel ? 0.0f : width,
+            .parallel_width = is_parallel ? width : 0.0f};
 }
 
 AoStep ao_step(const RenderPlan& plan, const gpu::FrameParams& params, const SampleNumber& number) {

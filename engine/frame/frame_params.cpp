@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "frame/frame.h"
 #include "scene/atmosphere.h"
@@ -17,7 +18,39 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 origin, double aspect) {
+// The corner of an image on the pixel grid as a corner of voxels and the pixels from there to the image's.
+glm::uvec2 split_corner(glm::dvec3& corner, const glm::dmat3& basis, double pixels_per_voxel) {
+    glm::uvec2 pixel(0);
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::dvec3 along = axis == 0 ? basis[0] : -basis[1];
+        const double place = glm::dot(corner, along);
+        const double pixels = std::round(place * pixels_per_voxel);
+        const double voxel = std::floor(pixels / pixels_per_voxel);
+        corner += (voxel - place) * along;
+        pixel[axis] = static_cast<gpu::uint>(pixels - voxel * pixels_per_voxel);
+    }
+    const glm::bvec3 is_across = glm::equal(basis[2], glm::dvec3(0.0));
+    corner = glm::mix(corner, glm::round(corner), is_across);
+    return pixel;
+}
+
+// `local`: the middle of an orthographic image.
+void place_image(gpu::FrameParams& params, const Camera& camera, glm::dvec3 local, glm::dvec2 size) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const double scale = camera.pixels_per_voxel;
+    VX_ASSERT(scale > 0.0);
+    glm::dvec3 corner = local + (size.y * basis[1] - size.x * basis[0]) / (2.0 * scale);
+    const bool has_grid = has_pixel_grid(camera);
+    if (has_grid) params.camera_pixel = split_corner(corner, basis, scale);
+    params.camera_block = has_grid ? static_cast<gpu::uint>(scale) : 1u;
+    const double block = has_grid ? 1.0 : 1.0 / scale;
+    params.camera_right = glm::vec3(basis[0] * block);
+    params.camera_up = glm::vec3(basis[1] * block);
+    params.camera_cell = glm::ivec3(glm::floor(corner));
+    params.camera_fraction = glm::vec3(corner - glm::floor(corner));
+}
+
+void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 origin, glm::ivec2 size) {
     const glm::dvec3 local = camera.position - glm::dvec3(origin);
     const glm::dvec3 cell = glm::floor(local);
     for (int a = 0; a < 3; ++a) {
@@ -31,10 +64,16 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
     params.camera_cell = glm::ivec3(cell);
     params.camera_fraction = glm::vec3(local - cell);
     const glm::dmat3 basis = camera_basis(camera);
-    const double half_height = std::tan(radians(camera.fov_y_deg) / 2.0);
+    params.camera_forward = glm::vec3(basis[2]);
+    params.camera_block = 1;
+    if (camera.projection == Projection::orthographic)
+        return place_image(params, camera, local, glm::dvec2(size));
+    params.camera_angle = static_cast<float>(radians(camera.fov_y_deg) / 2.0);
+    const bool is_flat = camera.projection == Projection::perspective;
+    const double half_height = is_flat ? std::tan(radians(camera.fov_y_deg) / 2.0) : 1.0;
+    const double aspect = is_flat ? static_cast<double>(size.x) / static_cast<double>(size.y) : 1.0;
     params.camera_right = glm::vec3(basis[0] * half_height * aspect);
     params.camera_up = glm::vec3(basis[1] * half_height);
-    params.camera_forward = glm::vec3(basis[2]);
 }
 
 void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
@@ -53,8 +92,8 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     gpu::FrameParams params{};
     params.chunks = march_world.chunks_size;
     params.world_origin = march_world.origin;
-    place_camera(params, camera_of(scene), march_world.origin,
-                 static_cast<double>(plan.image_size.x) / static_cast<double>(plan.image_size.y));
+    place_camera(params, on_pixel_grid(camera_of(scene), glm::dvec2(plan.image_size)), march_world.origin,
+                 plan.image_size);
     params.width = static_cast<gpu::uint>(plan.image_size.x);
     params.height = static_cast<gpu::uint>(plan.image_size.y);
     params.first_column = static_cast<gpu::uint>(plan.first_pixel.x);

@@ -1,6 +1,13 @@
 #include "frame/footprint.h"
 
 namespace voxilux {
+namespace {
+
+std::string runs_text(const PhotonPlan& photons) {
+    return photons.run_count() > 1 ? fmt::format(" in {} runs", photons.run_count()) : "";
+}
+
+}  // namespace
 
 std::string describe(const RenderPlan& plan) {
     const RenderSettings& s = plan.settings;
@@ -11,10 +18,8 @@ std::string describe(const RenderPlan& plan) {
         text += fmt::format("crop      from column {}, row {} of an image of {}x{}\n", plan.first_pixel.x,
                             plan.first_pixel.y, plan.image_size.x, plan.image_size.y);
     }
-    if (!plan.shard.is_whole()) {
-        text += fmt::format("shard     {} of {}: {} of the samples\n", plan.shard.index + 1, plan.shard.count,
-                            plan.samples());
-    }
+    if (!plan.part.empty())
+        text += fmt::format("part      {} samples: {}\n", plan.samples(), plan.part.text());
     text += fmt::format("split     {} film tile(s) of {} rows\n", plan.film_tile_count, plan.film_tile_rows);
     if (plan.has(Effect::voxels)) {
         text +=
@@ -30,8 +35,8 @@ std::string describe(const RenderPlan& plan) {
                                 reason);
     }
     if (plan.photons.runs())
-        text += fmt::format("photons   {} per iteration, room for {}, first radius {}, alpha {:.3g}\n",
-                            plan.photons.count(), plan.photons.capacity,
+        text += fmt::format("photons   {} per iteration{}, room for {}, first radius {}, alpha {:.3g}\n",
+                            plan.photons.count(), runs_text(plan.photons), plan.photons.capacity,
                             plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
                             plan.settings.photons.alpha);
     if (plan.paths.runs())

@@ -34,21 +34,25 @@ void save_checkpoint(const Checkpoint& checkpoint, const Scene& scene,
     }
 }
 
-void check_resumable(const FilmPart& part, const Scene& scene, const RenderPlan& plan, const fs::path& file) {
+void check_resumable(const FilmPart& part, const RenderPlan& plan, const nlohmann::ordered_json& render,
+                     const fs::path& file) {
     const auto refuse = [&](const std::string& why) {
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: cannot go on from it: {}; without --resume the render starts anew",
                                 file.string(), why));
     };
-    if (const auto other = difference(part.render, render_key(scene, plan))) refuse(*other);
-    const auto [index, samples] = *part.done.begin();
-    if (part.done.size() != 1 || Shard{index, part.shards} != plan.shard)
-        refuse(fmt::format("it is of shard {}/{}", index + 1, part.shards));
-    if (samples + (part.rows_ahead > 0 ? 1 : 0) > plan.samples())
+    if (const auto other = difference(part.render, render)) refuse(*other);
+    const std::uint32_t samples = part.samples.size();
+    const bool is_ahead = part.rows_ahead > 0;
+    if (part.samples != plan.part.prefix(samples) ||
+        (is_ahead && part.sample_ahead != plan.part.sample(samples)))
+        refuse(fmt::format("it has other samples than this render begins with, {}", part.samples.text()));
+    if (samples + (is_ahead ? 1 : 0) > plan.samples())
         refuse(fmt::format("it has more than {} samples already", plan.samples()));
 }
 
-FilmStart resume_from(const Checkpoint& checkpoint, const Scene& scene, const RenderPlan& plan) {
+FilmStart resume_from(const Checkpoint& checkpoint, const RenderPlan& plan,
+                      const nlohmann::ordered_json& render) {
     for (const ChosenTechnique& chosen : plan.techniques) {
         if (!chosen.technique->mergeable())
             throw Error(ExitCode::usage, fmt::format("--resume: {}", chosen.technique->state));
@@ -59,9 +63,9 @@ FilmStart resume_from(const Checkpoint& checkpoint, const Scene& scene, const Re
         return {};
     }
     FilmPart part = read_part(checkpoint.file);
-    check_resumable(part, scene, plan, checkpoint.file);
+    check_resumable(part, plan, render, checkpoint.file);
     checkpoint.note(
-        fmt::format("going on from {} samples of {}", part.done.begin()->second, checkpoint.file.string()));
+        fmt::format("going on from {} samples of {}", part.samples.size(), checkpoint.file.string()));
     return start_of(std::move(part));
 }
 
@@ -76,6 +80,8 @@ void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& o
     options.rehearse_end = [&](const Scene& scene, RenderOutcome strip) {
         rehearse_output(checkpoint, scene, std::move(strip));
     };
+    options.writes_exr = std::ranges::any_of(checkpoint.pictures.files, is_exr);
+    options.writes_png = std::ranges::any_of(checkpoint.pictures.files, is_png);
     std::error_code ignored;
     if (checkpoint.file.empty()) return;
     options.checkpoint_s = checkpoint.every_s;
@@ -84,8 +90,8 @@ void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& o
     };
     options.keeps_film = checkpoint.pictures.is_part || checkpoint.every_s > 0.0;
     if (resumes) {
-        options.resume = [&](const Scene& scene, const RenderPlan& plan) {
-            return resume_from(checkpoint, scene, plan);
+        options.resume = [&](const Scene& scene, const RenderPlan& plan, const DeviceInfo& device) {
+            return resume_from(checkpoint, plan, render_key(scene, plan, device));
         };
     } else if (fs::exists(checkpoint.file, ignored)) {
         checkpoint.note(

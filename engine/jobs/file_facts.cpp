@@ -34,7 +34,7 @@ SortedJson numbers(const Vector& v) {
 
 SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera& camera) {
     const RenderSettings& s = scene.settings;
-    return {{"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+    return {{"scene_hash", fmt::format("{:016x}", sample_hash(scene))},
             {"voxels", facts.voxel_count},
             {"instances", facts.instance_count},
             {"models", scene.models.size()},
@@ -53,6 +53,7 @@ SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera&
               {"yaw_deg", camera.yaw_deg},
               {"pitch_deg", camera.pitch_deg},
               {"fov_y_deg", camera.fov_y_deg},
+              {"projection", kProjectionNames[static_cast<std::size_t>(camera.projection)]},
               {"of_the_file", scene.camera.has_value()}}},
             {"size", {s.size.x, s.size.y}},
             {"spp", s.spp},

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
+#include "base/build_id.h"
 #include "base/error.h"
-#include "base/fnv.h"
 #include "base/json.h"
+#include "jobs/part_checksum.h"
 #include "scene/scene_hash.h"
 
 namespace voxilux {
@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 3;  // of the attribute; another one is refused
+constexpr int kFormat = 4;       // of the attribute; another one is refused
+constexpr int kRowsAtOnce = 64;  // whole blocks of an EXR
 
 Json matrix_json(const std::optional<glm::mat4>& matrix) {
     if (!matrix) return nullptr;
@@ -36,10 +37,22 @@ std::optional<glm::mat4> matrix_of(const Json& json) {
     return matrix;
 }
 
+Json colour_json(const std::optional<glm::vec3>& colour) {
+    if (!colour) return nullptr;
+    return {colour->x, colour->y, colour->z};
+}
+
+std::optional<glm::vec3> colour_of(const Json& json) {
+    if (json.is_null()) return std::nullopt;
+    const auto numbers = json.get<std::array<float, 3>>();
+    return glm::vec3(numbers[0], numbers[1], numbers[2]);
+}
+
 Json file_json(const ExrOptions& file) {
     const ExrWindow& window = file.window;
     return {{"window", {window.x, window.y, window.full_width, window.full_height}},
             {"comments", file.comments},
+            {"background", colour_json(file.background)},
             {"world_to_camera", matrix_json(file.world_to_camera)},
             {"world_to_ndc", matrix_json(file.world_to_ndc)}};
 }
@@ -58,84 +71,53 @@ ExrOptions file_of(const Json& json, const FilmSums& film) {
           "its window is damaged");
     return {.window = {window[0], window[1], window[2], window[3]},
             .comments = json.at("comments").get<std::string>(),
+            .background = colour_of(json.at("background")),
             .world_to_camera = matrix_of(json.at("world_to_camera")),
             .world_to_ndc = matrix_of(json.at("world_to_ndc"))};
 }
 
-// Shards are counted from 1 wherever people see them.
 Json part_json(const FilmPart& part) {
-    Json done = Json::array();
-    for (const auto& [shard, samples] : part.done)
-        done.push_back({{"shard", shard + 1}, {"samples", samples}});
     return {{"format", kFormat},
             {"render", part.render},
             {"spp", part.spp},
-            {"shards", part.shards},
-            {"done", done},
-            {"rows_ahead", part.rows_ahead},
+            {"samples", part.samples.text()},
+            {"ahead", {{"rows", part.rows_ahead}, {"sample", part.sample_ahead}}},
             {"independent", part.film.is_independent},
             {"file", file_json(part.file)}};
 }
 
+// The film has its size.
 void read_json(const Json& json, FilmPart& part) {
     check(json.at("format") == kFormat, "it has another format, of another version");
     part.render = json.at("render");
     check(part.render.is_object(), "its description is damaged");
     part.spp = json.at("spp").get<std::uint32_t>();
-    part.shards = json.at("shards").get<std::uint32_t>();
-    check(part.shards >= 1 && part.shards <= kMaxShards, "its number of shards is damaged");
-    for (const Json& row : json.at("done")) {
-        const auto shard = row.at("shard").get<std::uint32_t>();
-        const auto samples = row.at("samples").get<std::uint32_t>();
-        check(shard >= 1 && shard <= part.shards, "it has a shard that is none");
-        check(samples <= Shard{shard - 1, part.shards}.samples(part.spp),
-              "it has more samples than its shard");
-        check(part.done.emplace(shard - 1, samples).second, "it has a shard twice");
-    }
-    part.rows_ahead = json.at("rows_ahead").get<std::uint32_t>();
-    check(!part.done.empty() && (part.rows_ahead == 0 || part.done.size() == 1), "its samples are damaged");
+    const auto text = json.at("samples").get<std::string>();
+    const std::optional<SampleSet> samples = SampleSet::parse(text);
+    check(samples || text.empty(), "its samples are damaged");
+    part.samples = samples.value_or(SampleSet{});
+    part.rows_ahead = json.at("ahead").at("rows").get<std::uint32_t>();
+    part.sample_ahead = json.at("ahead").at("sample").get<std::uint32_t>();
     check(part.rows_ahead < static_cast<std::uint32_t>(part.film.height), "its rows are damaged");
+    check(part.rows_ahead == 0 || part.sample_ahead >= part.samples.end(), "its samples are damaged");
     part.film.is_independent = json.at("independent").get<bool>();
     part.file = file_of(json.at("file"), part.film);
 }
 
-// The samples of each row follow from those of the shards.
+// The samples of each row.
 void count_rows(FilmPart& part) {
+    const std::uint32_t size = part.samples.size();
+    const std::uint32_t even = part.samples.even_samples(size);
     const auto rows = static_cast<std::size_t>(part.film.height);
-    part.film.even.assign(rows, 0);
-    part.film.odd.assign(rows, 0);
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (const auto& [index, samples] : part.done) {
-            const std::uint32_t own = samples + (row < part.rows_ahead ? 1 : 0);
-            const std::uint32_t even = Shard{index, part.shards}.even_samples(own);
-            part.film.even[row] += even;
-            part.film.odd[row] += own - even;
-        }
-    }
+    part.film.even.assign(rows, even);
+    part.film.odd.assign(rows, size - even);
+    std::vector<std::uint32_t>& ahead = part.sample_ahead % 2 == 0 ? part.film.even : part.film.odd;
+    for (std::size_t row = 0; row < part.rows_ahead; ++row)
+        ++ahead[row];
 }
 
-std::uint64_t hash_of_text(std::uint64_t hash, const std::string& text) {
-    for (const char c : text)
-        hash = fnv1a(hash, static_cast<unsigned char>(c));
-    return fnv1a(hash, text.size());
-}
-
-std::string checksum_of(const Image& image) {
-    std::uint64_t hash = kFnvStart;
-    for (const char* name : {kPartAttribute, kReportAttribute})
-        hash = hash_of_text(hash, image.attributes.at(name));
-    for (const auto& [name, words] : image.words) {
-        hash = hash_of_text(hash, name);
-        for (const std::uint32_t word : words)
-            hash = fnv1a(hash, word);
-    }
-    for (const char* name : {"P.X", "P.Y", "P.Z", "Z"}) {
-        const auto plane = image.channels.find(name);
-        if (plane == image.channels.end()) continue;
-        for (const float value : plane->second.pixels)
-            hash = fnv1a(hash, std::bit_cast<std::uint32_t>(value));
-    }
-    return fmt::format("{:016x}", hash);
+std::string texts_of(const Image& head) {
+    return head.attributes.at(kPartAttribute) + head.attributes.at(kReportAttribute);
 }
 
 std::map<std::string, std::uint64_t> counts_of(const Json& json) {
@@ -151,16 +133,16 @@ Json parsed(const std::string& text) {
     return *std::move(json);
 }
 
-FilmPart decode(const Image& image) {
-    const auto description = image.attributes.find(kPartAttribute);
-    const auto report = image.attributes.find(kReportAttribute);
-    check(description != image.attributes.end() && report != image.attributes.end(),
-          "it is a picture without sums; parts are written by render --shard");
-    const auto checksum = image.attributes.find(kChecksumAttribute);
-    check(checksum != image.attributes.end(), "it has another format, of another version");
-    check(checksum->second == checksum_of(image), "it is damaged: its checksum is not that of its contents");
+// The part that an image is of, without its planes. `head` has the attributes of the image and its size.
+FilmPart described_part(const Image& head) {
+    const auto description = head.attributes.find(kPartAttribute);
+    const auto report = head.attributes.find(kReportAttribute);
+    check(description != head.attributes.end() && report != head.attributes.end(),
+          "it is a picture without sums; parts are written by render --samples and --shard");
+    check(head.attributes.contains(kChecksumAttribute), "it has another format, of another version");
     FilmPart part;
-    part.film = load_sums(image).value_or_throw(ExitCode::input_refused);
+    part.film.width = head.width;
+    part.film.height = head.height;
     part.report = parsed(report->second);
     (void)counts_of(part.report.at("work"));
     (void)counts_of(part.report.at("faults"));
@@ -169,15 +151,36 @@ FilmPart decode(const Image& image) {
     return part;
 }
 
+// What `read` returns; what is thrown becomes one line.
+template <class Read>
+auto guarded(const fs::path& path, Read read) {
+    try {
+        return read();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& cause) {
+        throw Error(ExitCode::input_refused,
+                    fmt::format("{}: not a part of a render: {}", path.string(), cause.what()));
+    }
+}
+
+FilmSums planes_of(const Image& rows) {
+    Result<FilmSums> film = load_sums(rows);
+    check(film.ok(), film.ok() ? "" : film.reason().c_str());
+    return std::move(film).value();
+}
+
 }  // namespace
 
-Json render_key(const Scene& scene, const RenderPlan& plan) {
+Json render_key(const Scene& scene, const RenderPlan& plan, const DeviceInfo& device) {
     const RenderSettings& settings = plan.settings;
     Json effects = Json::array();
     for (const EffectState& state : plan.effects) {
         if (state.on) effects.push_back(name_of(state.effect));
     }
     return {{"version", VX_VERSION},
+            {"build", build_id()},
+            {kDeviceKey, fmt::format("{}, {}", device.name, device.driver)},
             {"size", {plan.image_size.x, plan.image_size.y}},
             {"crop", {plan.first_pixel.x, plan.first_pixel.y, settings.size.x, settings.size.y}},
             {"seed", settings.seed},
@@ -188,14 +191,16 @@ Json render_key(const Scene& scene, const RenderPlan& plan) {
             {"scene_hash", fmt::format("{:016x}", sample_hash(scene))}};
 }
 
-FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const ExrOptions& file) {
+FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const ExrOptions& file,
+                 std::uint32_t spp) {
     VX_ASSERT(outcome.film.has_value());
-    const Shard& shard = outcome.plan.shard;
-    return {.render = render_key(scene, outcome.plan),
-            .spp = outcome.plan.settings.spp,
-            .shards = shard.count,
-            .done = {{shard.index, outcome.statistics.samples}},
+    const SampleSet& part = outcome.plan.part;
+    const std::uint32_t done = outcome.statistics.samples;
+    return {.render = render_key(scene, outcome.plan, outcome.statistics.device),
+            .spp = spp,
+            .samples = part.prefix(done),
             .rows_ahead = outcome.rows_ahead,
+            .sample_ahead = outcome.rows_ahead == 0 ? 0 : part.sample(done),
             .film = std::move(*outcome.film),
             .report = std::move(report),
             .file = file};
@@ -211,17 +216,53 @@ Image image_of(FilmPart part) {
 }
 
 void seal(Image& image) {
-    image.attributes[kChecksumAttribute] = checksum_of(image);
+    PartChecksum checksum;
+    checksum.add(image);
+    image.attributes[kChecksumAttribute] = checksum.text(texts_of(image));
+}
+
+void read_part_rows(const fs::path& path, const std::function<void(const FilmPart&)>& accept,
+                    const std::function<void(std::size_t, const FilmSums&)>& take) {
+    ExrRows file(path);
+    const Image& head = file.head();
+    accept(guarded(path, [&] { return described_part(head); }));
+    PartChecksum checksum;
+    for (int first = 0; first < head.height; first += kRowsAtOnce) {
+        const Image rows = file.read(first, std::min(kRowsAtOnce, head.height - first));
+        checksum.add(rows);
+        take(static_cast<std::size_t>(first), guarded(path, [&] { return planes_of(rows); }));
+    }
+    guarded(path, [&] {
+        check(checksum.text(texts_of(head)) == head.attributes.at(kChecksumAttribute),
+              "it is damaged: its checksum is not that of its contents");
+    });
 }
 
 FilmPart read_part(const fs::path& path) {
-    const Image image = read_exr_part(path);
-    try {
-        return decode(image);
-    } catch (const std::exception& cause) {
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{}: not a part of a render: {}", path.string(), cause.what()));
-    }
+    FilmPart part;
+    read_part_rows(
+        path, [&](const FilmPart& head) { part = head; },
+        [&](std::size_t first, const FilmSums& rows) {
+            add_rows(part.film, first, rows);
+            set_firsts(part.film, first, rows);
+        });
+    return part;
+}
+
+std::optional<FilmPart> finished_part(const fs::path& path, const Json& render,
+                                      const SampleSet& samples) try {
+    FilmPart part;
+    read_part_rows(
+        path,
+        [&](const FilmPart& head) {
+            part = head;
+            const bool is_it = !difference(head.render, render) && head.samples == samples;
+            check(is_it && head.rows_ahead == 0, "");
+        },
+        [](std::size_t, const FilmSums&) {});
+    return part;
+} catch (const std::runtime_error&) {
+    return std::nullopt;
 }
 
 std::optional<std::string> difference(const Json& render, const Json& other) {
@@ -235,9 +276,8 @@ std::optional<std::string> difference(const Json& render, const Json& other) {
 }
 
 FilmStart start_of(FilmPart part) {
-    VX_ASSERT_EQ(part.done.size(), std::size_t{1});
     return {.sums = std::move(part.film),
-            .position = {.samples = part.done.begin()->second, .rows_ahead = part.rows_ahead},
+            .position = {.samples = part.samples.size(), .rows_ahead = part.rows_ahead},
             .work = counts_of(part.report.at("work")),
             .faults = counts_of(part.report.at("faults"))};
 }

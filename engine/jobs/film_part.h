@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,15 +12,15 @@
 
 namespace voxilux {
 
-// Some of the samples of a render, with all that is needed to add it to the others: what a shard writes, and
-// a checkpoint. Its file is an EXR with its own picture, the exact sums beside it (store_sums) and the rest
-// as JSON in the attribute kPartAttribute.
+// Some of the samples of a render, with all that is needed to add it to the others: what render --samples
+// writes, and a checkpoint. Its file is an EXR with its own picture, the exact sums beside it (store_sums)
+// and the rest as JSON in the attribute kPartAttribute.
 struct FilmPart {
-    nlohmann::ordered_json render;  // what its samples are of; they may be added where this is equal
-    std::uint32_t spp = 0;          // of the whole render
-    std::uint32_t shards = 1;       // that the render is cut into
-    std::map<std::uint32_t, std::uint32_t> done;  // whole samples by shard, from 0; absent shards have none
-    std::uint32_t rows_ahead = 0;                 // rows from the top that have one more; of one shard only
+    nlohmann::ordered_json render;   // what its samples are of; they may be added where this is equal
+    std::uint32_t spp = 0;           // that the render was asked for; 0: as many as there are
+    SampleSet samples;               // whole ones
+    std::uint32_t rows_ahead = 0;    // rows from the top that have one more,
+    std::uint32_t sample_ahead = 0;  // which is this one
     FilmSums film;
     nlohmann::ordered_json report;
     ExrOptions file;  // how a picture of it is written
@@ -31,11 +31,17 @@ inline constexpr const char* kReportAttribute = "voxilux.report";
 inline constexpr const char* kChecksumAttribute = "voxilux.checksum";
 
 // The part that an outcome holds, which must have kept its film. `report` is that of the outcome.
+// `spp`: that the render was asked for.
 [[nodiscard]] FilmPart part_of(const Scene& scene, RenderOutcome outcome, nlohmann::ordered_json report,
-                               const ExrOptions& file);
+                               const ExrOptions& file, std::uint32_t spp);
 
-// What may be added up: the JSON that FilmPart::render has for this scene and plan.
-[[nodiscard]] nlohmann::ordered_json render_key(const Scene& scene, const RenderPlan& plan);
+// What may be added up: the JSON that FilmPart::render has for this scene and plan on this device. Builds and
+// devices round differently, so the samples of two are not those of one.
+[[nodiscard]] nlohmann::ordered_json render_key(const Scene& scene, const RenderPlan& plan,
+                                                const DeviceInfo& device);
+inline constexpr const char* kDeviceKey = "device";  // of the render key
+inline constexpr const char* kMixedDevices =
+    "of several";  // its value where parts of other devices were added
 
 // The picture of a part with everything that read_part() needs.
 [[nodiscard]] Image image_of(FilmPart part);
@@ -43,16 +49,28 @@ inline constexpr const char* kChecksumAttribute = "voxilux.checksum";
 // Gives an image the checksum of all that read_part() uses of it: both texts, sums, positions and depths.
 void seal(Image& image);
 
-// Throws Error(input_refused) for a file that is no part, one of an unknown or inconsistent form, or a
-// damaged one.
+// Reads a part in runs of rows: first calls `accept` with the part, whose film has no planes yet, then `take`
+// with the planes of rows from `first` on. Throws Error(input_refused) for a file that is no part, one of an
+// unknown or inconsistent form, or a damaged one: that shows at its end, when all was taken.
+void read_part_rows(const std::filesystem::path& path,
+                    const std::function<void(const FilmPart& part)>& accept,
+                    const std::function<void(std::size_t first, const FilmSums& rows)>& take);
+
+// The whole part.
 [[nodiscard]] FilmPart read_part(const std::filesystem::path& path);
+
+// Whether the file is a part, undamaged, that holds exactly these samples of a render with this key; nothing
+// of the part but its description is kept.
+[[nodiscard]] std::optional<FilmPart> finished_part(const std::filesystem::path& path,
+                                                    const nlohmann::ordered_json& render,
+                                                    const SampleSet& samples);
 
 // The first setting in which two renders differ, as a clause: "its seed is 2 and not 1". Nothing when they
 // are the same.
 [[nodiscard]] std::optional<std::string> difference(const nlohmann::ordered_json& render,
                                                     const nlohmann::ordered_json& other);
 
-// The film that a render of this part's only shard goes on from.
+// The film that a render of this part's samples, and more, goes on from.
 [[nodiscard]] FilmStart start_of(FilmPart part);
 
 }  // namespace voxilux

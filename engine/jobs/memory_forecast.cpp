@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frame/footprint.h"
+#include "jobs/render_options.h"
 #include "plan/film_planes.h"
 
 namespace voxilux {
@@ -44,6 +45,13 @@ PixelBytes bytes_of_pixel(const RenderPlan& plan) {
 }
 
 }  // namespace
+
+PictureUse picture_use(const RenderOptions& options, double seconds) {
+    return {.writes_exr = options.writes_exr,
+            .writes_png = options.writes_png,
+            .keeps_film = options.keeps_film,
+            .writes_checkpoint = options.checkpoint_s > 0.0 && seconds > options.checkpoint_s};
+}
 
 std::uint64_t end_bytes(const RenderPlan& plan, const PictureUse& use) {
     const PixelBytes bytes = bytes_of_pixel(plan);

@@ -14,6 +14,11 @@ struct PictureUse {
     bool writes_checkpoint = false;  // it is long enough for one
 };
 
+struct RenderOptions;
+
+// What a render with these options does with its picture when it takes so many seconds.
+[[nodiscard]] PictureUse picture_use(const RenderOptions& options, double seconds);
+
 struct MemoryForecast {
     std::uint64_t device_bytes = 0;    // exact: the buffers of the plan
     std::uint64_t peak_rss_bytes = 0;  // of the process, to the end of a render

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "base/error.h"
-#include "estimators/film_error.h"
 #include "jobs/report.h"
 
 namespace voxilux {
@@ -12,34 +12,60 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+[[noreturn]] void refuse_part(const std::string& file, const std::string& why) {
+    throw Error(ExitCode::input_refused, fmt::format("{}: {}", file, why));
+}
+
+[[noreturn]] void refuse_other(const PartSum& sum, const std::string& file, const std::string& why) {
+    refuse_part(file, fmt::format("not of the same render as {}: {}", sum.files.front().first, why));
+}
+
+// The file that a sample is from.
+const std::string& file_of(const PartSum& sum, std::uint32_t sample) {
+    const SampleSet one = SampleSet::shard(sample, 1, sample + 1);
+    const auto found =
+        std::ranges::find_if(sum.files, [&](const auto& row) { return row.second.common(one).has_value(); });
+    VX_ASSERT(found != sum.files.end());
+    return found->first;
+}
+
+// What the description of a part tells.
 void check_addable(const PartSum& sum, const FilmPart& part, const std::string& file) {
-    const auto refuse = [&](const std::string& why) {
-        throw Error(ExitCode::input_refused, fmt::format("{}: {}", file, why));
-    };
-    if (part.rows_ahead > 0) refuse("it ends within a sample; render --resume finishes it");
+    if (part.rows_ahead > 0) refuse_part(file, "it ends within a sample; render --resume finishes it");
+    if (part.samples.empty()) refuse_part(file, "it has no samples");
     if (sum.files.empty()) return;
-    const FilmPart& total = sum.total;
-    const std::string& first = sum.files.begin()->second;
-    const auto refuse_other = [&](const std::string& why) {
-        refuse(fmt::format("not of the same render as {}: {}", first, why));
-    };
-    if (const auto other = difference(part.render, total.render)) refuse_other(*other);
-    if (part.spp != total.spp)
-        refuse_other(fmt::format("it is of {} samples and not {}", part.spp, total.spp));
-    if (part.shards != total.shards)
-        refuse_other(fmt::format("it is of {} shards and not {}", part.shards, total.shards));
-    const bool same_planes =
-        std::ranges::equal(part.film.sums, total.film.sums, [](const auto& a, const auto& b) {
-            return a.first == b.first && a.second.size() == b.second.size();
-        });
-    if (!same_planes || part.film.firsts.size() != total.film.firsts.size())
-        refuse_other("it has other channels");
-    for (const auto& [shard, samples] : part.done) {
-        const auto known = sum.files.find(shard);
-        if (known != sum.files.end())
-            refuse(fmt::format("its samples of shard {}/{} are in {} already", shard + 1, part.shards,
-                               known->second));
+    Json render = part.render;
+    if (sum.mixes_devices) render[kDeviceKey] = sum.total.render.at(kDeviceKey);
+    if (const auto other = difference(render, sum.total.render)) {
+        const bool is_device = other->starts_with(fmt::format("its {} is", kDeviceKey));
+        refuse_other(sum, file,
+                     *other + (is_device ? "; other devices round differently: --allow-mixed-devices" : ""));
     }
+    if (part.film.width != sum.total.film.width || part.film.height != sum.total.film.height)
+        refuse_other(sum, file, "it has another size");
+    if (const auto common = part.samples.common(sum.total.samples))
+        refuse_part(file, fmt::format("its sample {} is in {} already", *common, file_of(sum, *common)));
+}
+
+bool have_same_planes(const FilmSums& film, const FilmSums& rows) {
+    const auto components = [](const FilmSums& of, const auto& plane) {
+        return plane.second.size() / static_cast<std::size_t>(of.width) / static_cast<std::size_t>(of.height);
+    };
+    const auto is_same = [&](const auto& a, const auto& b) {
+        return a.first == b.first && components(film, a) == components(rows, b);
+    };
+    return std::ranges::equal(film.sums, rows.sums, is_same) &&
+           std::ranges::equal(film.firsts, rows.firsts, is_same);
+}
+
+// Rows of a part whose first sample is `first_sample`.
+void add_rows_of_part(PartSum& sum, std::uint32_t first_sample, std::size_t first, const FilmSums& rows,
+                      const std::string& file) {
+    FilmSums& film = sum.total.film;
+    if (!sum.files.empty() && !have_same_planes(film, rows)) refuse_other(sum, file, "it has other channels");
+    add_rows(film, first, rows);
+    // Positions are those of the first sample that the picture has.
+    if (sum.files.empty() || first_sample < sum.total.samples.first()) set_firsts(film, first, rows);
 }
 
 void add_numbers(Json& total, const Json& more) {
@@ -85,67 +111,68 @@ void add_report(Json& total, const Json& more) {
         total["peak_rss_mib"] = std::max(total["peak_rss_mib"], more.at("peak_rss_mib"));
 }
 
-std::uint64_t samples_of(const FilmPart& part) {
-    std::uint64_t samples = 0;
-    for (const auto& [shard, own] : part.done)
-        samples += own;
-    return samples;
-}
-
-std::string shards_text(const FilmPart& part) {
-    std::vector<std::uint32_t> numbers;
-    for (const auto& [shard, samples] : part.done)
-        numbers.push_back(shard + 1);
-    return fmt::format("{} of {}", fmt::join(numbers, ", "), part.shards);
+// All of a part but its planes.
+void add_description(PartSum& sum, FilmPart part, const std::string& file) try {
+    const SampleSet samples = part.samples;
+    if (sum.files.empty()) {
+        part.film.sums = std::move(sum.total.film.sums);
+        part.film.firsts = std::move(sum.total.film.firsts);
+        sum.total = std::move(part);
+    } else {
+        FilmPart& total = sum.total;
+        add_report(total.report, part.report);
+        if (part.render.at(kDeviceKey) != total.render.at(kDeviceKey))
+            total.render[kDeviceKey] = kMixedDevices;
+        total.spp = std::max(total.spp, part.spp);
+        total.samples.add(samples);
+        std::ranges::transform(total.film.even, part.film.even, total.film.even.begin(), std::plus());
+        std::ranges::transform(total.film.odd, part.film.odd, total.film.odd.begin(), std::plus());
+    }
+    sum.files.emplace_back(file, samples);
+} catch (const nlohmann::json::exception& cause) {
+    refuse_part(file, fmt::format("its report is damaged: {}", cause.what()));
 }
 
 }  // namespace
 
-void add_part(PartSum& sum, FilmPart part, const std::string& file) {
+void add_part(PartSum& sum, const FilmPart& part, const std::string& file) {
     check_addable(sum, part, file);
-    for (const auto& [shard, samples] : part.done)
-        sum.files[shard] = file;
-    if (sum.total.film.sums.empty()) {
-        sum.total = std::move(part);
-        return;
+    if (sum.files.empty()) {
+        sum.total.film.width = part.film.width;
+        sum.total.film.height = part.film.height;
     }
-    FilmPart& total = sum.total;
-    // Positions are those of the first sample that the picture has.
-    if (part.done.begin()->first < total.done.begin()->first) std::swap(part.film, total.film);
-    add_film(total.film, part.film);
-    total.done.merge(part.done);
-    try {
-        add_report(total.report, part.report);
-    } catch (const nlohmann::json::exception& cause) {
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{}: its report is damaged: {}", file, cause.what()));
-    }
+    add_rows_of_part(sum, part.samples.first(), 0, part.film, file);
+    add_description(sum, part, file);
 }
 
-std::vector<std::string> missing_shards(const FilmPart& part) {
-    std::vector<std::string> missing;
-    for (std::uint32_t index = 0; index < part.shards; ++index) {
-        const std::uint32_t wanted = Shard{index, part.shards}.samples(part.spp);
-        const auto found = part.done.find(index);
-        const std::uint32_t done = found == part.done.end() ? 0 : found->second;
-        if (done == wanted) continue;
-        missing.push_back(
-            done == 0 ? fmt::format("{}/{}", index + 1, part.shards)
-                      : fmt::format("{}/{} ({} of {} samples)", index + 1, part.shards, done, wanted));
-    }
-    return missing;
+void add_part_file(PartSum& sum, const std::filesystem::path& file) {
+    FilmPart part;
+    const auto accept = [&](const FilmPart& head) {
+        check_addable(sum, head, file.string());
+        part = head;
+        sum.total.film.width = head.film.width;
+        sum.total.film.height = head.film.height;
+    };
+    read_part_rows(file, accept, [&](std::size_t first, const FilmSums& rows) {
+        add_rows_of_part(sum, part.samples.first(), first, rows, file.string());
+    });
+    add_description(sum, std::move(part), file.string());
+}
+
+SampleSet missing_samples(const FilmPart& part) {
+    return part.samples.missing(std::max(part.spp, part.samples.end()));
 }
 
 Json merged_report(const FilmPart& total, bool reproducible) {
-    const bool is_whole = missing_shards(total).empty();
     Json report = reproducible ? reproducible_report(total.report) : total.report;
-    report["samples"] = samples_of(total);
-    report["error"] = error_json(error_of(total.film));
-    if (is_whole)
-        report.erase("shard");
+    report["samples"] = total.samples.size();
+    report["error"] = error_json(
+        claimed_error_of(total.film, total.report.at("faults").get<std::map<std::string, std::uint64_t>>()));
+    if (total.samples.is_leading())
+        report.erase("sample_ranges");
     else
-        report["shard"] = shards_text(total);
-    if (is_whole && report.contains("stopped")) report["stopped"] = "finished";
+        report["sample_ranges"] = total.samples.text();
+    if (report.contains("stopped") && missing_samples(total).empty()) report["stopped"] = "finished";
     return report;
 }
 

@@ -22,7 +22,15 @@ glm::dmat4 world_to_camera(const Camera& camera) {
 }
 
 // Acting on camera points: x and y in [-1, 1] over the picture after the division by w, z up to 1 far away.
-glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+// Orthographic: z is minus the distance. A panorama has no such matrix.
+std::optional<glm::dmat4> camera_to_ndc(const Camera& camera, glm::ivec2 size) {
+    if (camera.projection == Projection::orthographic) {
+        glm::dmat4 scaled(1.0);
+        for (int axis = 0; axis < 2; ++axis)
+            scaled[axis][axis] = 2.0 * camera.pixels_per_voxel / static_cast<double>(size[axis]);
+        return scaled;
+    }
+    if (camera.projection != Projection::perspective) return std::nullopt;
     const double up = 1.0 / std::tan(glm::radians(camera.fov_y_deg) / 2.0);
     glm::dmat4 matrix(0.0);
     matrix[0][0] = up * static_cast<double>(size.y) / static_cast<double>(size.x);
@@ -34,19 +42,36 @@ glm::dmat4 camera_to_ndc(const Camera& camera, glm::ivec2 size) {
 }
 
 ExrOptions exr_options(const PictureFiles& pictures, const Scene& scene, const RenderPlan& plan) {
-    const Camera camera = camera_of(scene);
+    const Camera camera = on_pixel_grid(camera_of(scene), glm::dvec2(plan.image_size));
     const glm::dmat4 to_camera = world_to_camera(camera);
+    const std::optional<glm::dmat4> to_ndc = camera_to_ndc(camera, plan.image_size);
     return {.window = {plan.first_pixel.x, plan.first_pixel.y, plan.image_size.x, plan.image_size.y},
             .reproducible = pictures.reproducible,
             .software = "voxilux " VX_VERSION,
             .comments = pictures.scene_name,
+            .background = scene.background.shown == Backdrop::color ? std::optional(scene.background.radiance)
+                                                                    : std::nullopt,
             .world_to_camera = glm::mat4(to_camera),
-            .world_to_ndc = glm::mat4(camera_to_ndc(camera, plan.image_size) * to_camera)};
+            .world_to_ndc = to_ndc ? std::optional(glm::mat4(*to_ndc * to_camera)) : std::nullopt};
 }
 
 nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Scene& scene,
                                          const RenderOutcome& outcome) {
     return pictures.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
+}
+
+// In linear light, as colours that are multiplied by their A add up.
+Image laid_over(const Image& image, const std::optional<glm::vec3>& background) {
+    const auto alpha = image.channels.find("A");
+    if (!background || alpha == image.channels.end()) return image;
+    Image laid = image;
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float>& pixels = laid.channels.at(std::string(1, "RGB"[c])).pixels;
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] += (1.0f - alpha->second.pixels[i]) * (*background)[c];
+    }
+    laid.channels.erase("A");
+    return laid;
 }
 
 }  // namespace
@@ -62,11 +87,13 @@ bool is_png(const std::filesystem::path& file) {
 void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
                    const Image& png, const ToneMapOptions& tone, WriteFaults& faults) {
     if (is_exr(file)) {
-        const WriteReport written = write_exr(file, exr, options);
+        const WriteReport written = write_exr(file, laid_over(exr, options.background), options);
         faults["exr_clamped"] += written.clamped;
         faults["exr_non_finite"] += written.non_finite;
     } else {
-        const DisplayImage display = to_display(png, tone);
+        ToneMapOptions laid = tone;
+        laid.background = options.background;
+        const DisplayImage display = to_display(png, laid);
         faults["png_nan"] += display.nan;
         write_png(file, display.image);
     }
@@ -75,16 +102,18 @@ void write_picture(const std::filesystem::path& file, const Image& exr, const Ex
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome) {
     outcome.image.attributes[kReportAttribute] = json_text(report_of_picture(pictures, scene, outcome));
     const Image part = pictures.is_part ? image_of(part_to_write(pictures, scene, outcome)) : Image{};
+    ToneMapOptions tone = pictures.tone;
+    if (scene.exposure_ev && !tone.is_exposure_given) tone.exposure_ev = scene.exposure_ev;
     for (const std::string& file : pictures.files)
         write_picture(file, pictures.is_part ? part : outcome.image,
-                      exr_options(pictures, scene, outcome.plan), outcome.image, pictures.tone,
+                      exr_options(pictures, scene, outcome.plan), outcome.image, tone,
                       outcome.statistics.faults);
 }
 
 FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome) {
     nlohmann::ordered_json report = report_of_picture(pictures, scene, outcome);
     const ExrOptions file = exr_options(pictures, scene, outcome.plan);
-    return part_of(scene, std::move(outcome), std::move(report), file);
+    return part_of(scene, std::move(outcome), std::move(report), file, pictures.spp);
 }
 
 }  // namespace voxilux

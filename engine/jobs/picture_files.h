@@ -18,6 +18,7 @@ struct PictureFiles {
     ToneMapOptions tone;             // of PNGs
     bool reproducible = false;       // no date and no times: equal runs give equal bytes
     bool is_part = false;            // EXRs have the exact sums, for merging
+    std::uint32_t spp = 0;           // that the parts make up together; 0: as many as there are
     std::string scene_name;          // for people: the name of the scene's file
 };
 

@@ -20,13 +20,6 @@ constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
 // Relative: files and pipelines that are in a cache the second time, or no more.
 constexpr double kPilotDoubt = 0.4;
 
-PictureUse use_of(const std::vector<std::string>& files, const RenderOptions& options, double high_s) {
-    return {.writes_exr = std::ranges::any_of(files, is_exr),
-            .writes_png = std::ranges::any_of(files, is_png),
-            .keeps_film = options.keeps_film,
-            .writes_checkpoint = options.checkpoint_s > 0.0 && high_s > options.checkpoint_s};
-}
-
 std::string forecast_line(const Forecast& forecast) {
     const std::string error = percent_text(forecast.error);
     if (!forecast.is_reachable)
@@ -84,8 +77,7 @@ void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOption
 
 }  // namespace
 
-PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options,
-                       const std::vector<std::string>& files) {
+PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options) {
     RenderSession session(animated, options);
     const std::optional<ErrorPilot> pilot = session.pilot(frame);
     PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
@@ -111,7 +103,7 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
         if (other) result.text += forecast_line(*other);
     }
     const MemoryForecast memory =
-        forecast_memory(result.plan, use_of(files, options, asked ? asked->high_s : 0.0));
+        forecast_memory(result.plan, picture_use(options, asked ? asked->high_s : 0.0));
     result.json["memory_total"] = {{"device_bytes", memory.device_bytes},
                                    {"peak_rss_mib", static_cast<double>(memory.peak_rss_bytes) / 0x1p20}};
     result.text += fmt::format("memory    {} on the device, {} of the process at most\n",

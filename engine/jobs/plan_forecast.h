@@ -15,9 +15,8 @@ struct PilotedPlan {
     std::string text;             // lines for people, to follow the plan
 };
 
-// Runs the pilot of a frame for the error target, as a render into these files would, and finds what the
+// Runs the pilot of a frame for the error target, as a render would, and finds what the
 // picture loses by effects that the user has switched off.
-[[nodiscard]] PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options,
-                                     const std::vector<std::string>& files);
+[[nodiscard]] PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options);
 
 }  // namespace voxilux

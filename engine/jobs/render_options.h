@@ -35,7 +35,7 @@ struct RenderOptions {
     const std::atomic<bool>* interrupted = nullptr;
     std::atomic<bool>* checkpoint_wanted = nullptr;  // on_checkpoint is called soon, and this is cleared
     // The film that the frame of this plan goes on from, asked once per frame; a new one when there is none.
-    std::function<FilmStart(const Scene&, const RenderPlan&)> resume;
+    std::function<FilmStart(const Scene&, const RenderPlan&, const DeviceInfo&)> resume;
     // May ask for what is rendered so far, as if the render ended now: that takes memory.
     std::function<void(const Scene&, const std::function<RenderOutcome()>& so_far)> on_checkpoint;
     // With a time limit: gets a strip of the picture and does to it what will be done to the picture at the
@@ -43,6 +43,9 @@ struct RenderOptions {
     std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
     bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
+    // Which files will be written of the picture: memory for that is kept while samples are taken.
+    bool writes_exr = false;
+    bool writes_png = false;
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
     // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();

@@ -1,5 +1,9 @@
 #include "jobs/render_outcome.h"
 
+#include <limits>
+
+#include "estimators/film_error.h"
+
 namespace voxilux {
 
 void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& statistics) {
@@ -12,6 +16,21 @@ void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& 
     add_times(statistics.passes, step.passes);
     for (const PassTime& pass : step.passes)
         statistics.gpu_ms += pass.ms;
+}
+
+bool lacks_light(const std::map<std::string, std::uint64_t>& faults) {
+    for (std::size_t i = 0; i < gpu::kFaultCount; ++i) {
+        const auto fault = faults.find(gpu::kCounterNames[i]);
+        // Hits that find the table full use rays of their own.
+        if (i != gpu::kFaultAoTableFull && fault != faults.end() && fault->second != 0) return true;
+    }
+    return false;
+}
+
+ErrorEstimate claimed_error_of(const FilmSums& film, const std::map<std::string, std::uint64_t>& faults) {
+    ErrorEstimate error = error_of(film);
+    if (lacks_light(faults)) error.high = std::numeric_limits<double>::infinity();
+    return error;
 }
 
 double sampling_ms(const RenderStatistics& statistics) {

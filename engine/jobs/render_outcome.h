@@ -35,7 +35,7 @@ struct RenderStatistics {
     std::map<std::string, std::uint64_t> faults;
     std::vector<MemoryRow> memory;
     std::uint64_t pipelines = 0;
-    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t samples = 0;     // whole ones, of the plan's part
     std::uint64_t live_cells = 0;  // of occlusion, at the end
     ErrorEstimate error;
     std::uint32_t rounds = 0;  // after which the error was compared with its target; 0: there is none
@@ -57,6 +57,13 @@ struct RenderOutcome {
 
 // Adds what a step of this plan did: times, counters and faults.
 void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& statistics);
+
+// Whether the device cut off paths, photons or sums: light is missing then that no sample tells of.
+[[nodiscard]] bool lacks_light(const std::map<std::string, std::uint64_t>& faults);
+
+// The error of a film, without an upper end where light is missing.
+[[nodiscard]] ErrorEstimate claimed_error_of(const FilmSums& film,
+                                             const std::map<std::string, std::uint64_t>& faults);
 
 // Milliseconds on the device that went into samples. The building of the world is no part of them.
 [[nodiscard]] double sampling_ms(const RenderStatistics& statistics);

@@ -3,10 +3,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "frame/footprint.h"
 #include "jobs/error_pilot.h"
+#include "jobs/memory_forecast.h"
+#include "jobs/memory_reserve.h"
 #include "jobs/noise_shares.h"
 #include "jobs/sample_loop.h"
 #include "scene/scene_camera.h"
@@ -43,6 +46,9 @@ constexpr double kPilotTimeShare = 0.1;
 // What finding out whose noise it is may take, or kPilotShare of the render, if that is more.
 constexpr double kShareBudget_s = 1.0;
 
+// Whether there will be a checkpoint is not known before the render: as if there were one.
+constexpr double kAnyTime_s = std::numeric_limits<double>::infinity();
+
 RenderOptions with_error_wish(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
     return options;
@@ -65,11 +71,24 @@ void RenderSession::change(const RenderSettings& settings, const PlanRequest& re
     is_changed_ = true;
 }
 
+void RenderSession::load(Scene scene, const PlanRequest& request) {
+    player_ = FramePlayer(std::move(scene));
+    options_.plan = request;
+    options_.started = Clock::now();
+    last_points_.reset();
+    forecast_.reset();
+    shares_.clear();
+    has_started_ = false;
+    is_changed_ = false;
+    is_loaded_ = true;
+}
+
 // Brings the renderer to the frame.
 void RenderSession::show(std::int64_t frame) {
     scene_ = &player_.show(frame);
     const bool is_changed = std::exchange(is_changed_, false);
-    if (!renderer_->is_prepared()) return renderer_->prepare(*scene_, options_.plan);
+    if (std::exchange(is_loaded_, false) || player_.has_new_light())
+        return renderer_->prepare(*scene_, options_.plan);
     if (!player_.has_new_voxels() && scene_->camera) renderer_->set_camera(*scene_->camera);
     if (is_changed) renderer_->change(scene_->settings, options_.plan);
     if (player_.has_new_voxels()) renderer_->set_voxels(*scene_);
@@ -95,6 +114,11 @@ std::optional<ErrorPilot> RenderSession::run_pilot(const std::function<bool()>& 
                            .stops = stops},
                           renderer_->executor());
     return pilot;
+}
+
+const RenderPlan& RenderSession::plan_of(std::int64_t frame) {
+    show(frame);
+    return plan();
 }
 
 std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
@@ -130,7 +154,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;
     const bool is_first = !last_points_;
-    const FilmStart film = options.resume ? options.resume(*scene_, plan()) : FilmStart{};
+    const FilmStart film = options.resume ? options.resume(*scene_, plan(), device_.info()) : FilmStart{};
     const FrameInputs inputs{.renderer = *renderer_,
                              .options = options,
                              .film = film,
@@ -138,22 +162,36 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                              .guess = error_prior(options, film.position.samples, start),
                              .shares = shares_};
     SampleLoop loop(inputs);
+    MemoryReserve reserve(end_bytes(plan(), picture_use(options, kAnyTime_s)), bytes_to_come());
     FrameCalls calls{.on_progress = on_progress, .save = [&] {
+                         reserve.release();
                          options_.on_checkpoint(*scene_, [&] {
                              RenderOutcome so_far = loop.outcome();
                              complete(so_far, load_s, start);
                              return so_far;
                          });
+                         reserve.take();
                      }};
     if (options_.rehearse_end)
         calls.rehearse = [&](RenderOutcome strip) { options_.rehearse_end(*scene_, std::move(strip)); };
     loop.run(calls);
+    reserve.release();
     RenderOutcome outcome = loop.outcome();
     if (is_first) outcome.statistics.forecast = forecast_;
     last_points_ = loop.own_points();
     complete(outcome, load_s, start);
     outcome.statistics.validation = new_messages();
     return outcome;
+}
+
+// Bytes of the host that a software device has yet to allocate for this plan.
+std::uint64_t RenderSession::bytes_to_come() {
+    if (!device_.limits().is_cpu) return 0;
+    std::uint64_t allocated = 0;
+    for (const MemoryRow& row : renderer_->executor().memory())
+        allocated += row.bytes;
+    const std::uint64_t planned = footprint(plan()).total_bytes();
+    return planned > allocated ? planned - allocated : 0;
 }
 
 // Adds what the loop over samples does not know.

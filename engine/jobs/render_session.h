@@ -33,12 +33,20 @@ class RenderSession {
     // occlusion, or radii that depend on samples before.
     [[nodiscard]] std::optional<ErrorPilot> pilot(std::int64_t frame);
 
+    // The plan of `frame`, of which nothing is rendered yet.
+    [[nodiscard]] const RenderPlan& plan_of(std::int64_t frame);
+
+    [[nodiscard]] const DeviceInfo& device() const { return device_.info(); }
+
     // The plan of the frame last worked on.
     [[nodiscard]] const RenderPlan& plan() const { return renderer_->plan(); }
 
     // The frames from now on have these settings and this plan, as in a session of their own; device,
     // pipelines and voxels are kept. So the structure of the world stays, whichever `request` names.
     void change(const RenderSettings& settings, const PlanRequest& request);
+
+    // The frames from now on are those of another scene, as in a session of its own; the device is kept.
+    void load(Scene scene, const PlanRequest& request);
 
     // The still scene of the frame rendered last.
     [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -51,6 +59,7 @@ class RenderSession {
     [[nodiscard]] std::optional<ErrorPilot> run_pilot(const std::function<bool()>& stops);
     [[nodiscard]] ErrorPrior error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                          std::chrono::steady_clock::time_point start);
+    [[nodiscard]] std::uint64_t bytes_to_come();
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();
 
@@ -65,6 +74,7 @@ class RenderSession {
     std::size_t messages_told_ = 0;
     bool has_started_ = false;
     bool is_changed_ = false;  // settings or request, since the last frame
+    bool is_loaded_ = true;    // a scene, likewise
 };
 
 // The picture of a scene, of an animated one that of its first frame.

@@ -51,12 +51,11 @@ Json head_json(const Scene& scene, const RenderPlan& plan, const char* command) 
     const glm::ivec2 size = plan.settings.size;
     Json json = {{"version", VX_VERSION},
                  {"command", command},
-                 {"scene_hash", fmt::format("{:016x}", scene_hash(scene))},
+                 {"scene_hash", fmt::format("{:016x}", sample_hash(scene))},
                  {"seed", plan.settings.seed},
                  {"size", {plan.image_size.x, plan.image_size.y}}};
     if (plan.image_size != size) json["crop"] = {first.x, first.y, first.x + size.x, first.y + size.y};
-    if (!plan.shard.is_whole())
-        json["shard"] = fmt::format("{} of {}", plan.shard.index + 1, plan.shard.count);
+    if (!plan.part.is_leading()) json["sample_ranges"] = plan.part.text();
     return json;
 }
 
@@ -219,8 +218,8 @@ Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) 
 
 Json reproducible_report(const Json& report) {
     Json json;
-    for (const char* key : {"version", "command", "scene_hash", "seed", "size", "crop", "shard", "samples",
-                            "work", "effects", "error", "faults"}) {
+    for (const char* key : {"version", "command", "scene_hash", "seed", "size", "crop", "sample_ranges",
+                            "samples", "work", "effects", "error", "faults"}) {
         if (report.contains(key)) json[key] = report.at(key);
     }
     for (const char* name : kUnrepeatableWork)
@@ -253,8 +252,7 @@ std::string describe(const RenderOutcome& outcome) {
     std::string text = fmt::format("device    {} ({})\n", s.device.name, s.device.driver);
     text +=
         fmt::format("samples   {} of {} per pixel, {}\n", s.samples, outcome.plan.samples(), name_of(s.stop));
-    const Shard& shard = outcome.plan.shard;
-    if (!shard.is_whole()) text += fmt::format("shard     {} of {}\n", shard.index + 1, shard.count);
+    if (!outcome.plan.part.empty()) text += fmt::format("part      samples {}\n", outcome.plan.part.text());
     text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU; first pixels after {:.2f} s\n", s.wall_s,
                         s.cpu_s, s.first_pixel_s);
     for (const PassTime& pass : s.passes)

@@ -97,7 +97,7 @@ bool SampleLoop::is_checkpoint_wanted() const {
 
 ErrorEstimate SampleLoop::measure_error() {
     const FilmSums film = added_to(inputs_.film.sums, inputs_.renderer.ready_film().read_for_error());
-    const ErrorEstimate error = error_of(film);
+    const ErrorEstimate error = claimed_error_of(film, statistics_.faults);
     watch_.add(samples(), error, clock_.now_s());
     return error;
 }
@@ -133,7 +133,8 @@ RenderOutcome SampleLoop::outcome() {
     RenderOutcome outcome{.image = picture_of(film), .plan = plan, .statistics = statistics_};
     RenderStatistics& statistics = outcome.statistics;
     // Halves that share samples are not independent: they agree better than they are right.
-    statistics.error = plan.any(&Technique::shares_samples) ? unknown_error() : error_of(film);
+    statistics.error =
+        plan.any(&Technique::shares_samples) ? unknown_error() : claimed_error_of(film, statistics_.faults);
     statistics.samples = samples();
     add_projection(statistics);
     statistics.live_cells = renderer.film().state().live_cells;

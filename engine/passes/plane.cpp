@@ -113,15 +113,21 @@ Constant sequence_constant(const RenderPlan& plan) {
     return {"sequence", sequence_id(plan.settings.sequence)};
 }
 
+Constant projection_constant(const RenderPlan& plan) {
+    return {"projection", static_cast<std::uint32_t>(plan.projection)};
+}
+
 std::vector<Constant> sphere_constants(const RenderPlan& plan) {
     return {{"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
-            {"glass_spheres", plan.has(Effect::specular) ? plan.glass_spheres : 0u}};
+            {"glass_spheres", plan.has(Effect::specular) ? plan.glass_spheres : 0u},
+            {"has_ground", plan.has(Effect::spheres) && plan.has_ground ? 1u : 0u}};
 }
 
 std::vector<Constant> surface_constants(const RenderPlan& plan) {
     std::vector<Constant> constants = sphere_constants(plan);
     constants.push_back({"has_voxels", plan.has(Effect::voxels) ? 1u : 0u});
     constants.push_back(sequence_constant(plan));
+    constants.push_back(projection_constant(plan));
     return constants;
 }
 

@@ -71,6 +71,8 @@ struct DispatchTile {
 [[nodiscard]] gpu::uint sequence_id(Sequence sequence);
 // Constant of every pass that draws from the sample sequence (shaders/lib/samples.glsl).
 [[nodiscard]] Constant sequence_constant(const RenderPlan& plan);
+// The camera's.
+[[nodiscard]] Constant projection_constant(const RenderPlan& plan);
 
 // Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);

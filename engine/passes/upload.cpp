@@ -23,6 +23,7 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
                         .glass = shares.glass,
                         .ior = material.ior};
     }
+    if (plan.has_ground) materials[scene.materials.size()].albedo = scene.ground.albedo;
     return materials;
 }
 

@@ -27,7 +27,9 @@ Verdict verdict_of_voxels(const SceneFacts& facts, const EffectRequest&) {
 
 Verdict verdict_of_spheres(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_spheres) return {false, false, "the scene has no analytic spheres"};
-    return {true, true, fmt::format("{} analytic spheres", facts.sphere_count)};
+    if (facts.sphere_count == 0) return {true, true, "the ground"};
+    const char* ground = facts.has_ground ? " and the ground" : "";
+    return {true, true, fmt::format("{} analytic spheres{}", facts.sphere_count, ground)};
 }
 
 Verdict verdict_of_ao(const SceneFacts& facts, const EffectRequest&) {

@@ -72,7 +72,7 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
     const std::string hindered = hindrance(settings, needs);
     // A CPU runs passes faster when they are one. A search that finds its cell uses no atomics, so that there
     // reprojection pays only where cells are wide.
-    const bool reprojects = ao.reproject.value_or(!needs.is_cpu);
+    const bool reprojects = ao.reproject.value_or(!needs.is_cpu) && needs.is_perspective;
     const AoPlan hash{.method = AoMethod::hash,
                       .reason = "asked for",
                       .slots = slots_for(ao, needs.pixels),

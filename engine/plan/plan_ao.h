@@ -30,6 +30,7 @@ struct AoNeeds {
     std::uint32_t max_rows = std::numeric_limits<std::uint32_t>::max();  // that one dispatch takes
     std::uint32_t frames = 1;                                            // that will be rendered
     bool moves_voxels = false;                                           // between these frames
+    bool is_perspective = true;                                          // others are not reprojected
     bool is_cpu = true;                                                  // the device is one
     bool wants_error = false;  // an error target decides when to stop
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
 #include "scene/lobe_weights.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
@@ -21,6 +20,8 @@ constexpr double kLaneTurns = 16384.0;
 constexpr double kMarchTurns = 32.0;  // of a ray through voxels
 constexpr std::uint32_t kMinPhotons = 1u << 14;
 constexpr std::uint32_t kMaxPhotons = 1u << 24;
+// Of fewer the photons that are stored may scatter beyond kStoreMargin.
+constexpr std::uint32_t kFewestAtOnce = 1u << 12;
 constexpr std::uint32_t kMinBuckets = 1u << 10;
 constexpr std::uint32_t kMaxBuckets = 1u << 22;
 // Places in the store that an invocation takes together where it traces many photons.
@@ -52,6 +53,14 @@ std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixel
     if (settings.count != 0) return settings.count;
     const auto wanted = std::clamp<std::uint64_t>(pixels, kMinPhotons, kMaxPhotons);
     return static_cast<std::uint32_t>(std::min(static_cast<double>(wanted), std::floor(most)));
+}
+
+// Photons of a run, each of which has a start and `met` places in the store: runs of equal size.
+std::uint32_t photons_at_once(std::uint32_t wanted, double met, std::uint64_t store_bytes) {
+    const double bytes = std::max(met * sizeof(gpu::StoredPhoton), double{sizeof(gpu::PhotonStart)});
+    const double most = std::max(static_cast<double>(store_bytes) / bytes, double{kFewestAtOnce});
+    const auto runs = static_cast<std::uint32_t>(std::ceil(wanted / most));
+    return (wanted + runs - 1) / runs;
 }
 
 // No more than photons, and enough for the cells that the discs of the visible points touch: of neighbours
@@ -101,19 +110,14 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const std::uint32_t wanted = wanted_photons(settings, needs.pixels, room / met);
     plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + emitters))));
     plan.emitter_photons = wanted - plan.sun_photons;
+    plan.at_once = photons_at_once(wanted, met, needs.store_bytes);
     const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
-    plan.lanes = (wanted + per_lane - 1) / per_lane;
+    plan.lanes = (plan.at_once + per_lane - 1) / per_lane;
     plan.gather_lanes = gather_lanes(limits);
-    const double stored = wanted * met;
-    if (stored > room)
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{} photons in an iteration need room for {:.0f}, more than {} bytes of {}; "
-                                "use fewer of them and more iterations",
-                                wanted, stored, limits.max_binding_bytes, limits.name));
     plan.radius = settings.radius.value_or(0.0);
     plan.slots_at_once = per_lane > 1 ? kSlotsAtOnce : 1;
     // Each invocation leaves less than that many places empty.
-    const double slots = stored + static_cast<double>(plan.lanes) * (plan.slots_at_once - 1);
+    const double slots = plan.at_once * met + static_cast<double>(plan.lanes) * (plan.slots_at_once - 1);
     plan.capacity = static_cast<std::uint32_t>(std::min(slots, room));
     plan.buckets = bucket_count(plan.capacity, needs.pixels);
     if (plan.emitter_photons != 0)

@@ -29,8 +29,9 @@ struct LightFacts {
 struct PhotonPlan {
     std::uint32_t emitter_photons = 0;  // emitted per iteration
     std::uint32_t sun_photons = 0;
-    std::uint32_t lanes = 0;          // invocations that trace them
-    std::uint32_t capacity = 0;       // photons that can be stored in an iteration
+    std::uint32_t at_once = 0;        // of all these, traced and gathered together: one run of photons
+    std::uint32_t lanes = 0;          // invocations that trace a run
+    std::uint32_t capacity = 0;       // photons that can be stored in a run
     std::uint32_t slots_at_once = 0;  // of these that an invocation takes together
     std::uint32_t buckets = 0;        // that they are sorted into, a power of two
     std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
@@ -40,6 +41,8 @@ struct PhotonPlan {
     bool operator==(const PhotonPlan&) const = default;
     [[nodiscard]] std::uint32_t count() const { return emitter_photons + sun_photons; }
     [[nodiscard]] bool runs() const { return count() != 0; }
+    // Runs of photons in an iteration.
+    [[nodiscard]] std::uint32_t run_count() const { return (count() + at_once - 1) / at_once; }
 };
 
 // What the plan of photons depends on beside the settings.
@@ -52,12 +55,13 @@ struct PhotonNeeds {
     std::uint64_t pixels = 0;
     double sphere_visits = 0.0;  // of a ray that looks for spheres
     bool has_voxels = false;
+    std::uint64_t store_bytes = 0;  // that the photons of a run may take
 };
 
 // PhotonPlan::gather_lanes of a device.
 [[nodiscard]] std::uint32_t gather_lanes(const DeviceLimits& limits);
 
-// Throws Error(input_refused) when the photons of an iteration would not fit in a binding.
+// Photons go in as many runs as their store needs.
 [[nodiscard]] PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs,
                                       const DeviceLimits& limits);
 

@@ -58,15 +58,11 @@ void place_window(RenderPlan& plan, const std::optional<PixelWindow>& crop) {
     plan.settings.size = end - first;
 }
 
-void check_shard(const RenderPlan& plan) {
-    if (plan.shard.is_whole()) return;
+void check_part(const RenderPlan& plan) {
+    if (plan.part.empty()) return;
     for (const ChosenTechnique& chosen : plan.techniques) {
         if (!chosen.technique->mergeable())
-            throw Error(ExitCode::usage, fmt::format("--shard: {}", chosen.technique->state));
-    }
-    if (plan.samples() == 0) {
-        throw Error(ExitCode::usage, fmt::format("--shard {}/{}: a render of {} samples has no such shard",
-                                                 plan.shard.index + 1, plan.shard.count, plan.settings.spp));
+            throw Error(ExitCode::usage, fmt::format("no part of the samples: {}", chosen.technique->state));
     }
 }
 
@@ -157,6 +153,7 @@ std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     std::vector<FilmPlane> planes = {{"beauty_a", 3}, {"beauty_b", 3}};
     if (plan.sums_squares) planes.push_back({"squares", 3});
     if (plan.sums_bias) planes.insert(planes.end(), {{"bias_a", 3}, {"bias_b", 3}});
+    if (plan.sums_coverage) planes.push_back({"coverage", 1});
     if (!plan.has(Effect::aov)) return planes;
     planes.push_back({"albedo", 3});
     planes.push_back({"normal", 3});
@@ -174,15 +171,18 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     check_settings(scene.settings);
     RenderPlan plan;
     plan.settings = scene.settings;
-    plan.shard = request.shard;
+    plan.part = request.part;
     place_window(plan, request.crop);
+    if (scene.camera) plan.projection = scene.camera->projection;
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.world = world;
     plan.has_world_texels =
         loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
-    plan.material_count =
-        checked_cast<std::uint32_t>(std::max<std::size_t>(scene.materials.size(), 1), "materials");
-    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size(), "spheres");
+    plan.material_count = checked_cast<std::uint32_t>(
+        std::max<std::size_t>(scene.materials.size() + scene.ground.count(), 1), "materials");
+    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size() + scene.ground.count(), "spheres");
+    plan.has_ground = scene.ground.on;
+    plan.sums_coverage = scene.background.shown != Backdrop::sky;
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     plan.has_specular_spheres = facts.has_specular_spheres;
@@ -193,6 +193,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                       .max_rows = limits.max_groups[1],
                                       .frames = request.frames,
                                       .moves_voxels = request.moves_voxels,
+                                      .is_perspective = plan.projection == Projection::perspective,
                                       .is_cpu = limits.is_cpu,
                                       .wants_error = request.wants_error});
     decide_techniques(plan);
@@ -206,7 +207,9 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                           .sun_irradiance = sunlight(scene),
                           .pixels = pixels_of(plan.settings),
                           .sphere_visits = world.sphere_visits,
-                          .has_voxels = plan.has(Effect::voxels)},
+                          .has_voxels = plan.has(Effect::voxels),
+                          .store_bytes = request.photon_store_bytes != 0 ? request.photon_store_bytes
+                                                                         : limits.max_binding_bytes},
                          limits);
     }
     if (plan.any(&Technique::by_paths))
@@ -215,7 +218,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);
     check_paths(plan);
-    check_shard(plan);
+    check_part(plan);
     decide_sums(plan, request.wants_error);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
@@ -235,11 +238,15 @@ RenderPlan plan_without(RenderPlan plan, Effect effect) {
 
 RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.spp = 1;
-    plan.shard = {};  // every shard finds the same
+    plan.part = {};  // every part finds the same
     plan.settings.photons.classic = true;
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
-    return plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
+    plan = plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
+    for (const Effect one : {Effect::ao, Effect::sky, Effect::direct})
+        plan.effects[static_cast<std::size_t>(one)].on = false;
+    plan.paths = {};
+    return plan;
 }
 
 RenderPlan plan_with_radius(RenderPlan plan, double radius) {

@@ -12,7 +12,7 @@
 #include "plan/plan_ao.h"
 #include "plan/plan_paths.h"
 #include "plan/plan_photons.h"
-#include "plan/shard.h"
+#include "plan/sample_set.h"
 #include "plan/techniques.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
@@ -60,16 +60,18 @@ struct PixelWindow {
 // and never changed afterwards.
 struct RenderPlan {
     RenderSettings settings;    // `size` is that of the picture: of the window, when there is one
-    Shard shard;                // of the samples
+    SampleSet part;             // the samples to take; empty: the first settings.spp
     glm::ivec2 image_size{0};   // what the camera sees
     glm::ivec2 first_pixel{0};  // of the picture in that image
+    Projection projection = Projection::perspective;
     EffectStates effects;
     std::vector<ChosenTechnique> techniques;
     AoPlan ao;  // the default when the effect is off
     WorldFacts world;
     bool has_world_texels = false;  // shaders read the world's arrays as texels
     std::uint32_t material_count = 0;
-    std::uint32_t sphere_count = 0;
+    std::uint32_t sphere_count = 0;  // the ground included, which is the last one
+    bool has_ground = false;
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
     bool has_specular_spheres = false;     // of glass or metal
@@ -79,6 +81,7 @@ struct RenderPlan {
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
     bool sums_bias = false;                // of photons
+    bool sums_coverage = false;            // of the scene, before a background that is not the sky
     std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
     std::uint32_t film_tile_count = 0;
     std::uint32_t tile_rows = 0;  // most rows that one recording renders
@@ -132,8 +135,8 @@ struct RenderPlan {
     [[nodiscard]] bool has_independent_samples() const {
         return settings.sequence == Sequence::white || any(&Technique::independent_samples);
     }
-    // Samples per pixel that this render takes: those of its shard.
-    [[nodiscard]] std::uint32_t samples() const { return shard.samples(settings.spp); }
+    // Samples per pixel that this render takes: those of its part.
+    [[nodiscard]] std::uint32_t samples() const { return part.empty() ? settings.spp : part.size(); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const {
         return any(&Technique::needs_pilot) && !settings.photons.radius;
@@ -153,9 +156,10 @@ struct RenderPlan {
 struct PlanRequest {
     EffectRequest effects;
     std::uint64_t memory_budget_bytes = 0;  // 0: no limit
+    std::uint64_t photon_store_bytes = 0;   // that a run of photons may take; 0: as much as a binding
     std::optional<PixelWindow> crop;        // render these pixels of the image only
     std::optional<Traversal> traversal;     // the plan chooses when there is none
-    Shard shard;                            // of the samples to render
+    SampleSet part;                         // the samples to take; empty: the first settings.spp
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop

@@ -1,5 +1,7 @@
 #include "renderer/editable_voxels.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "shared/world_cell.h"
 
@@ -12,6 +14,20 @@ std::uint32_t material_of(std::uint16_t voxel) {
 
 bool touches_border(const Box& box, glm::ivec3 cell) {
     return glm::any(glm::equal(cell, box.lo)) || glm::any(glm::equal(cell, box.hi - 1));
+}
+
+// Adds what the cell was, to the last run of cells along x where it goes on with that.
+void add_back(glm::ivec3 cell, std::optional<std::uint32_t> material, std::vector<BoxEdit>& back) {
+    if (!back.empty()) {
+        Box& run = back.back().box;
+        const bool goes_on = back.back().material == material && run.hi.x == cell.x && run.lo.y == cell.y &&
+                             run.lo.z == cell.z;
+        if (goes_on) {
+            ++run.hi.x;
+            return;
+        }
+    }
+    back.push_back({{cell, cell + 1}, material});
 }
 
 }  // namespace
@@ -34,7 +50,7 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
     Box box = box_;
     for (const BoxEdit& edit : edits) {
         check(edit);
-        if (edit.material) box = united(box, edit.box);
+        if (edit.material && !edit.paints) box = united(box, edit.box);
     }
     const VoxelGrid before{world_.origin(), world_.chunks()};
     if (box != box_) move_to(grid_around(box));
@@ -47,8 +63,11 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
         for (int z = low.z; z < high.z; ++z)
             for (int y = low.y; y < high.y; ++y)
                 for (int x = low.x; x < high.x; ++x)
-                    put({x, y, z}, voxel, change.cells);
+                    if (!edit.paints || world_.get({x, y, z}) != VoxelWorld::kEmpty)
+                        put({x, y, z}, voxel, change);
     }
+    // What was changed twice takes back the later change first.
+    std::ranges::reverse(change.back);
     if (may_shrink_) measure_box();
     if (const VoxelGrid grid = grid_around(box_); grid != VoxelGrid{world_.origin(), world_.chunks()})
         move_to(grid);
@@ -56,7 +75,7 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
     return change;
 }
 
-void EditableVoxels::put(glm::ivec3 local, std::uint16_t voxel, std::vector<VoxelEdit>& changed) {
+void EditableVoxels::put(glm::ivec3 local, std::uint16_t voxel, VoxelChange& change) {
     const std::uint16_t before = world_.get(local);
     if (before == voxel) return;
     const glm::ivec3 cell = local + world_.origin();
@@ -68,7 +87,9 @@ void EditableVoxels::put(glm::ivec3 local, std::uint16_t voxel, std::vector<Voxe
         may_shrink_ |= touches_border(box_, cell);
     }
     world_.put(local, voxel);
-    changed.push_back({local, voxel});
+    change.cells.push_back({local, voxel});
+    add_back(cell, before != VoxelWorld::kEmpty ? std::optional(material_of(before)) : std::nullopt,
+             change.back);
 }
 
 // The same voxels counted from another corner.

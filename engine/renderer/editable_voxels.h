@@ -14,12 +14,16 @@ namespace voxilux {
 struct BoxEdit {
     Box box;
     std::optional<std::uint32_t> material;  // of the scene; nothing: air
+    bool paints = false;                    // voxels that are there, not air
+
+    bool operator==(const BoxEdit&) const = default;
 };
 
 // What an edit made of the voxels.
 struct VoxelChange {
     bool has_moved = false;        // they have another grid now
     std::vector<VoxelEdit> cells;  // that were changed, in the grid that they have now
+    std::vector<BoxEdit> back;     // edits that take all of it back, in this order
 };
 
 // The voxels of a scene that is edited, and what its facts say of them. Their grid is always that of a scene
@@ -38,7 +42,7 @@ class EditableVoxels {
 
   private:
     void check(const BoxEdit& edit) const;
-    void put(glm::ivec3 local, std::uint16_t voxel, std::vector<VoxelEdit>& changed);
+    void put(glm::ivec3 local, std::uint16_t voxel, VoxelChange& change);
     void move_to(const VoxelGrid& grid);
     void measure_box();
 

@@ -69,7 +69,7 @@ RunResult FilmSteps::take(const DispatchTile& tile, StepResult& done, std::span<
     VX_ASSERT_EQ(tile.first_row, position_.rows_ahead);
     const auto start = Clock::now();
     Recording recording;
-    record_frame(*plan_, tile, params_, {plan_->shard.sample(position_.samples), state_, plan_->shard.index},
+    record_frame(*plan_, tile, params_, {plan_->part.sample(position_.samples), state_, plan_->part.first()},
                  recording);
     recording.readback("counters");
     for (const std::string& buffer : kept)
@@ -97,23 +97,27 @@ RunResult FilmSteps::take(const DispatchTile& tile, StepResult& done, std::span<
 }
 
 FilmSums FilmSteps::counted(FilmSums film, std::uint32_t first_row) const {
-    const auto even = [&](std::uint32_t samples) { return plan_->shard.even_samples(samples); };
+    // Rows from the top may be one sample ahead.
+    const auto even = [&](FilmPosition position) {
+        const SampleSet& part = plan_->part;
+        return std::array{part.even_samples(position.samples), part.even_samples(position.samples + 1)};
+    };
+    const auto before = even(start_);
+    const auto now = even(position_);
     for (std::uint32_t i = 0; i < film.even.size(); ++i) {
-        const std::uint32_t before = start_.samples_of_row(first_row + i);
-        const std::uint32_t now = position_.samples_of_row(first_row + i);
-        film.even[i] = even(now) - even(before);
-        film.odd[i] = now - before - film.even[i];
+        const std::uint32_t row = first_row + i;
+        film.even[i] = now[row < position_.rows_ahead ? 1 : 0] - before[row < start_.rows_ahead ? 1 : 0];
+        film.odd[i] = position_.samples_of_row(row) - start_.samples_of_row(row) - film.even[i];
     }
     return film;
 }
 
-DisplayBuffer FilmSteps::display() {
+DisplayBuffer FilmSteps::display(const DisplayLook& look) {
+    VX_ASSERT(start_ == FilmPosition{});
     clear_film();
     Recording recording;
-    const SampleCounts counts{.samples = position_.samples - start_.samples,
-                              .rows_ahead = position_.rows_ahead,
-                              .rows_behind = start_.rows_ahead};
-    const DisplayBuffer shown = record_display_resolve(*plan_, counts, recording);
+    const DisplayBuffer shown =
+        record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, look, recording);
     (void)executor_->run(recording);
     return shown;
 }

@@ -18,7 +18,7 @@ namespace voxilux {
 
 // How far a film has come.
 struct FilmPosition {
-    std::uint32_t samples = 0;     // whole ones, of the shard
+    std::uint32_t samples = 0;     // whole ones, of the plan's part
     std::uint32_t rows_ahead = 0;  // rows from the top that have one more
 
     bool operator==(const FilmPosition&) const = default;
@@ -65,8 +65,8 @@ class FilmSteps {
     // added to `done`. `kept`: buffers to read back when it is rendered.
     RunResult take(const DispatchTile& tile, StepResult& done, std::span<const std::string> kept = {});
 
-    // Means of the film in a buffer on the device.
-    DisplayBuffer display();
+    // The film as it is shown, in a buffer on the device. It has to begin with the first sample.
+    DisplayBuffer display(const DisplayLook& look);
 
     // The film of this frame with the samples of its rows; the second one without what no error needs.
     [[nodiscard]] FilmSums read();

@@ -16,8 +16,8 @@ gpu::FrameParams pilot_params(const RenderPlan& plan, const Scene& scene, const 
     return params;
 }
 
-RenderPlan without_shard(RenderPlan plan) {
-    plan.shard = {};
+RenderPlan without_part(RenderPlan plan) {
+    plan.part = {};
     return plan;
 }
 
@@ -29,7 +29,7 @@ std::uint32_t pilot_seed(std::uint32_t seed) {
 
 PilotFilm::PilotFilm(const RenderPlan& plan, const PreparedScene& prepared, const Scene& scene,
                      Executor& executor, bool is_cpu)
-    : plan_(without_shard(plan)),
+    : plan_(without_part(plan)),
       params_(pilot_params(plan, scene, prepared.march_world)),
       steps_(plan_, executor, is_cpu) {
     // A variant without occlusion takes the light of an atmosphere from what its scene was not prepared with.

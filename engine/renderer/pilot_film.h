@@ -24,7 +24,7 @@ class PilotFilm {
     [[nodiscard]] FilmSums read() { return steps_.read_for_error(); }
 
   private:
-    RenderPlan plan_;  // of all samples, whichever shard is rendered
+    RenderPlan plan_;  // of all samples, whichever part is rendered
     gpu::FrameParams params_;
     FilmSteps steps_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -21,6 +22,9 @@ constexpr double kPilotGrowth = 4.0;
 constexpr int kMaxPilots = 10;  // up to a radius of 16,384 voxels
 // Fewer photons in the middle disc say too little.
 constexpr double kEnoughPhotons = 3.0;
+// Discs that meet not even so many times the photons of discs of a quarter of their radius cover the
+// surfaces.
+constexpr double kLeastGain = 2.0;
 // Parts of the longest side of a world of voxels that no disc may be wider than: where hardly a photon comes,
 // noise is better than a smear.
 constexpr double kFinestParts = 128.0;
@@ -58,17 +62,24 @@ double median_of_met(std::vector<float> photons) {
 }
 
 double pilot_radius(const PreparedScene& prepared, const Scene& scene, Executor& executor) {
-    double radius = kSmallestPilot;
-    double met = 0.0;
     const double most = largest_radius(prepared);
+    double radius = kSmallestPilot;
+    double all_before = 0.0;
     for (int i = 0; i < kMaxPilots; ++i) {
         const RenderPlan pilot = plan_counting(prepared.plan, radius);
-        met = median_of_met(count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor));
-        if (met >= kEnoughPhotons || radius >= most || i + 1 == kMaxPilots) break;
+        const std::vector<float> photons =
+            count_photons(pilot, frame_params(pilot, scene, prepared.march_world), executor);
+        const double met = median_of_met(photons);
+        const double all = std::reduce(photons.begin(), photons.end(), 0.0);
+        if (met >= kEnoughPhotons || (met > 0.0 && (radius >= most || i + 1 == kMaxPilots)))
+            return std::min(radius * std::sqrt(kPilotPhotons / met), most);
+        if (all_before > 0.0 && all < kLeastGain * all_before)
+            return std::min(radius / kPilotGrowth * std::sqrt(std::max(all / all_before, 1.0)), most);
+        if (radius >= most) break;
+        all_before = all;
         radius *= kPilotGrowth;
     }
-    if (!(met > 0.0)) return kUnlitRadius;
-    return std::min(radius * std::sqrt(kPilotPhotons / met), most);
+    return kUnlitRadius;
 }
 
 }  // namespace voxilux

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/assert.h"
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -17,14 +18,18 @@ Scene without_voxels(const Scene& scene) {
             .spheres = scene.spheres,
             .sun = scene.sun,
             .sky = scene.sky,
+            .background = scene.background,
+            .ground = scene.ground,
             .camera = camera_of(scene),
+            .framing_fov_y_deg = scene.framing_fov_y_deg,
             .settings = scene.settings};
 }
 
 // camera_of() a scene that names none, when its voxels fill `box`.
 Camera framing_camera_of(const Scene& scene, const Box& box) {
     const glm::dvec2 size(scene.settings.size);
-    return default_camera(united(box, sphere_bounds(scene.spheres)), size.x / size.y);
+    return framing_camera(united(box, sphere_bounds(scene.spheres)), View::three_quarter, size.x / size.y,
+                          scene.framing_fov_y_deg);
 }
 
 }  // namespace
@@ -82,6 +87,7 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
 void Renderer::set_camera(const Camera& camera) {
     Scene scene = scene_;
     scene.camera = camera;
+    VX_ASSERT(camera.projection == prepared_->plan.projection);
     // A scene without voxels counts its coordinates from a point near the camera.
     is_framed_ = false;
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request_), scene, request_);
@@ -151,8 +157,14 @@ StepResult Renderer::step_tile() {
     return with_uploads(ready_film().step_tile());
 }
 
-DisplayBuffer Renderer::display() {
-    return ready_film().display();
+DisplayBuffer Renderer::display(const DisplayLook& look) {
+    return ready_film().display(look);
+}
+
+void Renderer::set_reference(std::span<const float> radiance) {
+    Recording recording;
+    record_display_reference(plan(), radiance, recording);
+    (void)executor_.run(recording);
 }
 
 StepResult Renderer::with_uploads(StepResult step) {

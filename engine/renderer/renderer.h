@@ -41,8 +41,11 @@ class Renderer {
 
     // Other voxels, after prepare_editable; the camera stays. What the edits leave as it was stays on the
     // device, unless the box of all voxels becomes another one or there is no more room. Throws as prepare
-    // does, and as EditableVoxels::apply.
-    void edit(std::span<const BoxEdit> edits);
+    // does, and as EditableVoxels::apply. Returns the edits that take it back.
+    std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
+
+    // The voxels that edit() changes; null where there are none.
+    [[nodiscard]] const VoxelWorld* voxels() const { return editing_ ? &editing_->voxels.world() : nullptr; }
 
     // Empties the film. It goes on from `start`: the samples until then are the caller's.
     void restart(FilmPosition start = {});
@@ -63,8 +66,10 @@ class Renderer {
     [[nodiscard]] const PreparedScene& prepared() const { return *prepared_; }
     // The scene without its voxels, as it is seen now.
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    // The mean of the film so far in a buffer on the device, for who presents it there. Nothing is read back.
-    DisplayBuffer display();
+    // The film so far as it is shown, in a buffer on the device, for who presents it there. Nothing is read
+    // back. Looks that compare need a reference of the size of the image: [height][width][3] radiance.
+    DisplayBuffer display(const DisplayLook& look);
+    void set_reference(std::span<const float> radiance);
 
     // The device with all uploads done: for pilots, which leave the film dirty.
     [[nodiscard]] Executor& executor();

@@ -22,15 +22,16 @@ void copy_words(const RunResult& result, const std::string& buffer, std::vector<
 
 }  // namespace
 
-void Renderer::edit(std::span<const BoxEdit> edits) {
+std::vector<BoxEdit> Renderer::edit(std::span<const BoxEdit> edits) {
     VX_ASSERT(editing_.has_value());
-    const VoxelChange change = editing_->voxels.apply(edits);
+    VoxelChange change = editing_->voxels.apply(edits);
     const bool was_stale = std::exchange(editing_->is_stale, true);
     is_framed_ = false;
     const bool may_edit = !was_stale && !change.has_moved && change.cells.size() <= kMaxCells &&
                           plan().has(Effect::voxels) && has_free_boxes(plan().world.traversal);
     if (!may_edit || !edit_structure(change.cells)) adopt(prepare_again(scene_, request_), scene_, request_);
     editing_->is_stale = false;
+    return std::move(change.back);
 }
 
 // The boxes that grew on the device.

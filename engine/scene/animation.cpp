@@ -62,6 +62,7 @@ FramePlayer::FramePlayer(Scene scene)
     : still_(std::move(scene)), animation_(still_.animation), loaded_(still_.instances) {
     if (animation_.is_still()) return;
     rest_ = camera_of(still_);
+    rest_sun_ = still_.sun;
     if (animation_.turntable) axis_ = middle(bounds_of_frames(still_));
     still_.animation = {};
 }
@@ -94,8 +95,12 @@ const Scene& FramePlayer::show(std::int64_t frame) {
     still_.camera = rest_;
     if (!animation_.camera_keys.empty())
         still_.camera = camera_on_path(animation_.camera_keys, animation_.camera_path, frame);
-    else if (animation_.turntable)
+    else if (animation_.turntable) {
         still_.camera = camera_on_turntable(*animation_.turntable, rest_, axis_, frame);
+        const float before = still_.sun.azimuth_deg;
+        still_.sun = sun_on_turntable(*animation_.turntable, rest_sun_, frame);
+        has_new_light_ = still_.sun.azimuth_deg != before;
+    }
     return still_;
 }
 

@@ -36,6 +36,8 @@ class FramePlayer {
 
     // Whether the last show() changed the voxels; true of the first.
     [[nodiscard]] bool has_new_voxels() const { return has_new_voxels_; }
+    // Whether it moved the sun.
+    [[nodiscard]] bool has_new_light() const { return has_new_light_; }
 
   private:
     [[nodiscard]] std::vector<Instance> instances_at(std::int64_t frame) const;
@@ -44,8 +46,10 @@ class FramePlayer {
     Animation animation_;
     std::vector<Instance> loaded_;  // the instances as they were loaded
     Camera rest_;                   // of the turntable
+    Sun rest_sun_;
     glm::dvec2 axis_{0.0};
     bool has_new_voxels_ = true;
+    bool has_new_light_ = false;
     bool is_first_ = true;
 };
 

@@ -87,9 +87,10 @@ Camera camera_on_path(std::span<const CameraKey> keys, CameraPath path, std::int
     };
     const auto fov = [](const CameraKey& key) { return key.camera.fov_y_deg; };
     const auto [narrow, wide] = std::ranges::minmax_element(keys, {}, fov);
-    Camera camera{.position = point([](const CameraKey& key) { return key.camera.position; }),
-                  .yaw_deg = number(yaw_curve(keys)),
-                  .fov_y_deg = std::clamp(number(curve_of(keys, fov)), fov(*narrow), fov(*wide))};
+    Camera camera = before.camera;
+    camera.position = point([](const CameraKey& key) { return key.camera.position; });
+    camera.yaw_deg = number(yaw_curve(keys));
+    camera.fov_y_deg = std::clamp(number(curve_of(keys, fov)), fov(*narrow), fov(*wide));
     const double pitch = number(curve_of(keys, [](const CameraKey& key) { return key.camera.pitch_deg; }));
     camera.pitch_deg = std::clamp(pitch, -90.0, 90.0);
     if (!std::ranges::all_of(keys, [](const CameraKey& key) { return key.look_at.has_value(); }))
@@ -102,12 +103,17 @@ Camera camera_on_path(std::span<const CameraKey> keys, CameraPath path, std::int
     return camera;
 }
 
-Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::dvec2 axis,
-                           std::int64_t frame) {
+double angle_of(const Turntable& turntable, std::int64_t frame) {
     VX_ASSERT(turntable.frames >= 1);
     const std::int64_t place = ((frame - 1) % turntable.frames + turntable.frames) % turntable.frames;
-    const double angle = turntable.start_deg + turntable.degrees * static_cast<double>(place) /
-                                                   static_cast<double>(turntable.frames);
+    return turntable.start_deg +
+           turntable.degrees * static_cast<double>(place) / static_cast<double>(turntable.frames);
+}
+
+Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::dvec2 axis,
+                           std::int64_t frame) {
+    if (turntable.turned == Turned::light) return rest;
+    const double angle = (turntable.turned == Turned::model ? -1.0 : 1.0) * angle_of(turntable, frame);
     if (angle == 0.0) return rest;
     const double sine = sin_deg(angle), cosine = cos_deg(angle);
     const glm::dvec2 arm = glm::dvec2(rest.position) - axis;
@@ -116,6 +122,15 @@ Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::
     camera.position.y = axis.y + sine * arm.x + cosine * arm.y;
     camera.yaw_deg = rest.yaw_deg + angle;
     return camera;
+}
+
+Sun sun_on_turntable(const Turntable& turntable, const Sun& rest, std::int64_t frame) {
+    if (turntable.turned == Turned::camera) return rest;
+    const double angle = (turntable.turned == Turned::model ? -1.0 : 1.0) * angle_of(turntable, frame);
+    Sun sun = rest;
+    sun.azimuth_deg =
+        static_cast<float>(std::remainder(static_cast<double>(rest.azimuth_deg) + angle, 360.0));
+    return sun;
 }
 
 }  // namespace voxilux

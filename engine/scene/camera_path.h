@@ -15,9 +15,15 @@ namespace voxilux {
 // turns the short way round. Where every key has a look_at, that point moves likewise and sets the direction.
 [[nodiscard]] Camera camera_on_path(std::span<const CameraKey> keys, CameraPath path, std::int64_t frame);
 
+// Degrees that a turntable has turned by at `frame`.
+[[nodiscard]] double angle_of(const Turntable& turntable, std::int64_t frame);
+
 // The camera of a turntable at `frame`, `rest` being that of angle 0 and `axis` x and y of the vertical line
 // it goes round. The same distance from the axis, height and pitch in all frames.
 [[nodiscard]] Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::dvec2 axis,
                                          std::int64_t frame);
+
+// The sun of a turntable at `frame`.
+[[nodiscard]] Sun sun_on_turntable(const Turntable& turntable, const Sun& rest, std::int64_t frame);
 
 }  // namespace voxilux

@@ -124,7 +124,9 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     facts.sphere_count = scene.spheres.size();
     facts.box = voxels.box;
     facts.has_voxels = !facts.box.empty();
-    facts.has_spheres = !scene.spheres.empty();
+    facts.has_ground = scene.ground.on;
+    facts.has_spheres = !scene.spheres.empty() || facts.has_ground;
+    facts.has_reflectors = facts.has_ground && any_positive(scene.ground.albedo);
     if (facts.has_voxels) {
         facts.extent = facts.box.extent();
         facts.fill_ratio = static_cast<double>(facts.voxel_count) / cell_count(facts.box);
@@ -134,6 +136,7 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
                                          : any_positive(scene.sky.radiance);
     measure_materials(scene, std::move(voxels.used), facts);
+    facts.simplified.insert(facts.simplified.end(), scene.notes.begin(), scene.notes.end());
     return facts;
 }
 
@@ -146,6 +149,7 @@ std::string describe(const SceneFacts& facts) {
     line("voxels", fmt::format("{}", facts.voxel_count));
     line("instances", fmt::format("{}", facts.instance_count));
     line("spheres", fmt::format("{}", facts.sphere_count));
+    if (facts.has_ground) line("ground", "yes");
     line("materials used", fmt::format("{}", facts.material_count));
     if (facts.has_voxels) {
         const Box& box = facts.box;

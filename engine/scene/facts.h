@@ -23,7 +23,8 @@ struct SceneFacts {
     double fill_ratio = 0.0;           // voxel_count / cells of `box`; over 1 where instances overlap
 
     bool has_voxels = false;
-    bool has_spheres = false;
+    bool has_spheres = false;  // or a ground, which is one of curvature 0
+    bool has_ground = false;
     bool sun_reaches = false;  // switched on, above the horizon, irradiance > 0
     bool has_sky = false;      // radiance > 0, or an atmosphere with a sun
     bool has_atmosphere = false;

@@ -109,12 +109,38 @@ struct Sun {
     [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
 };
 
-// Pinhole. Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.
+// What the camera sees where it sees nothing of the scene. Light of the sky is there whatever it is.
+enum class Backdrop : std::uint8_t { sky, color, transparent };
+inline constexpr std::array<std::string_view, 3> kBackdropNames{"sky", "color", "transparent"};
+
+struct Background {
+    Backdrop shown = Backdrop::sky;
+    glm::vec3 radiance{0.0f};  // of a colour
+};
+
+// A plane without end that looks up. On the device it is the last sphere, one of curvature 0, and its
+// material the last one.
+struct Ground {
+    bool on = false;
+    glm::vec3 albedo{0.3f};
+    std::optional<double> height;  // z; that of the scene's lowest voxel or sphere once a scene is loaded
+
+    [[nodiscard]] std::size_t count() const { return on ? 1 : 0; }
+};
+
+// How a camera maps directions to pixels, see shaders/shared/projection.h.
+enum class Projection : std::uint8_t { perspective, orthographic, equirectangular, fisheye };
+inline constexpr std::array<std::string_view, 4> kProjectionNames{"perspective", "orthographic",
+                                                                  "equirectangular", "fisheye"};
+
+// Yaw is counter-clockwise from +x seen from above, pitch is up; roll is zero.
 struct Camera {
-    glm::dvec3 position{0.0};
+    glm::dvec3 position{0.0};  // orthographic: a point in the plane that rays start from
     double yaw_deg = 0.0;
     double pitch_deg = 0.0;
-    double fov_y_deg = 45.0;  // vertical, in (0, 180)
+    double fov_y_deg = 45.0;  // vertical; in (0, 180) for perspective, in (0, 360] for fisheye
+    Projection projection = Projection::perspective;
+    double pixels_per_voxel = 0.0;  // orthographic: > 0
 };
 
 enum class Sequence : std::uint8_t { sobol, halton, white };
@@ -148,12 +174,19 @@ struct CameraKey {
 enum class CameraPath : std::uint8_t { smooth, linear };
 inline constexpr std::array<std::string_view, 2> kCameraPathNames{"smooth", "linear"};
 
+// What a turntable turns. Voxels stand on whole cells: for a model that turns, camera and sun go round it the
+// other way.
+enum class Turned : std::uint8_t { camera, model, light };
+inline constexpr std::array<std::string_view, 3> kTurnedNames{"camera", "model", "light"};
+
 // The camera goes round the vertical line through the middle of the scene's box, counter-clockwise seen from
-// above; sun and sky stay. Frame 1 shows the angle `start_deg`, frame `frames` + 1 is frame 1 again.
+// above; sun and sky stay. (Or the model turns so, or the sun goes round.) Frame 1 shows the angle
+// `start_deg`, frame `frames` + 1 is frame 1 again.
 struct Turntable {
     std::int64_t frames = 0;  // of a turn, >= 1
     double degrees = 360.0;   // of a turn; negative goes clockwise
     double start_deg = 0.0;
+    Turned turned = Turned::camera;
 };
 
 // An animated .vox file in the scene.
@@ -183,6 +216,13 @@ struct Animation {
     [[nodiscard]] bool is_still() const { return camera_keys.empty() && !turntable && placements.empty(); }
 };
 
+// A camera that a file has saved. An orthographic one shows so many voxels from top to bottom.
+struct SavedCamera {
+    std::string name;
+    Camera camera;
+    double height = 0.0;
+};
+
 // All that a picture depends on, as plain data. An animated one is the still scene of the frame that it was
 // loaded for; scene_at_frame gives the others.
 struct Scene {
@@ -192,10 +232,16 @@ struct Scene {
     std::vector<Sphere> spheres;
     Sun sun;
     Sky sky;
-    std::optional<Camera> camera;  // absent: default_camera() frames the scene
+    Background background;
+    Ground ground;
+    std::optional<Camera> camera;     // absent: default_camera() frames the scene
+    double framing_fov_y_deg = 45.0;  // with this
     RenderSettings settings;
     Animation animation;
+    std::vector<SavedCamera> cameras;
+    std::optional<float> exposure_ev;   // of PNGs, stops, unless a flag says another
     std::vector<std::string> warnings;  // what was dropped or repaired while loading, one line each
+    std::vector<std::string> notes;     // what a file asks for and is not shown, likewise
 };
 
 }  // namespace voxilux

@@ -16,13 +16,18 @@
 #include <vector>
 
 #include "base/assert.h"
+#include "base/error.h"
 #include "scene/angles.h"
 #include "scene/animation.h"
 
 namespace voxilux {
 namespace {
 
-constexpr double kEmptySceneDistance = 64.0;  // voxels: a model of the usual size would fit the picture
+constexpr double kEmptySceneDistance = 64.0;     // voxels: a model of the usual size would fit the picture
+constexpr double kWidestPanoramaFraming = 90.0;  // degrees
+constexpr double kMaxSpriteSide = 65535.0;       // pixels, as of [render] size
+// What the rounding of sines may add to the extent of a scene, pixels.
+constexpr double kPixelRounding = 1e-6;
 
 YawPitch direction_of(View view) {
     switch (view) {
@@ -38,6 +43,8 @@ YawPitch direction_of(View view) {
             return {180.0, 0.0};
         case View::top:
             return {90.0, -90.0};
+        case View::bottom:
+            return {90.0, 90.0};
         case View::iso:
             return {135.0, -std::atan(std::numbers::sqrt2 / 2.0) * (180.0 / std::numbers::pi)};
     }
@@ -55,11 +62,6 @@ struct Slack {
         high = std::min(high, across + tangent * depth);
     }
 };
-
-Camera looking_along(View view, double fov_y_deg) {
-    const YawPitch direction = direction_of(view);
-    return {.yaw_deg = direction.yaw_deg, .pitch_deg = direction.pitch_deg, .fov_y_deg = fov_y_deg};
-}
 
 // Corners of the polygon that stands for a circle around it: the camera is at most 0.2 % too far away.
 constexpr int kCircleCorners = 48;
@@ -114,18 +116,112 @@ Camera camera_around(const Box& box, std::span<const glm::dvec3> corners, const 
     return camera;
 }
 
+// What a box covers in camera axes, relative to its centre.
+struct Extent {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+};
+
+Extent extent_of(std::span<const glm::dvec3> corners, const glm::dmat3& basis) {
+    Extent extent;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 p = corner * basis;
+        extent.low = glm::min(extent.low, p);
+        extent.high = glm::max(extent.high, p);
+    }
+    return extent;
+}
+
+Camera parallel_camera_around(const Box& box, std::span<const glm::dvec3> corners, const Camera& looking,
+                              glm::dvec2 size) {
+    Camera camera = looking;
+    const glm::dmat3 basis = camera_basis(camera);
+    const bool is_chosen = looking.pixels_per_voxel > 0.0;
+    if (box.empty()) {
+        camera.position = -kEmptySceneDistance * basis[2];
+        if (!is_chosen) camera.pixels_per_voxel = size.y / kEmptySceneDistance;
+        return camera;
+    }
+    const Extent extent = extent_of(corners, basis);
+    const glm::dvec2 free = (1.0 - kFrameMargin) * size / glm::dvec2(extent.high - extent.low);
+    if (!is_chosen) camera.pixels_per_voxel = std::min(free.x, free.y);
+    const glm::dvec3 centre = 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
+    const glm::dvec3 middle = 0.5 * (extent.low + extent.high);
+    camera.position = centre + basis * glm::dvec3(middle.x, middle.y, extent.low.z - kParallelClearance);
+    return camera;
+}
+
+Camera camera_around(const Box& box, std::span<const glm::dvec3> corners, const Camera& looking,
+                     glm::dvec2 size) {
+    if (looking.projection == Projection::orthographic)
+        return parallel_camera_around(box, corners, looking, size);
+    Camera lens = looking;
+    const bool is_panorama = looking.projection != Projection::perspective;
+    if (is_panorama) lens.fov_y_deg = std::min(lens.fov_y_deg, kWidestPanoramaFraming);
+    Camera camera = camera_around(box, corners, lens, size.x / size.y);
+    camera.fov_y_deg = looking.fov_y_deg;
+    return camera;
+}
+
+// What the camera of a scene has to show.
+std::vector<glm::dvec3> corners_to_show(const Scene& scene, const Box& box) {
+    return scene.animation.turntable ? corners_of_turning(box) : corners_of(box);
+}
+
 }  // namespace
+
+Camera looking_along(View view, double fov_y_deg) {
+    const YawPitch direction = direction_of(view);
+    return {.yaw_deg = direction.yaw_deg, .pitch_deg = direction.pitch_deg, .fov_y_deg = fov_y_deg};
+}
 
 Camera framing_camera(const Box& box, View view, double aspect, double fov_y_deg) {
     return camera_around(box, corners_of(box), looking_along(view, fov_y_deg), aspect);
 }
 
-Camera framing_camera(const Scene& scene, View view, double fov_y_deg) {
+Camera framing_camera(const Box& box, const Camera& looking, glm::dvec2 size) {
+    return camera_around(box, corners_of(box), looking, size);
+}
+
+Camera framing_camera(const Scene& scene, const Camera& looking) {
     const Box box = bounds_of_frames(scene);
-    const double aspect =
-        static_cast<double>(scene.settings.size.x) / static_cast<double>(scene.settings.size.y);
-    if (!scene.animation.turntable) return framing_camera(box, view, aspect, fov_y_deg);
-    return camera_around(box, corners_of_turning(box), looking_along(view, fov_y_deg), aspect);
+    return camera_around(box, corners_to_show(scene, box), looking, glm::dvec2(scene.settings.size));
+}
+
+Camera framing_camera(const Scene& scene, View view, double fov_y_deg) {
+    return framing_camera(scene, looking_along(view, fov_y_deg));
+}
+
+bool has_pixel_grid(const Camera& camera) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const auto is_axis = [](glm::dvec3 v) { return glm::abs(v) == glm::round(glm::abs(v)); };
+    return camera.projection == Projection::orthographic && is_axis(basis[0]) && is_axis(basis[1]) &&
+           camera.pixels_per_voxel == std::round(camera.pixels_per_voxel);
+}
+
+Camera on_pixel_grid(Camera camera, glm::dvec2 size) {
+    if (!has_pixel_grid(camera)) return camera;
+    const glm::dmat3 basis = camera_basis(camera);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double border =
+            glm::dot(camera.position, basis[axis]) * camera.pixels_per_voxel - size[axis] / 2.0;
+        camera.position += (std::round(border) - border) / camera.pixels_per_voxel * basis[axis];
+    }
+    return camera;
+}
+
+glm::ivec2 sprite_size(const Scene& scene, const Camera& looking) {
+    const Box box = bounds_of_frames(scene);
+    if (box.empty()) return glm::ivec2(glm::max(glm::dvec2(looking.pixels_per_voxel), 1.0));
+    const Extent extent = extent_of(corners_to_show(scene, box), camera_basis(looking));
+    const glm::dvec2 covered = looking.pixels_per_voxel * glm::dvec2(extent.high - extent.low);
+    const glm::dvec2 size = glm::max(glm::ceil(covered - kPixelRounding), 1.0);
+    if (size.x > kMaxSpriteSide || size.y > kMaxSpriteSide)
+        throw Error(ExitCode::input_refused,
+                    fmt::format("a picture of the whole scene with {} pixels per voxel is {}x{}, over the "
+                                "limit of {} on a side",
+                                looking.pixels_per_voxel, size.x, size.y, kMaxSpriteSide));
+    return glm::ivec2(size);
 }
 
 Camera default_camera(const Box& box, double aspect) {
@@ -134,7 +230,7 @@ Camera default_camera(const Box& box, double aspect) {
 
 Camera camera_of(const Scene& scene) {
     if (scene.camera) return *scene.camera;
-    return framing_camera(scene, View::three_quarter);
+    return framing_camera(scene, View::three_quarter, scene.framing_fov_y_deg);
 }
 
 glm::dmat3 camera_basis(const Camera& camera) {

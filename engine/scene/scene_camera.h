@@ -10,7 +10,7 @@
 namespace voxilux {
 
 // Where a framing camera looks from. `front` is the -y side of a model, `right` its +x side.
-enum class View : std::uint8_t { three_quarter, front, back, left, right, top, iso };
+enum class View : std::uint8_t { three_quarter, front, back, left, right, top, bottom, iso };
 
 // The vertical field of view of a framing camera unless the scene says another.
 inline constexpr double kDefaultFovYDeg = 45.0;
@@ -23,6 +23,9 @@ inline constexpr double kFrameMargin = 0.05;
 // degrees.
 inline constexpr double kFrameClearance = 0.125;
 
+// Voxels between the nearest corner and the plane that the rays of an orthographic framing camera start from.
+inline constexpr double kParallelClearance = 1.0;
+
 // The camera that looks along `view` from the nearest point at which the whole box is inside the picture less
 // its margin: exact, the box touches the margin on two opposite sides (but see kFrameClearance). `aspect` is
 // width / height. An empty box gives a camera that looks at the origin from 64 voxels away.
@@ -32,6 +35,25 @@ inline constexpr double kFrameClearance = 0.125;
 // The framing camera of a scene and its picture size: around bounds_of_frames; on a turntable, around all
 // that they cover in a turn.
 [[nodiscard]] Camera framing_camera(const Scene& scene, View view, double fov_y_deg = kDefaultFovYDeg);
+
+// The direction of a view, with a field of view.
+[[nodiscard]] Camera looking_along(View view, double fov_y_deg = kDefaultFovYDeg);
+
+// The same for the direction and the lens of any camera; `size` is the image's, pixels. An orthographic one
+// without pixels_per_voxel gets as many as leave the margin free. A panorama stands where a perspective
+// camera of at most 90 degrees would.
+[[nodiscard]] Camera framing_camera(const Box& box, const Camera& looking, glm::dvec2 size);
+[[nodiscard]] Camera framing_camera(const Scene& scene, const Camera& looking);
+
+// Whether borders of pixels are borders of voxels: parallel rays along an axis, whole pixels per voxel.
+[[nodiscard]] bool has_pixel_grid(const Camera& camera);
+
+// Such a camera, moved by at most half a pixel so that they are; any other as it is.
+[[nodiscard]] Camera on_pixel_grid(Camera camera, glm::dvec2 size);
+
+// The smallest image that shows the whole scene at the pixels_per_voxel of `looking`. Throws
+// Error(input_refused) where it is larger than images can be.
+[[nodiscard]] glm::ivec2 sprite_size(const Scene& scene, const Camera& looking);
 
 // The view of a scene that names none: three-quarter from above, the front and the right side in sight.
 [[nodiscard]] Camera default_camera(const Box& box, double aspect);

@@ -43,8 +43,8 @@ auto fields_of(const Sphere& sphere) {
 }
 
 auto fields_of(const Camera& camera) {
-    const auto& [position, yaw_deg, pitch_deg, fov_y_deg] = camera;
-    return std::tie(position, yaw_deg, pitch_deg, fov_y_deg);
+    const auto& [position, yaw_deg, pitch_deg, fov_y_deg, projection, pixels_per_voxel] = camera;
+    return std::tie(position, yaw_deg, pitch_deg, fov_y_deg, projection, pixels_per_voxel);
 }
 
 auto fields_of(const CameraKey& key) {
@@ -53,8 +53,8 @@ auto fields_of(const CameraKey& key) {
 }
 
 auto fields_of(const Turntable& turntable) {
-    const auto& [frames, degrees, start_deg] = turntable;
-    return std::tie(frames, degrees, start_deg);
+    const auto& [frames, degrees, start_deg, turned] = turntable;
+    return std::tie(frames, degrees, start_deg, turned);
 }
 
 auto fields_of(const VoxPlacement& placement) {
@@ -115,9 +115,9 @@ auto fields_of(const Animation& animation) {
 
 // The rest of a scene are sections.
 auto fields_of(const Scene& scene) {
-    const auto& [materials, models, instances, spheres, sun, sky, camera, settings, animation, warnings] =
-        scene;
-    return std::tie(materials, models, instances, spheres, camera, animation);
+    const auto& [materials, models, instances, spheres, sun, sky, background, ground, camera,
+                 framing_fov_y_deg, settings, animation, cameras, exposure_ev, warnings, notes] = scene;
+    return std::tie(materials, models, instances, spheres, camera, framing_fov_y_deg, animation);
 }
 
 class Hasher {

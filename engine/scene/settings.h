@@ -52,6 +52,7 @@ inline constexpr Range kDensity{0, 100};
 inline constexpr Range kTurn{-3600, 3600};
 inline constexpr Range kPitch{-90, 90};  // degrees
 inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
+inline constexpr double kMaxPixelsPerVoxel = 4096;
 // Centre and radius of a sphere: their sum is a place, too.
 inline constexpr Range kReach{-kMaxCoordinate / 2, kMaxCoordinate / 2};
 
@@ -86,14 +87,16 @@ struct CameraPlacement {
     double fov_y_deg = kDefaultFovYDeg;
 };
 
-inline constexpr std::array<std::string_view, 7> kViewNames{
-    "three_quarter", "front", "back", "left", "right", "top", "iso"};  // in the order of View
+inline constexpr std::array<std::string_view, 8> kViewNames{
+    "three_quarter", "front", "back", "left", "right", "top", "bottom", "iso"};  // in the order of View
 
 // [camera], less its keys and its turntable.
 struct CameraSettings {
     CameraPlacement placement;
     std::optional<View> preset;
     CameraPath path = CameraPath::smooth;
+    Projection projection = Projection::perspective;
+    std::optional<double> pixels_per_voxel;
 };
 
 // [[camera.key]]
@@ -174,20 +177,38 @@ void visit_settings(Sky& sky, auto&& visit) {
     visit({"resolution", {16, 512}, "rows of the sky's table above the horizon"}, resolution);
 }
 
+void visit_settings(Background& background, auto&& visit) {
+    auto& [shown, radiance] = background;
+    visit({"shown", {}, "behind the scene; see Background", kBackdropNames}, shown);
+    visit({"radiance", kLight, "of a color; makes it the one shown unless `shown` is given"}, radiance);
+    visit({"color", {}, "the same in sRGB"}, HexColour{radiance, "radiance"});
+}
+
+void visit_settings(Ground& ground, auto&& visit) {
+    auto& [on, albedo, height] = ground;
+    visit({"on", {}, "true where the section is there and does not say"}, on);
+    visit({"albedo", {0, 1}, "share of light that is reflected, linear"}, albedo);
+    visit({"color", {}, "the same in sRGB"}, HexColour{albedo, "albedo"});
+    visit({"height", kReach, "of the plane, z in voxels; absent: the scene's lowest"}, height);
+}
+
 void visit_settings(CameraPlacement& placement, auto&& visit) {
     auto& [position, look_at, yaw_deg, pitch_deg, fov_y_deg] = placement;
-    visit({"position", kPlace, "of the pinhole"}, position);
+    visit({"position", kPlace, "of the camera"}, position);
     visit({"look_at", kPlace, "the point in the middle of the image"}, look_at);
     visit({"yaw", kTurn, "instead: degrees counter-clockwise from +x, seen from above"}, yaw_deg);
     visit({"pitch", kPitch, "with it: degrees above the horizon"}, pitch_deg);
-    visit({"fov", between(0, 180), "vertical, degrees"}, fov_y_deg);
+    visit({"fov", above(0, 360), "vertical, degrees; below 180 but for a fisheye"}, fov_y_deg);
 }
 
 void visit_settings(CameraSettings& settings, auto&& visit) {
-    auto& [placement, preset, path] = settings;
+    auto& [placement, preset, path, projection, pixels_per_voxel] = settings;
     visit_settings(placement, visit);
-    visit({"preset", {}, "frames the whole scene", kViewNames}, preset);
+    visit({"preset", {}, "frames a scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
+    visit({"projection", {}, "see Cameras", kProjectionNames}, projection);
+    visit({"pixels_per_voxel", above(0, kMaxPixelsPerVoxel), "size of an orthographic image of the scene"},
+          pixels_per_voxel);
 }
 
 void visit_settings(CameraKeySettings& settings, auto&& visit) {
@@ -197,10 +218,11 @@ void visit_settings(CameraKeySettings& settings, auto&& visit) {
 }
 
 void visit_settings(Turntable& turntable, auto&& visit) {
-    auto& [frames, degrees, start_deg] = turntable;
+    auto& [frames, degrees, start_deg, turned] = turntable;
     visit(required({"frames", {1, kMaxFrame}, "of one turn"}), frames);
     visit({"degrees", kTurn, "of one turn; negative goes clockwise"}, degrees);
     visit({"start", kTurn, "degrees at frame 1"}, start_deg);
+    visit({"turn", {}, "what turns", kTurnedNames}, turned);
 }
 
 void visit_settings(Material& material, auto&& visit) {
@@ -229,6 +251,8 @@ void visit_sections(auto& scene, auto&& visit) {
     visit("paths", scene.settings.paths);
     visit("sun", scene.sun);
     visit("sky", scene.sky);
+    visit("background", scene.background);
+    visit("ground", scene.ground);
 }
 
 // The row of a name.

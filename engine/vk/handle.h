@@ -50,6 +50,7 @@ using UniqueDescriptorPool = UniqueHandle<VkDescriptorPool, vkDestroyDescriptorP
 using UniqueCommandPool = UniqueHandle<VkCommandPool, vkDestroyCommandPool>;
 using UniqueFence = UniqueHandle<VkFence, vkDestroyFence>;
 using UniqueSwapchain = UniqueHandle<VkSwapchainKHR, vkDestroySwapchainKHR>;
+using UniqueImage = UniqueHandle<VkImage, vkDestroyImage>;
 using UniqueImageView = UniqueHandle<VkImageView, vkDestroyImageView>;
 using UniqueRenderPass = UniqueHandle<VkRenderPass, vkDestroyRenderPass>;
 using UniqueFramebuffer = UniqueHandle<VkFramebuffer, vkDestroyFramebuffer>;

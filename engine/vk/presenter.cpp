@@ -6,10 +6,13 @@
 #include <optional>
 
 #include "base/error.h"
+#include "shared/window.h"
 #include "vk/buffer.h"
 #include "vk/check.h"
 #include "vk/device_state.h"
 #include "vk/swapchain.h"
+#include "vk/window_capture.h"
+#include "vk/window_image.h"
 #include "vk/window_programs.h"
 
 namespace voxilux {
@@ -93,16 +96,16 @@ struct PresenterState {
     glm::ivec2 window_size{0};  // pixels when it was made
     std::array<Buffer, kWindowBuffers> buffers;
     Buffer captured;
+    WindowImage scaled;  // the picture where its size is not that of the window
 };
 
 namespace {
 
-void bind_buffers(const PresenterState& state, const Buffer& picture) {
+void bind_buffers(const PresenterState& state) {
     std::array<VkDescriptorBufferInfo, kWindowBuffers> infos{};
     std::array<VkWriteDescriptorSet, kWindowBuffers> writes{};
     for (std::uint32_t i = 0; i < kWindowBuffers; ++i) {
-        const Buffer& buffer = i == 0 ? picture : state.buffers[i];
-        infos[i] = {buffer.handle.get(), 0, VK_WHOLE_SIZE};
+        infos[i] = {state.buffers[i].handle.get(), 0, VK_WHOLE_SIZE};
         writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                      .dstSet = state.programs.set,
                      .dstBinding = i,
@@ -113,8 +116,39 @@ void bind_buffers(const PresenterState& state, const Buffer& picture) {
     vkUpdateDescriptorSets(state.device.handle, kWindowBuffers, writes.data(), 0, nullptr);
 }
 
+glm::ivec2 size_of(const Swapchain& swapchain) {
+    return {swapchain.extent.width, swapchain.extent.height};
+}
+
+// Fills the image with the picture, or black, and leaves it as a colour attachment.
+void draw_picture(PresenterState& state, VkImage image, const ShownPicture& picture) {
+    const glm::ivec2 window = size_of(*state.swapchain);
+    record_layout(state.commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    if (picture.executor == nullptr) {
+        constexpr VkClearColorValue kBlack{.float32 = {0.0f, 0.0f, 0.0f, 1.0f}};
+        constexpr VkImageSubresourceRange kAll{
+            .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1};
+        vkCmdClearColorImage(state.commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &kBlack, 1, &kAll);
+    } else if (picture.size == window) {
+        record_copy(state.commands, picture.executor->buffer(picture.buffer).handle.get(), image, window);
+    } else {
+        if (state.scaled.size != picture.size)
+            state.scaled = create_window_image(state.device, state.format.format, picture.size);
+        const VkImage scaled = state.scaled.handle.get();
+        record_layout(state.commands, scaled, VK_IMAGE_LAYOUT_UNDEFINED,
+                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        record_copy(state.commands, picture.executor->buffer(picture.buffer).handle.get(), scaled,
+                    picture.size);
+        record_layout(state.commands, scaled, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        record_scaled_copy(state.commands, state.scaled, image, window);
+    }
+    record_layout(state.commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+}
+
 void draw_overlay(const PresenterState& state, const Overlay& overlay) {
-    const glm::ivec2 window(state.swapchain->extent.width, state.swapchain->extent.height);
+    const glm::ivec2 window = size_of(*state.swapchain);
     vkCmdBindPipeline(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, state.programs.overlay.get());
     for (const OverlayDraw& draw : overlay.draws) {
         const glm::ivec2 first = glm::clamp(draw.first, glm::ivec2(0), window);
@@ -127,8 +161,9 @@ void draw_overlay(const PresenterState& state, const Overlay& overlay) {
     }
 }
 
-void draw_window(const PresenterState& state, std::uint32_t image, const gpu::WindowPush& push,
+void draw_window(PresenterState& state, std::uint32_t image, const ShownPicture& picture,
                  const Overlay& overlay) {
+    draw_picture(state, state.swapchain->images[image], picture);
     const VkExtent2D extent = state.swapchain->extent;
     const VkRenderPassBeginInfo begin{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
                                       .renderPass = state.pass.get(),
@@ -143,67 +178,11 @@ void draw_window(const PresenterState& state, std::uint32_t image, const gpu::Wi
     const VkPipelineLayout layout = state.programs.layout.get();
     vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                             &state.programs.set, 0, nullptr);
+    const gpu::WindowPush push{.window = glm::vec2(size_of(*state.swapchain))};
     vkCmdPushConstants(state.commands, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                        sizeof push, &push);
-    if (push.size.x > 0) {
-        vkCmdBindPipeline(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, state.programs.picture.get());
-        vkCmdDraw(state.commands, 3, 1, 0, 0);
-    }
     draw_overlay(state, overlay);
     vkCmdEndRenderPass(state.commands);
-}
-
-VkImageMemoryBarrier image_barrier(VkImage image, VkImageLayout from, VkImageLayout to) {
-    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-            .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT,
-            .dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT,
-            .oldLayout = from,
-            .newLayout = to,
-            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .image = image,
-            .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
-}
-
-void record_capture(PresenterState& state, std::uint32_t image) {
-    const VkExtent2D extent = state.swapchain->extent;
-    const std::uint64_t bytes = std::uint64_t{4} * extent.width * extent.height;
-    if (state.captured.bytes < bytes)
-        state.captured = create_staging_buffer(state.device, "window.capture", bytes);
-    const VkImage from = state.swapchain->images[image];
-    const auto move_to = [&](VkImageLayout old_layout, VkImageLayout new_layout) {
-        const VkImageMemoryBarrier barrier = image_barrier(from, old_layout, new_layout);
-        vkCmdPipelineBarrier(state.commands,
-                             VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                             VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
-    };
-    move_to(VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-    const VkBufferImageCopy region{
-        .imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-        .imageExtent = {extent.width, extent.height, 1}};
-    vkCmdCopyImageToBuffer(state.commands, from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           state.captured.handle.get(), 1, &region);
-    move_to(VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    const VkMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                                  .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-                                  .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
-    vkCmdPipelineBarrier(state.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                         &to_host, 0, nullptr, 0, nullptr);
-}
-
-WindowCapture copy_capture(const PresenterState& state) {
-    const VkExtent2D extent = state.swapchain->extent;
-    WindowCapture capture{.size = {extent.width, extent.height}};
-    const std::size_t pixels = std::size_t{extent.width} * extent.height;
-    const std::size_t red = state.format.format == VK_FORMAT_B8G8R8A8_UNORM ? 2 : 0;
-    capture.rgb.resize(3 * pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const std::byte* const pixel = state.captured.mapped + 4 * i;
-        capture.rgb[3 * i] = static_cast<std::uint8_t>(pixel[red]);
-        capture.rgb[3 * i + 1] = static_cast<std::uint8_t>(pixel[1]);
-        capture.rgb[3 * i + 2] = static_cast<std::uint8_t>(pixel[2 - red]);
-    }
-    return capture;
 }
 
 // The swapchain of the window as it is now; false while that has no pixels.
@@ -232,7 +211,7 @@ std::optional<std::uint32_t> acquire(PresenterState& state) {
 void submit_and_present(PresenterState& state, std::uint32_t image) {
     const VkSemaphore acquired = state.acquired.get();
     const VkSemaphore rendered = state.swapchain->rendered[image].get();
-    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                               .waitSemaphoreCount = 1,
                               .pWaitSemaphores = &acquired,
@@ -269,6 +248,10 @@ Presenter::Presenter(Device& device, const SurfaceSource& surface, std::span<con
         state_->fill(static_cast<WindowBuffer>(i), {});
 }
 
+bool Presenter::is_bgr() const {
+    return state_->format.format == VK_FORMAT_B8G8R8A8_UNORM;
+}
+
 Presenter::~Presenter() {
     vkDeviceWaitIdle(state_->device.handle);
 }
@@ -289,19 +272,18 @@ bool Presenter::present(const ShownPicture& picture, const Overlay& overlay, glm
     if (!image) return false;
     state.fill(WindowBuffer::vertices, std::as_bytes(std::span(overlay.vertices)));
     state.fill(WindowBuffer::indices, std::as_bytes(std::span(overlay.indices)));
-    bind_buffers(state,
-                 picture.executor != nullptr ? picture.executor->buffer(picture.buffer) : state.buffers[0]);
-    gpu::WindowPush push = picture.how;
-    push.window = {state.swapchain->extent.width, state.swapchain->extent.height};
+    bind_buffers(state);
     vk_check(vkResetCommandPool(state.device.handle, state.pool.get(), 0), "reset the window's commands");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     vk_check(vkBeginCommandBuffer(state.commands, &begin), "begin the window's commands");
-    draw_window(state, *image, push, overlay);
-    if (capture != nullptr) record_capture(state, *image);
+    draw_window(state, *image, picture, overlay);
+    if (capture != nullptr)
+        record_capture(state.device, state.commands, state.swapchain->images[*image],
+                       size_of(*state.swapchain), state.captured);
     vk_check(vkEndCommandBuffer(state.commands), "end the window's commands");
     submit_and_present(state, *image);
-    if (capture != nullptr) *capture = copy_capture(state);
+    if (capture != nullptr) *capture = copy_capture(state.captured, size_of(*state.swapchain), is_bgr());
     return true;
 }
 

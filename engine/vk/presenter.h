@@ -9,7 +9,6 @@
 #include <glm/glm.hpp>
 
 #include "embedded.h"
-#include "shared/window.h"
 #include "vk/device.h"
 #include "vk/executor.h"
 
@@ -33,11 +32,11 @@ struct Overlay {
     std::vector<OverlayDraw> draws;
 };
 
-// A picture for a window: [height][width] linear radiance, three floats.
+// A picture for a window, which it fills: [height][width] words of 8-bit codes.
 struct ShownPicture {
     const Executor* executor = nullptr;  // whose `buffer` it is; null: there is no picture
     std::string buffer;
-    gpu::WindowPush how{};  // but for `window`, which the presenter knows
+    glm::ivec2 size{0};  // pixels
 };
 
 // What a window showed: 8-bit codes, row 0 on top.
@@ -57,6 +56,9 @@ class Presenter {
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
     ~Presenter();
+
+    // The codes of a picture have blue in their lowest byte, not red.
+    [[nodiscard]] bool is_bgr() const;
 
     // How opaque each texel of the font is.
     void set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size);

@@ -40,9 +40,9 @@ VkSwapchainCreateInfoKHR swapchain_info(const VkSurfaceCapabilitiesKHR& limits, 
     info.imageFormat = format.format;
     info.imageColorSpace = format.colorSpace;
     info.imageArrayLayers = 1;
-    // Screenshots copy the image.
-    info.imageUsage =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | (limits.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    // Pictures are copied to the image, and screenshots from it.
+    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                      (limits.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.preTransform = limits.currentTransform;
     info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
@@ -115,31 +115,21 @@ VkSurfaceFormatKHR choose_surface_format(const DeviceState& device, VkSurfaceKHR
 UniqueRenderPass create_window_pass(const DeviceState& device, VkFormat format) {
     const VkAttachmentDescription attachment{.format = format,
                                              .samples = VK_SAMPLE_COUNT_1_BIT,
-                                             .loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                             .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
                                              .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
                                              .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
                                              .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                             .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+                                             .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                              .finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                        .colorAttachmentCount = 1,
                                        .pColorAttachments = &reference};
-    // The image is drawn when it was acquired, and what compute passes wrote is read.
-    const VkSubpassDependency dependency{
-        .srcSubpass = VK_SUBPASS_EXTERNAL,
-        .dstSubpass = 0,
-        .srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-        .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT,
-        .dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT};
     const VkRenderPassCreateInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
                                       .attachmentCount = 1,
                                       .pAttachments = &attachment,
                                       .subpassCount = 1,
-                                      .pSubpasses = &subpass,
-                                      .dependencyCount = 1,
-                                      .pDependencies = &dependency};
+                                      .pSubpasses = &subpass};
     VkRenderPass pass = VK_NULL_HANDLE;
     vk_check(vkCreateRenderPass(device.handle, &info, nullptr, &pass), "create the window's pass");
     return {device.handle, pass};
@@ -153,6 +143,9 @@ std::optional<Swapchain> create_swapchain(const DeviceState& device, VkSurfaceKH
              "ask for the window's size");
     Swapchain swapchain{.extent = extent_for(limits, wanted)};
     if (swapchain.extent.width == 0 || swapchain.extent.height == 0) return std::nullopt;
+    if ((limits.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
+        throw Error(ExitCode::no_device,
+                    fmt::format("device '{}' cannot copy pictures to this window", device.info.name));
     VkSwapchainCreateInfoKHR info = swapchain_info(limits, surface, format);
     info.imageExtent = swapchain.extent;
     info.presentMode = choose_present_mode(device, surface);

@@ -27,7 +27,8 @@ struct Swapchain {
 // Error(no_device) when the device cannot present to the surface.
 [[nodiscard]] VkSurfaceFormatKHR choose_surface_format(const DeviceState& device, VkSurfaceKHR surface);
 
-// The pass that draws a whole image of that format and leaves it ready to present.
+// The pass that draws over an image of that format, whose layout is that of a colour attachment, and leaves
+// it ready to present.
 [[nodiscard]] UniqueRenderPass create_window_pass(const DeviceState& device, VkFormat format);
 
 // The swapchain for the surface as large as it is now, `wanted` where it leaves that open; nothing while the

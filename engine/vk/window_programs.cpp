@@ -66,28 +66,22 @@ const EmbeddedShader& shader_named(std::span<const EmbeddedShader> shaders, std:
     return *found;
 }
 
-VkPipelineColorBlendAttachmentState blending(bool blends) {
-    return {.blendEnable = blends ? VK_TRUE : VK_FALSE,
-            .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-            .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-            .colorBlendOp = VK_BLEND_OP_ADD,
-            .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-            .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-            .alphaBlendOp = VK_BLEND_OP_ADD,
-            .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                              VK_COLOR_COMPONENT_A_BIT};
-}
+// What is drawn covers what is there as far as it is opaque.
+constexpr VkPipelineColorBlendAttachmentState kBlending{
+    .blendEnable = VK_TRUE,
+    .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
+    .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+    .colorBlendOp = VK_BLEND_OP_ADD,
+    .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+    .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+    .alphaBlendOp = VK_BLEND_OP_ADD,
+    .colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
+                      VK_COLOR_COMPONENT_A_BIT};
 
-struct Stages {
-    const char* vertex = nullptr;
-    const char* fragment = nullptr;
-    bool blends = false;
-};
-
-UniquePipeline create_window_pipeline(const DeviceState& device, std::span<const EmbeddedShader> shaders,
-                                      const Stages& stages, VkPipelineLayout layout, VkRenderPass pass) {
-    const UniqueShaderModule vertex = create_shader_module(device, shader_named(shaders, stages.vertex));
-    const UniqueShaderModule fragment = create_shader_module(device, shader_named(shaders, stages.fragment));
+UniquePipeline create_overlay_pipeline(const DeviceState& device, std::span<const EmbeddedShader> shaders,
+                                       VkPipelineLayout layout, VkRenderPass pass) {
+    const UniqueShaderModule vertex = create_shader_module(device, shader_named(shaders, "overlay_place"));
+    const UniqueShaderModule fragment = create_shader_module(device, shader_named(shaders, "overlay_tint"));
     std::array<VkPipelineShaderStageCreateInfo, 2> both{};
     both[0] = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                .stage = VK_SHADER_STAGE_VERTEX_BIT,
@@ -110,11 +104,10 @@ UniquePipeline create_window_pipeline(const DeviceState& device, std::span<const
     const VkPipelineMultisampleStateCreateInfo samples{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
         .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineColorBlendAttachmentState attachment = blending(stages.blends);
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = 1,
-        .pAttachments = &attachment};
+        .pAttachments = &kBlending};
     constexpr std::array kDynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     const VkPipelineDynamicStateCreateInfo dynamic{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
@@ -134,7 +127,7 @@ UniquePipeline create_window_pipeline(const DeviceState& device, std::span<const
                                             .renderPass = pass};
     VkPipeline pipeline = VK_NULL_HANDLE;
     vk_check(vkCreateGraphicsPipelines(device.handle, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-             fmt::format("create the pipeline of '{}'", stages.fragment));
+             "create the window's pipeline");
     return {device.handle, pipeline};
 }
 
@@ -147,11 +140,7 @@ WindowPrograms create_window_programs(const DeviceState& device, std::span<const
     programs.layout = create_layout(device, programs.set_layout.get());
     programs.pool = create_pool(device);
     programs.set = allocate_set(device, programs.pool.get(), programs.set_layout.get());
-    const auto pipeline = [&](const Stages& stages) {
-        return create_window_pipeline(device, shaders, stages, programs.layout.get(), pass);
-    };
-    programs.picture = pipeline({"window_cover", "window_picture"});
-    programs.overlay = pipeline({"overlay_place", "overlay_tint", true});
+    programs.overlay = create_overlay_pipeline(device, shaders, programs.layout.get(), pass);
     return programs;
 }
 

@@ -12,17 +12,16 @@
 namespace voxilux {
 
 // Storage buffers that the shaders of a window read, by binding.
-enum class WindowBuffer : std::uint8_t { picture, font, vertices, indices };
-inline constexpr std::size_t kWindowBuffers = 4;
+enum class WindowBuffer : std::uint8_t { font, vertices, indices };
+inline constexpr std::size_t kWindowBuffers = 3;
 
-// The two pipelines that draw a window, and the one descriptor set that both read.
+// The pipeline that draws triangles over a picture, and the descriptor set that it reads.
 struct WindowPrograms {
     UniqueSetLayout set_layout;
     UniquePipelineLayout layout;
     UniqueDescriptorPool pool;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    UniquePipeline picture;
-    UniquePipeline overlay;  // blended over what is there
+    UniquePipeline overlay;
 };
 
 [[nodiscard]] WindowPrograms create_window_programs(const DeviceState& device,

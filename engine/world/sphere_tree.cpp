@@ -30,6 +30,10 @@ struct Bounds {
 };
 
 Bounds bounds_of(const gpu::Sphere& sphere) {
+    if (sphere.curvature == 0.0f) {
+        const glm::dvec3 end(gpu::kFarthestGround, gpu::kFarthestGround, 0.0);
+        return {glm::dvec3(sphere.anchor) - end, glm::dvec3(sphere.anchor) + end};
+    }
     const double radius = 1.0 / static_cast<double>(sphere.curvature);
     const glm::dvec3 centre = glm::dvec3(sphere.anchor) - radius * glm::dvec3(sphere.normal);
     const glm::dvec3 reach = radius + kRecordError * (glm::abs(centre) + radius);
@@ -44,6 +48,12 @@ gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
     const gpu::Sphere shape{glm::vec3(centre + sphere.radius * normal),
                             static_cast<float>(1.0 / sphere.radius), glm::vec3(normal)};
     return {shape, sphere.material};
+}
+
+gpu::SphereRecord ground_record(const Scene& scene, glm::ivec3 origin) {
+    const double height = scene.ground.height.value_or(0.0) - origin.z;
+    return {{.anchor = glm::vec3(0.0f, 0.0f, height), .curvature = 0.0f, .normal = glm::vec3(0, 0, 1)},
+            static_cast<gpu::uint>(scene.materials.size())};
 }
 
 class TreeBuilder {
@@ -141,6 +151,7 @@ std::vector<gpu::SphereRecord> sphere_records(const Scene& scene, glm::ivec3 ori
     std::vector<gpu::SphereRecord> records;
     for (const std::uint32_t number : sphere_order(scene))
         records.push_back(sphere_record(scene.spheres[number], origin));
+    if (scene.ground.on) records.push_back(ground_record(scene, origin));
     return records;
 }
 

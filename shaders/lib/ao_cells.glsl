@@ -39,7 +39,7 @@ uvec2 table_claim(uint slot, uvec2 key) {
 #include "shared/cell_table.h"
 
 AoCell cell_of(Hit hit) {
-    return ao_cell(hit.cell, hit.face, hit.fraction, ao_level(hit.t * ao_frame.cell_width));
+    return ao_cell(hit.cell, hit.face, hit.fraction, ao_level(hit.t * ao_frame.cell_width + ao_frame.parallel_width));
 }
 
 // Keeps a cell that is seen from growing old. All writers of a frame write the same number.

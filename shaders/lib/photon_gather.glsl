@@ -1,7 +1,7 @@
 // The sums of photons around the visible points of a subgroup. Points of one surface that are near each other
 // gather together: each invocation fetches a photon, and each photon that may matter is shown to all of them
 // in turn. Photons are so loaded once for a subgroup; on software devices, where loads cost most, that halves
-// the time. Include lib/address.glsl and lib/frame_access.glsl first.
+// the time. Include lib/address.glsl, lib/frame_access.glsl and lib/photon_resolve.glsl first.
 #ifndef VX_PHOTON_GATHER_GLSL
 #define VX_PHOTON_GATHER_GLSL
 
@@ -14,8 +14,6 @@
 #include "lib/photon_light.glsl"
 #include "lib/photon_words.glsl"
 #include "lib/counters_access.glsl"
-
-VX_SPECIALIZED(uint, own_radii, 0u);
 
 // Invocations of a subgroup that fetch, where the host knows how many it has, a power of two; 0 where it does
 // not. Loops over them are unrolled then, which makes gathering a seventh faster on lavapipe.

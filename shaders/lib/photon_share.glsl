@@ -3,9 +3,11 @@
 #ifndef VX_PHOTON_SHARE_GLSL
 #define VX_PHOTON_SHARE_GLSL
 
-#include "lib/spheres.glsl"
-
 #include "lib/constants.glsl"
+#include "lib/counters_access.glsl"
+#include "lib/loops.glsl"
+#include "lib/sphere_tree.glsl"
+#include "lib/spheres.glsl"
 #include "shared/sampling.h"
 #include "shared/photon_area.h"
 
@@ -21,21 +23,31 @@ vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 r
     return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
 }
 
-// The shares of a hit's two discs, in [kMinShare, 1].
-vec2 disc_shares(Hit hit, vec2 radii) {
+// The product of all shares of two discs. A sphere takes from a disc only where it comes within the disc's radius.
+vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
     vec2 shares = vec2(1.0);
-    if (sphere_count == 0u || photon_surface(hit) == kNoSurface) return shares;
-    uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;
-    vec3 normal = disc_normal(hit);
-    vec3 point = photon_position(hit);
-    if (sphere_count <= kFewSpheres) {
+    if (!has_sphere_tree) {
         for (uint i = 0u; i < sphere_count; ++i)
             shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
-    } else {
-        for (uint i = 0u; i < sphere_count; ++i)
-            shares *= shares_left(spheres[i].shape, i, own, point, normal, radii);
+        return shares;
     }
-    return max(shares, vec2(kMinShare));
+    uint place = 0u;
+    while (place < sphere_nodes) {
+        SphereNode node = load_sphere_node(place);
+        bool is_near = is_node_near(node, point, max(radii.x, radii.y));
+        place = is_near ? place + 1u : node.next;
+        if (is_near && node.sphere != kNoSphere)
+            shares *= shares_left(spheres[node.sphere].shape, node.sphere, own, point, normal, radii);
+    }
+    count(kFaultLoopCut, are_loops_spent(2u + (place & 1u)) ? 1u : 0u);
+    return shares;
+}
+
+// The shares of a hit's two discs, in [kMinShare, 1].
+vec2 disc_shares(Hit hit, vec2 radii) {
+    if (sphere_count == 0u || photon_surface(hit) == kNoSurface) return vec2(1.0);
+    uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;
+    return max(product_of_shares(own, photon_position(hit), disc_normal(hit), radii), vec2(kMinShare));
 }
 
 #endif

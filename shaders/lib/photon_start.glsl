@@ -9,8 +9,8 @@ layout(scalar) buffer Starts {
     uint64_t start_words[];
 };
 
-void put_start(uint id, PhotonStart start) {
-    uint first = kStartWords * id;
+void put_start(uint place, PhotonStart start) {
+    uint first = kStartWords * place;
     uvec3 fraction = floatBitsToUint(start.fraction);
     uvec3 direction = floatBitsToUint(start.direction);
     uvec3 power = floatBitsToUint(start.power);
@@ -23,8 +23,8 @@ void put_start(uint id, PhotonStart start) {
     start_words[first + 6u] = pack64(uvec2(power.z, start.noise));
 }
 
-PhotonStart photon_start(uint id) {
-    uint first = kStartWords * id;
+PhotonStart photon_start(uint place) {
+    uint first = kStartWords * place;
     uvec2 cell = unpack32(start_words[first]);
     uvec2 cell_fraction = unpack32(start_words[first + 1u]);
     uvec2 fraction = unpack32(start_words[first + 2u]);

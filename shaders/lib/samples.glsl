@@ -5,6 +5,7 @@
 
 #include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
+#include "lib/projection.glsl"
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 
@@ -30,7 +31,7 @@ SampleKey pixel_key(Pixel pixel) {
 
 // The ray of the frame's sample through a pixel.
 Ray camera_ray_of(Pixel pixel) {
-    return camera_ray(frame, sequence, pixel.x, pixel.y);
+    return camera_ray(frame, projection, sequence, pixel.x, pixel.y);
 }
 
 #endif

@@ -10,6 +10,7 @@
 
 VX_SPECIALIZED(uint, sphere_count, 0u);
 VX_SPECIALIZED(uint, glass_spheres, 0u);  // the first so many spheres have glass
+VX_SPECIALIZED(uint, has_ground, 0u);     // the last one is a level plane
 
 layout(scalar) readonly buffer Spheres {
     SphereRecord spheres[];

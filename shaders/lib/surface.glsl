@@ -5,6 +5,7 @@
 #include "lib/constants.glsl"
 #include "lib/frame_access.glsl"
 #include "lib/samples.glsl"
+#include "lib/sphere_tree.glsl"
 #include "lib/spheres.glsl"
 #include "lib/counters_access.glsl"
 #include "lib/world_access.glsl"
@@ -22,26 +23,6 @@ void init_scene() {
     init_world();
     if (sphere_count != 0u && sphere_count <= kFewSpheres) load_spheres();
 }
-
-layout(scalar) readonly buffer SphereTree {
-    SphereNode sphere_tree[];
-};
-
-#define VX_SPHERES_PARAM
-#define VX_SPHERES_ARG
-
-SphereNode load_sphere_node(uint i) {
-    return sphere_tree[i];
-}
-
-Sphere load_sphere(uint i) {
-    return spheres[i].shape;
-}
-
-#include "shared/sphere_tree.h"
-
-const bool has_sphere_tree = sphere_count > kFewSpheres;
-const uint sphere_nodes = 2u * sphere_count - 1u;
 
 uint tree_steps = 0u;  // of the last ray
 
@@ -64,9 +45,16 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     return nearest;
 }
 
+// A point of the ground without its rounding, within what cells can count.
+vec3 on_ground(vec3 position, float height) {
+    vec2 place = clamp(position.xy, vec2(-kFarthestGround), vec2(kFarthestGround));
+    return vec3(place, height);
+}
+
 // Makes a hit of the crossing of a sphere, number `i`, at hit.t. Returns the normal on the side that was hit.
 vec3 place_on_sphere(inout Hit hit, uint i, SphereRecord sphere, vec3 origin, vec3 direction) {
     vec3 position = origin + hit.t * direction;
+    if (has_ground != 0u && i == sphere_count - 1u) position = on_ground(position, sphere.shape.anchor.z);
     vec3 corner = floor(position);
     hit.cell = ivec3(corner);
     hit.fraction = clamp(position - corner, vec3(0.0), vec3(1.0));

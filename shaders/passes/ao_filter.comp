@@ -8,7 +8,9 @@
 #include "lib/invocation.glsl"
 
 #include "lib/frame_access.glsl"
+#include "lib/projection.glsl"
 #include "shared/ao_filter.h"
+#include "shared/projection.h"
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
@@ -35,11 +37,6 @@ float height_over(Hit centre, Hit tap) {
     return axis == 0u ? offset.x : (axis == 1u ? offset.y : offset.z);
 }
 
-// Width of one pixel at distance 1, voxels.
-float pixel_width() {
-    return 2.0 * length(frame.camera_up) / float(frame.height);
-}
-
 void main() {
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
@@ -48,7 +45,7 @@ void main() {
     float spread = variance[pixel.index];
     vec3 sum = vec3(visibility, spread, 1.0) * 36.0;
     ivec2 place = ivec2(pixel.x - frame.first_column, pixel.y - frame.first_row);
-    float footprint = centre.t * pixel_width() * float(push.step);
+    float footprint = pixel_growth(projection, centre.t) * pixel_width(frame, projection) * float(push.step);
     for (int i = 0; i < 25 && centre.face < kFaceInside; ++i) {
         ivec2 offset = ivec2(i % 5 - 2, i / 5 - 2);
         ivec2 at = place + offset * push.step;

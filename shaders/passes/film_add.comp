@@ -16,6 +16,7 @@
 VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
 VX_SPECIALIZED(uint, sums_squares, 1u);
 VX_SPECIALIZED(uint, sums_bias, 1u);
+VX_SPECIALIZED(uint, sums_coverage, 0u);  // a background is behind the scene: rays that meet nothing show nothing
 VX_SPECIALIZED(uint, sums_surface, 1u);
 VX_SPECIALIZED(uint, sums_ao, 1u);
 VX_SPECIALIZED(uint, sums_sun, 1u);
@@ -26,6 +27,7 @@ layout(rgba32ui) readonly uniform uimageBuffer HalfAreaPhotons;
 VX_SUMS(Beauty);
 VX_SUMS(Squares);
 VX_SUMS(Bias);
+VX_SUMS(Coverage);
 VX_SUMS(Albedo);
 VX_SUMS(Normal);
 VX_SUMS(AoSums);
@@ -35,11 +37,26 @@ layout(push_constant, scalar) uniform Push {
     FilmAddPush push;
 };
 
+// Whether the camera rays themselves meet the scene.
+bvec4 covered_pixels(uint at, Group group) {
+    Hit hits[kGroupPixels] = group.hits;
+    if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);
+    bvec4 covered;
+    for (uint k = 0u; k < kGroupPixels; ++k)
+        covered[k] = group.inside[k] && is_surface(hits[k]);
+    return covered;
+}
+
 void add_beauty(uint at, uint film_group, Group group) {
+    bvec4 covered = bvec4(true);
+    if (sums_coverage != 0u) {
+        covered = covered_pixels(at, group);
+        VX_ADD_FLOATS(Coverage, film_group, add_pair, mix(vec4(0.0), vec4(1.0), covered));
+    }
     vec3 color[kGroupPixels];
     uint hits = 0u;
     for (uint k = 0u; k < kGroupPixels; ++k) {
-        color[k] = group.inside[k] ? radiance(group, k) : vec3(0.0);
+        color[k] = group.inside[k] && covered[k] ? radiance(group, k) : vec3(0.0);
         hits += is_surface(group.hits[k]) ? 1u : 0u;
     }
     count(kWorkHits, hits);

@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Where the photons of a sample start. Emitters are Lambertian emitters; the sun's photons come from a disc that faces it.
-// All the photons of a sample are one set of points of the sample sequence, scrambled by the number of the sample.
+// All the photons of a sample are one set of points of the sample sequence, scrambled by the number of the sample; a
+// run of them starts together.
 
 #include "lib/address.glsl"
 
@@ -12,6 +13,7 @@
 #include "lib/path.glsl"
 
 #include "lib/lights.glsl"
+#include "lib/photon_frame.glsl"
 #include "lib/photon_start.glsl"
 
 PhotonStart start_at(vec3 position) {
@@ -57,8 +59,10 @@ PhotonStart leave_sun(vec2 u_point, vec2 u_direction) {
 }
 
 void main() {
-    uint id = linear_id();
-    if (id >= frame.emitter_photons + frame.sun_photons) return;
+    init_photons();
+    uint place = linear_id();
+    if (place >= photon.photons) return;
+    uint id = photon.first_photon + place;
     SampleKey key = sample_key(frame.sample_index, uvec2(id, 0u), frame.seed);
     vec2 u_choice = draw_2d(key, kPairPhoton);
     vec2 u_point = draw_2d(key, kPairPhoton + 1u);
@@ -77,5 +81,5 @@ void main() {
         start.power /= emitter.pdf * float(frame.emitter_photons);
     }
     start.noise = rng_uint(frame.seed, frame.sample_index, id, 2u * kPairBounce);
-    put_start(id, start);
+    put_start(place, start);
 }

@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Irradiance at each visible point from the photons around it, for two radii. Pixels may have radii of their own, which
-// shrink with the photons that they meet.
+// shrink with the photons that they meet. Where the photons of an iteration come in several runs, their sums are added
+// up for photon_resolve.
 
 #include "lib/address.glsl"
 
@@ -11,25 +12,18 @@
 
 #include "lib/frame_access.glsl"
 #include "lib/photon_frame.glsl"
+#include "lib/photon_resolve.glsl"
 #include "lib/photon_gather.glsl"
-#include "lib/photon_share.glsl"
-#include "shared/sppm.h"
+#include "lib/photon_totals.glsl"
 
-layout(scalar) readonly buffer Hits {
-    Hit hits[];
-};
+VX_SPECIALIZED(uint, adds_up, 0u);
 
-layout(scalar) buffer PixelRadii {
-    PixelRadius radii[];
-};
-
-// The first iteration starts with the common radius, the largest that the grid is made for.
-PixelRadius radius_of(Pixel pixel) {
-    PixelRadius radius;
-    radius.squared = photon.radius * photon.radius;
-    radius.photons = 0.0;
-    if (own_radii != 0u && pixel.inside && photon.iteration > 1u) radius = radii[pixel.index];
-    return radius;
+void add_to_totals(uint pixel, PhotonSums sums) {
+    for (uint c = 0u; c < 3u; ++c) {
+        totals[6u * pixel + c] += sums.wide[c];
+        totals[6u * pixel + 3u + c] += sums.half_area[c];
+    }
+    if (own_radii != 0u) met_totals[pixel] += sums.met;
 }
 
 void main() {
@@ -40,14 +34,10 @@ void main() {
     hit.face = kFaceMiss;
     if (pixel.inside) hit = hits[pixel.index];
     PixelRadius radius = radius_of(pixel);
-    Discs discs = common_discs();
-    if (own_radii != 0u) {
-        discs.squared = radius.squared;
-        discs.half_area_squared = 0.5 * radius.squared;
-    }
-    PhotonSums sums = gather(photon_position(hit), photon_surface(hit), discs);
+    PhotonSums sums = gather(photon_position(hit), photon_surface(hit), discs_of(radius));
     if (!pixel.inside) return;
-    vec2 shares = disc_shares(hit, vec2(sqrt(discs.squared), sqrt(discs.half_area_squared)));
-    store_light(pixel.index, sums, discs, shares.x, shares.y);
-    if (own_radii != 0u) radii[pixel.index] = shrunk_radius(radius, float(sums.met), photon.alpha);
+    if (adds_up != 0u)
+        add_to_totals(pixel.index, sums);
+    else
+        resolve(pixel, hit, radius, sums);
 }

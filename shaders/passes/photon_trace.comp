@@ -31,8 +31,9 @@ struct Photon {
     bool is_caustic;    // mirrors or glass had sent it there
 };
 
-Photon start_photon(uint id) {
-    PhotonStart start = photon_start(id);
+// `place` of the list, and the number among all photons of the iteration.
+Photon start_photon(uint place, uint id) {
+    PhotonStart start = photon_start(place);
     Photon photon;
     photon.path.cell = start.cell;
     photon.path.fraction = start.fraction;
@@ -92,8 +93,9 @@ void main() {
     init_scene();
     uint lane = linear_id();
     if (lane >= lanes) return;
-    uint count_all = frame.emitter_photons + frame.sun_photons;
-    uint next_id = lane;
+    uint first_id = photon.first_photon;
+    uint places = photon.photons;
+    uint next_place = lane;
     uint segments = 0u;
     uint passes = 0u;
     uint too_long = 0u;
@@ -101,9 +103,9 @@ void main() {
     Photon photon;
     for (uint step = 0u; step < kMaxPhotonSteps; ++step) {
         if (!is_alive) {
-            if (next_id >= count_all) break;
-            photon = start_photon(next_id);
-            next_id += lanes;
+            if (next_place >= places) break;
+            photon = start_photon(next_place, first_id + next_place);
+            next_place += lanes;
             passes = 0u;
         }
         PathHit found = next_hit(photon.path);

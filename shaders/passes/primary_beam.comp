@@ -8,6 +8,7 @@
 #include "lib/invocation.glsl"
 
 #include "lib/frame_access.glsl"
+#include "lib/projection.glsl"
 #include "lib/world_access.glsl"
 #include "shared/beam.h"
 
@@ -22,5 +23,5 @@ void main() {
     if (i >= columns * beam_count(frame.row_count)) return;
     uint x = frame.first_column + i % columns * kBeamPixels;
     uint y = frame.first_row + i / columns * kBeamPixels;
-    starts[i] = beam_start(tile_beam(frame, x, y), frame.chunks);
+    starts[i] = beam_start(tile_beam(frame, projection, x, y), frame.chunks);
 }

@@ -18,6 +18,7 @@
 #include "gpu_types.h"
 #include "limits.h"
 #include "portable.h"
+#include "projection.h"
 
 VX_BEGIN
 
@@ -26,6 +27,7 @@ struct Beam {
     vec3 fraction;
     vec3 axis;     // unit
     float spread;  // longest distance between the axis and the unit direction of a ray
+    vec3 pad;      // of its cross-section at the tip, on each axis
 };
 
 // Unit direction through a point of the picture, in pixels from its upper left corner.
@@ -35,20 +37,42 @@ VX_FN vec3 picture_direction(FrameParams frame, float x, float y) {
     return normalize(frame.camera_forward + right * frame.camera_right + up * frame.camera_up);
 }
 
+// Unit direction of a camera that sees from one point.
+VX_FN vec3 pinhole_direction(FrameParams frame, uint projection, float x, float y) {
+    return projection == kPerspective ? picture_direction(frame, x, y)
+                                      : panorama_direction(frame, projection, x, y);
+}
+
+// Parallel rays: all of them are as far from the one in the middle as at the camera.
+VX_FN Beam parallel_beam(FrameParams frame, uint x, uint y) {
+    const Ray middle = orthographic_ray(frame, x + kBeamPixels / 2u, y + kBeamPixels / 2u, vec2(0.0f));
+    Beam beam;
+    beam.cell = middle.cell;
+    beam.fraction = middle.fraction;
+    beam.axis = frame.camera_forward;
+    beam.spread = kBeamError;
+    const float half_tile = 0.5f * float(kBeamPixels) / float(frame.camera_block);
+    beam.pad = kBeamPad + half_tile * (abs(frame.camera_right) + abs(frame.camera_up));
+    return beam;
+}
+
 // The beam of all camera rays (camera.h) of the tile whose upper left pixel is (x, y).
-VX_FN Beam tile_beam(FrameParams frame, uint x, uint y) {
+VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
+    if (projection == kOrthographic) return parallel_beam(frame, x, y);
     const float left = float(x);
     const float top = float(y);
     const float edge = float(kBeamPixels);
     Beam beam;
     beam.cell = frame.camera_cell;
     beam.fraction = frame.camera_fraction;
-    beam.axis = picture_direction(frame, left + 0.5f * edge, top + 0.5f * edge);
-    const float upper = max(distance(beam.axis, picture_direction(frame, left, top)),
-                            distance(beam.axis, picture_direction(frame, left + edge, top)));
-    const float lower = max(distance(beam.axis, picture_direction(frame, left, top + edge)),
-                            distance(beam.axis, picture_direction(frame, left + edge, top + edge)));
+    beam.axis = pinhole_direction(frame, projection, left + 0.5f * edge, top + 0.5f * edge);
+    const float upper = max(distance(beam.axis, pinhole_direction(frame, projection, left, top)),
+                            distance(beam.axis, pinhole_direction(frame, projection, left + edge, top)));
+    const float lower =
+        max(distance(beam.axis, pinhole_direction(frame, projection, left, top + edge)),
+            distance(beam.axis, pinhole_direction(frame, projection, left + edge, top + edge)));
     beam.spread = max(upper, lower) * kBeamMargin + kBeamError;
+    beam.pad = vec3(kBeamPad);
     return beam;
 }
 
@@ -81,8 +105,8 @@ VX_FN float leave_box(VX_WORLD_PARAM Beam beam, ivec3 cell, float t, ivec3 chunk
     const ivec3 end =
         (home + 1 + ivec3(int(above & ones), int((above >> pair) & ones), int((above >> (2u * pair)) & ones)))
         << found.log2;
-    const vec3 low = vec3(first - beam.cell) - beam.fraction + kBeamPad;
-    const vec3 high = vec3(end - beam.cell) - beam.fraction - kBeamPad;
+    const vec3 low = vec3(first - beam.cell) - beam.fraction + beam.pad;
+    const vec3 high = vec3(end - beam.cell) - beam.fraction - beam.pad;
     const float x = leave_interval(beam.axis.x, beam.spread, first.x <= 0 ? -kBeamEnd : low.x,
                                    end.x >= size.x ? kBeamEnd : high.x, t);
     const float y = leave_interval(beam.axis.y, beam.spread, first.y <= 0 ? -kBeamEnd : low.y,

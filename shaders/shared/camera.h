@@ -7,16 +7,19 @@
 #include "limits.h"
 #include "march.h"
 #include "portable.h"
+#include "projection.h"
 #include "sequence.h"
 #include "two_float.h"
 
 VX_BEGIN
 
 // The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its
-// kSequence* id. Pinhole, box filter.
-VX_FN Ray camera_ray(FrameParams frame, uint sequence, uint x, uint y) {
+// kSequence* id. Box filter. Every technique takes its camera rays from here.
+VX_FN Ray camera_ray(FrameParams frame, uint projection, uint sequence, uint x, uint y) {
     const SampleKey key = sample_key(y * frame.width + x, uvec2(frame.sample_index, 0u), frame.seed);
     const vec2 jitter = sample_2d(sequence, key, kPairPixel);
+    if (projection == kOrthographic) return orthographic_ray(frame, x, y, jitter);
+    if (projection != kPerspective) return panorama_ray(frame, projection, x, y, jitter);
     VX_PRECISE float right = 2.0f * (float(x) + jitter.x) / float(frame.width) - 1.0f;
     VX_PRECISE float up = 1.0f - 2.0f * (float(y) + jitter.y) / float(frame.height);
     VX_PRECISE vec3 v = frame.camera_forward + right * frame.camera_right + up * frame.camera_up;
@@ -36,21 +39,10 @@ struct WorldEntry {
 };
 
 // Whole planes crossed at `time`, and the rest in [0, 1).
-struct PlaneCount {
-    int whole;
-    float rest;
-};
-
 VX_FN PlaneCount count_planes(TwoFloat time, float speed, int flip, float offset) {
     const TwoFloat moved = tf_mul_float(time, speed);
     const TwoFloat start = two_sum(float(-flip), -offset);
-    const TwoFloat passed = tf_add(moved, start);
-    PlaneCount count;
-    const float whole = floor(min(passed.hi, kFarthestPlanes));
-    VX_PRECISE float rest = (passed.hi - whole) + passed.lo;
-    count.whole = int(whole) + (rest < 0.0f ? -1 : 0) + (rest >= 1.0f ? 1 : 0);
-    count.rest = clamp(rest < 0.0f ? rest + 1.0f : (rest >= 1.0f ? rest - 1.0f : rest), 0.0f, 1.0f);
-    return count;
+    return count_whole(tf_add(moved, start));
 }
 
 // Time at which an axis has crossed `planes` planes: below 0, and so never the latest, when it has none to

@@ -81,16 +81,27 @@ struct SphereNode {
     uint sphere;  // of a leaf; kNoSphere of the others
 };
 
+// How a camera maps directions to pixels: see projection.h. In the order of the scene's Projection.
+VX_CONST(uint, kPerspective, 0u);
+VX_CONST(uint, kOrthographic, 1u);
+VX_CONST(uint, kEquirectangular, 2u);
+VX_CONST(uint, kFisheye, 3u);
+
 // What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
 // the whole image or a window of it.
 struct FrameParams {
     ivec3 chunks;        // of the world, per axis
     ivec3 world_origin;  // scene cell of the world's cell 0
-    ivec3 camera_cell;   // local to the world
+    ivec3 camera_cell;   // local to the world; orthographic: where camera_pixel counts from
     vec3 camera_fraction;
-    vec3 camera_right;    // half the image plane's width at distance 1
-    vec3 camera_up;       // half its height
+    // Perspective: half the image plane's width and height at distance 1. Orthographic: camera_block pixels
+    // to the right and upwards. Panoramas: unit.
+    vec3 camera_right;
+    vec3 camera_up;
     vec3 camera_forward;  // unit
+    float camera_angle;   // fisheye: from the middle of the image to its upper edge, radians
+    uint camera_block;    // orthographic: pixels, >= 1
+    uvec2 camera_pixel;   // orthographic: pixels from the camera's cell to the image's upper left corner
     uint width;           // of the whole image, pixels
     uint height;
     uint first_row;  // of the tile, image row
@@ -182,16 +193,17 @@ struct PathPush {
 struct AoParams {
     ivec3 last_camera_cell;  // of the sample before, for the reprojection
     vec3 last_camera_fraction;
-    vec3 last_right;    // half the image plane's width at distance 1, divided by its squared length
-    vec3 last_up;       // half its height, likewise
-    vec3 last_forward;  // unit
-    uint has_last;      // 0: there was no sample before, and the table is emptied
-    uint frame;         // number of the frame, which may wrap
-    uint pass_number;   // samples taken since the table was empty, which may wrap
-    uint table_mask;    // slots of the table less one
-    uint max_age;       // frames that a cell stays unseen
-    uint sample_limit;  // cells with as many samples take no more; 0: no limit
-    float cell_width;   // wanted width of a cell in voxels at distance 1
+    vec3 last_right;       // half the image plane's width at distance 1, divided by its squared length
+    vec3 last_up;          // half its height, likewise
+    vec3 last_forward;     // unit
+    uint has_last;         // 0: there was no sample before, and the table is emptied
+    uint frame;            // number of the frame, which may wrap
+    uint pass_number;      // samples taken since the table was empty, which may wrap
+    uint table_mask;       // slots of the table less one
+    uint max_age;          // frames that a cell stays unseen
+    uint sample_limit;     // cells with as many samples take no more; 0: no limit
+    float cell_width;      // wanted width of a cell in voxels at distance 1, of rays from one point
+    float parallel_width;  // of parallel rays, at any distance
 };
 
 // Head of the list of pixels whose occlusion cell has to be searched: the workgroups of the search, as an
@@ -220,16 +232,6 @@ struct WorldGrowPush {
 struct FilmAddPush {
     uint first_pixel;
     uint pixel_count;
-};
-
-// Push constants of display_resolve, for one film tile.
-struct DisplayResolvePush {
-    uint count;        // values of the film tile
-    uint row_values;   // of a row of the image
-    uint first_row;    // of the film tile in the image
-    uint samples;      // of all rows
-    uint rows_ahead;   // rows from the top of the image that have one sample more
-    uint rows_behind;  // rows from the top that have one less
 };
 
 // What a march of bench.march found.

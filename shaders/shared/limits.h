@@ -73,6 +73,14 @@ VX_CONST(float, kFarthestPlanes, 1.073741824e9f);  // 2^30
 // Depth of a pixel where the camera sees no surface, in voxels: finite, and beyond every scene.
 VX_CONST(float, kMissDepth, 1.0e10f);
 VX_CONST(float, kPi, 3.14159265f);
+
+// Voxels from the world's corner to where hits on the ground are placed that are farther still: their cells
+// are integers.
+VX_CONST(float, kFarthestGround, 1.073741824e9f);  // 2^30
+
+// Blocks of pixels (projection.h): a sample lies at least so far inside its block, 2^-24, the spacing of
+// samples. One on the border would belong to the pixel beside.
+VX_CONST(float, kPixelInset, 5.9604644775390625e-8f);
 VX_CONST(float, kInversePi, 0.318309886f);
 
 // Invocations of a workgroup over a list (lib/invocation.glsl).

@@ -22,6 +22,8 @@ struct PhotonParams {
     float radius;            // of a gather, voxels
     float half_area_radius;  // of the second, which tells the bias; at most the first
     uint capacity;           // photons that fit in the store
+    uint first_photon;       // of those that are traced and gathered together
+    uint photons;            // of them
     uint iteration;          // from 1
     float alpha;             // share of the new photons that a pixel with a radius of its own keeps
 };

@@ -52,6 +52,15 @@ VX_FN bool is_node_met(SphereNode node, vec3 origin, vec3 scale, float t_max) {
     return enters <= leaves;
 }
 
+// Whether a sphere in the box of the node may come within a radius of a point.
+VX_FN bool is_node_near(SphereNode node, vec3 point, float radius) {
+    vec3 low = node.low - point;
+    vec3 high = node.high - point;
+    vec3 slack = node_slack(low, high) + vec3(radius);
+    vec3 beyond = max(low - slack, -high - slack);
+    return max(beyond.x, max(beyond.y, beyond.z)) <= 0.0f;
+}
+
 // The first sphere that a ray crosses before t_max, of equal times that of the smallest number. `own` is the
 // sphere that the ray starts on.
 VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origin, vec3 direction,

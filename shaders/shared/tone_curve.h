@@ -24,6 +24,11 @@ VX_FN float encode_srgb(float linear) {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
+// Relative luminance of a linear Rec. 709 colour (ITU-R BT.709-6, item 3.2).
+VX_FN float luminance_of(vec3 rgb) {
+    return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
+}
+
 VX_END
 
 #endif

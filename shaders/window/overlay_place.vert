@@ -11,10 +11,10 @@ struct OverlayVertex {
     vec2 texel;
     uint rgba;
 };
-layout(scalar, set = 0, binding = 2) readonly buffer Vertices {
+layout(scalar, set = 0, binding = 1) readonly buffer Vertices {
     OverlayVertex vertices[];
 };
-layout(scalar, set = 0, binding = 3) readonly buffer Indices {
+layout(scalar, set = 0, binding = 2) readonly buffer Indices {
     uint indices[];
 };
 layout(push_constant, scalar) uniform Push {

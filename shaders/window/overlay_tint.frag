@@ -6,7 +6,7 @@
 
 #include "shared/window.h"
 
-layout(scalar, set = 0, binding = 1) readonly buffer Font {
+layout(scalar, set = 0, binding = 0) readonly buffer Font {
     uint font_width;
     uint coverage[];  // four texels in a word
 };

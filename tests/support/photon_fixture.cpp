@@ -4,6 +4,7 @@
 
 #include "passes/photons/photon_buffers.h"
 #include "plan/plan_photons.h"
+#include "world/sphere_tree.h"
 
 namespace voxilux::test {
 namespace {
@@ -40,6 +41,10 @@ void record_inputs(const RenderPlan& plan, const PhotonJob& job, Recording& reco
     recording.clear(counters_buffer(recording));
     if (!job.spheres.empty())
         recording.upload(spheres_buffer(plan, recording), std::as_bytes(std::span(job.spheres)));
+    if (plan.has_sphere_tree()) {
+        const std::vector<gpu::SphereNode> tree = build_sphere_tree(job.spheres);
+        recording.upload(sphere_tree_buffer(plan, recording), std::as_bytes(std::span(tree)));
+    }
     recording.declare(
         {.name = "t.points", .size_bytes = std::size_t{job.width} * frame.height * sizeof(gpu::Hit)});
     recording.clear("t.points", 0xFFFFFFFFu);
@@ -61,6 +66,14 @@ PhotonOutcome outcome_of(const RunResult& result, const PhotonPlanes& planes) {
     return outcome;
 }
 
+PhotonPlanes record_scatter(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
+                            Recording& recording) {
+    record_photon_points(plan, params, tile, {"t.points"}, recording);
+    record_photon_totals(plan, PhotonRadii::common, recording);
+    record_photon_splat(plan, recording);
+    return record_photon_resolve(plan, tile, {"t.points"}, PhotonRadii::common, recording);
+}
+
 PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     const RenderPlan plan = photon_plan(job);
     const gpu::PhotonParams params = photon_params(job.setup);
@@ -72,7 +85,7 @@ PhotonOutcome run_job(const PhotonJob& job, bool scatters, Executor& executor) {
     record_append(plan, job, !scatters, recording);
     if (!scatters) record_photon_sort(plan, params, recording);
     const PhotonPlanes planes = scatters
-                                    ? record_photon_splat(plan, params, tile, {"t.points"}, recording)
+                                    ? record_scatter(plan, params, tile, recording)
                                     : record_photon_gather(plan, tile, {"t.points"}, job.radii, recording);
     for (const std::string& buffer :
          {planes.light.buffer, planes.half_area.buffer, std::string("photon.head"), std::string("counters")})

@@ -199,6 +199,26 @@ TEST(Obj, library_and_pictures_are_found_beside_the_file) {
     EXPECT_THROW((void)load_mesh(folder / "mesh/a.obj", {.is_strict = true}), Error);
 }
 
+TEST(Obj, library_serves_faces_wherever_it_is_named) {
+    const ScratchFolder folder;
+    write(folder / "a.mtl", "\xEF\xBB\xBFnewmtl red\nKd 1 0 0\n");
+    for (const std::string faces :
+         {"mtllib a.mtl\nusemtl red\nf 1 2 3\n", "usemtl red\nmtllib a.mtl\nf 1 2 3\n",
+          "usemtl red\nf 1 2 3\nmtllib a.mtl\n"}) {
+        write(folder / "a.obj", kSquare + faces);
+        const Mesh mesh = load_mesh(folder / "a.obj");
+        EXPECT_TRUE(mesh.warnings.empty()) << faces;
+        EXPECT_EQ(mesh.materials.at(mesh.triangles.at(0).material).name, "red") << faces;
+    }
+}
+
+TEST(Obj, byte_order_mark_is_no_part_of_the_first_word) {
+    const Mesh mesh = load_text("\xEF\xBB\xBF" + kSquare + "f 1 2 3\n");
+    EXPECT_EQ(mesh.positions.at(mesh.triangles.at(0).vertices.x), glm::dvec3(0, 0, 0));
+    EXPECT_TRUE(mesh.warnings.empty());
+    EXPECT_NE(refusal_of_text("\xEF\xBB\xBF\xEF\xBB\xBF" + kSquare + "f 1 2 4\n"), "");
+}
+
 std::string refusal_of_text(const std::filesystem::path& path) {
     try {
         (void)load_mesh(path);

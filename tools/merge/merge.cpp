@@ -12,55 +12,49 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kNamedShards = 10;
-
-std::string first_names(const std::vector<std::string>& names) {
-    const std::size_t named = std::min(names.size(), kNamedShards);
-    const std::string text =
-        fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(named), ", "));
-    return named == names.size() ? text : fmt::format("{} and {} more", text, names.size() - named);
-}
-
-FilmPart read_and_add(const MergeCommand& command) {
-    PartSum sum;
+PartSum read_and_add(const MergeCommand& command) {
+    PartSum sum{.mixes_devices = command.allow_mixed_devices};
     for (const std::string& file : command.parts)
-        add_part(sum, read_part(file), file);
-    const std::vector<std::string> missing = missing_shards(sum.total);
+        add_part_file(sum, file);
+    const SampleSet missing = missing_samples(sum.total);
     if (!missing.empty() && !command.partial) {
         throw Error(
             ExitCode::input_refused,
-            fmt::format("the picture is not complete: shard {} is missing; --partial merges what is there",
-                        first_names(missing)));
+            fmt::format("the picture is not complete: samples {} are missing; --partial merges what is "
+                        "there",
+                        missing.text()));
     }
-    return std::move(sum.total);
+    if (sum.total.render.at(kDeviceKey) == kMixedDevices && !command.report.quiet)
+        print_message("note: parts of several kinds of devices: the bytes are those of no single render\n");
+    return sum;
 }
 
-// A whole picture is as an uninterrupted render writes it; another one can be merged again.
-Image picture_to_write(const FilmPart& part) {
-    if (!missing_shards(part).empty()) return image_of(part);
-    Image image = picture_of(part.film);
+// A picture as an uninterrupted render writes it, or one that can be merged again.
+Image picture_to_write(FilmPart part, bool is_part) {
+    if (is_part) return image_of(std::move(part));
+    Image image = picture_of(std::move(part.film));
     image.attributes[kReportAttribute] = json_text(part.report);
     return image;
 }
 
-void write_outputs(const PictureFiles& pictures, const FilmPart& part) {
+void write_outputs(const PictureFiles& pictures, FilmPart part) {
     ExrOptions options = part.file;
     options.reproducible = pictures.reproducible;
     options.software = "voxilux " VX_VERSION;
-    const Image image = picture_to_write(part);
+    const Image image = picture_to_write(std::move(part), pictures.is_part);
     WriteFaults ignored;  // the report has those of the parts
     for (const std::string& file : pictures.files)
         write_picture(file, image, options, image, pictures.tone, ignored);
 }
 
-void print_merge(const MergeCommand& command, const FilmPart& part) {
-    for (const auto& [name, count] : part.report.at("faults").items()) {
+void print_merge(const MergeCommand& command, const nlohmann::ordered_json& report) {
+    for (const auto& [name, count] : report.at("faults").items()) {
         if (count != 0) print_message("warning: fault {} counted {} times\n", name, json_text(count));
     }
     if (!command.report.prints()) return;
-    print_result("merged    {} of {} shards, {} of {} samples per pixel\n", part.done.size(), part.shards,
-                 json_text(part.report.at("samples")), part.spp);
-    print_result("error     {}\n", json_text(part.report.at("error").at("estimate")));
+    print_result("merged    {} parts, {} samples per pixel\n", command.parts.size(),
+                 json_text(report.at("samples")));
+    print_result("error     {}\n", json_text(report.at("error").at("estimate")));
     for (const std::string& file : command.pictures.files)
         print_result("wrote     {}\n", file);
 }
@@ -68,11 +62,14 @@ void print_merge(const MergeCommand& command, const FilmPart& part) {
 }  // namespace
 
 void add_merge_flags(Flags& flags, MergeCommand& command) {
-    flags.add("PART", "", command.parts, "EXR files of render --shard, in any order").required();
+    flags.add("PART", "", command.parts, "EXR files of render --samples or --shard, in any order").required();
     add_picture_flag(flags, command.pictures.files, "picture to write, .exr or .png; may repeat").required();
     flags.add_switch(
         "--partial", command.partial,
-        "write the mean of what is there when shards are missing; an EXR of it can be merged again");
+        "write the mean of what is there when samples are missing; its EXR keeps the sums for another merge");
+    flags.add_switch("--allow-mixed-devices", command.allow_mixed_devices,
+                     "parts of other kinds of devices, too: the picture is as right, but its bytes are those "
+                     "of no single render");
     flags.add_switch("--reproducible", command.pictures.reproducible,
                      "no date or times in the files: the bytes of an uninterrupted render");
     add_tone_flags(flags, command.pictures.tone);
@@ -83,16 +80,20 @@ int run_merge(const MergeCommand& command) {
     std::vector<std::string> outputs = command.pictures.files;
     outputs.push_back(command.report.json);
     check_outputs(outputs, command.parts);
-    FilmPart part = read_and_add(command);
+    PartSum sum = read_and_add(command);
+    FilmPart& part = sum.total;
     try {
         part.report = merged_report(part, command.pictures.reproducible);
     } catch (const nlohmann::json::exception& cause) {
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: its report is damaged: {}", command.parts.front(), cause.what()));
     }
-    write_outputs(command.pictures, part);
-    print_merge(command, part);
-    write_json(command.report.json, part.report);
+    const nlohmann::ordered_json report = part.report;
+    PictureFiles pictures = command.pictures;
+    pictures.is_part = command.partial;
+    write_outputs(pictures, std::move(part));
+    print_merge(command, report);
+    write_json(command.report.json, report);
     return static_cast<int>(ExitCode::done);
 }
 

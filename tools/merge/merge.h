@@ -13,6 +13,7 @@ struct MergeCommand {
     PictureFiles pictures;
     ReportOptions report;
     bool partial = false;
+    bool allow_mixed_devices = false;
 };
 
 void add_merge_flags(Flags& flags, MergeCommand& command);

@@ -8,8 +8,10 @@
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "jobs/forecast_history.h"
+#include "jobs/memory_forecast.h"
 #include "jobs/plan_forecast.h"
 #include "jobs/report.h"
+#include "render/render_batch.h"
 #include "write_json.h"
 
 namespace voxilux {
@@ -76,22 +78,28 @@ int run_plan(const PlanCommand& plan_command) {
     check_outputs({command.report.json}, {command.scene.input});
     if (plan_command.history) return print_history(command);
     if (command.scene.input.empty()) throw Error(ExitCode::usage, "INPUT is required");
+    if (is_batch(command)) throw Error(ExitCode::usage, "plan: the plan is of one INPUT and one camera");
     const Checkpoint checkpoint = checkpoint_of(command);
     RenderOptions options = render_options(command);
     Scene animated = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, animated);
     if (!command.report.quiet) print_scene_messages(command, animated);
     request_frames(animated, frames, options.plan);
+    request_samples(command, animated, options.plan);
+    use_checkpoint(checkpoint, command.resume, options);
     if (options.error_target) {
-        use_checkpoint(checkpoint, command.resume, options);
-        const PilotedPlan piloted = pilot_plan(animated, frames.first, options, checkpoint.pictures.files);
+        const PilotedPlan piloted = pilot_plan(animated, frames.first, options);
         return print_plan(command, frames, piloted.plan, piloted.json, piloted.text);
     }
     FramePlayer player(std::move(animated));
     const Scene& scene = player.show(frames.first);
     const PreparedScene prepared = prepare_scene(scene, options.plan, limits_for(command.device.selector));
-    return print_plan(command, frames, prepared.plan, plan_json(scene, prepared.plan),
-                      command.verbose ? describe_first_frame(prepared, scene) : "");
+    const std::uint64_t bytes = end_bytes(prepared.plan, picture_use(options, 0.0));
+    nlohmann::ordered_json json = plan_json(scene, prepared.plan);
+    json["end_bytes"] = bytes;
+    std::string text = fmt::format("host      {} MiB when the picture is written\n", (bytes + 0xFFFFF) >> 20);
+    if (command.verbose) text += describe_first_frame(prepared, scene);
+    return print_plan(command, frames, prepared.plan, json, text);
 }
 
 }  // namespace voxilux

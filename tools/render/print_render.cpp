@@ -24,6 +24,8 @@ void print_faults(const RenderOutcome& outcome) {
     for (const auto& [name, count] : outcome.statistics.faults) {
         if (count != 0) print_message("warning: fault {} counted {} times\n", name, count);
     }
+    if (lacks_light(outcome.statistics.faults))
+        print_message("warning: light is missing where paths or sums were cut; how much, no error tells\n");
 }
 
 void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said) {

@@ -11,12 +11,12 @@
 #include "jobs/report.h"
 #include "parse_values.h"
 #include "render/print_render.h"
+#include "render/render_batch.h"
 #include "render/render_job.h"
 #include "scene/scene_hash.h"
 #include "write_json.h"
 
 namespace voxilux {
-namespace {
 
 // A picture that nobody named must not replace one that somebody kept.
 void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
@@ -36,7 +36,23 @@ void check_outputs_of(const RenderCommand& command, const std::vector<std::strin
     check_outputs(files, {command.scene.input});
 }
 
+namespace {
+
+// A part that is there already, whole and sound: a command that is run again has nothing left to do.
+bool is_finished(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
+    const PictureFiles& pictures = job.checkpoint.pictures;
+    if (!pictures.is_part || pictures.files.size() != 1) return false;
+    const std::string& file = pictures.files.front();
+    const RenderPlan& plan = session.plan_of(job.range.frames.first);
+    const auto part = finished_part(file, render_key(session.scene(), plan, session.device()), plan.part);
+    if (!part) return false;
+    if (!command.report.quiet) print_message("note: {} has these samples already\n", file);
+    write_json(command.report.json, part->report);
+    return true;
+}
+
 int render_picture(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
+    if (is_finished(command, session, job)) return static_cast<int>(ExitCode::done);
     RenderOutcome outcome =
         session.render(job.range.frames.first, job.range.time_limit_s, job.progress.callback());
     job.progress.finish();
@@ -63,7 +79,8 @@ int render_picture(const RenderCommand& command, RenderSession& session, const R
 }  // namespace
 
 int run_render(const RenderCommand& command) {
-    const Checkpoint checkpoint = checkpoint_of(command);
+    if (is_batch(command)) return render_batch(command);
+    Checkpoint checkpoint = checkpoint_of(command);
     RenderOptions options = render_options(command);
     use_checkpoint(checkpoint, command.resume, options);
     options.interrupted = &interrupted_by_signal();
@@ -73,8 +90,10 @@ int run_render(const RenderCommand& command) {
     Scene scene = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, scene);
     if (!command.report.quiet) print_frame_note(command.scene, scene);
-    const std::uint64_t hash = frames.is_sequence ? scene_hash(scene) : 0;
+    const std::uint64_t hash = frames.is_sequence ? sample_hash(scene) : 0;
     request_frames(scene, frames, options.plan);
+    request_samples(command, scene, options.plan);
+    if (command.shard || command.scene.spp) checkpoint.pictures.spp = scene.settings.spp;
     RenderSession session(std::move(scene), options);
     const RenderJob job{.checkpoint = checkpoint,
                         .range = {frames, options.time_limit_s, options.started},

@@ -18,8 +18,10 @@ struct RenderCommand {
     std::optional<double> time_limit_s;
     std::optional<double> error_target;
     std::optional<Shard> shard;
+    SampleSet samples;                   // empty: all of them, or those of the shard
     std::optional<double> checkpoint_s;  // 0: none
     bool resume = false;
+    std::string sheet;  // a contact sheet of all pictures
 };
 
 // Samples per pixel at which a render with --error and without --spp gives up.
@@ -29,15 +31,25 @@ inline constexpr std::uint32_t kMaxSamplesForError = 65536;
 Flag add_render_flags(Flags& flags, RenderCommand& command);
 
 // The pictures that a render writes: those asked for, else one PNG in the current folder with the name of the
-// input.
+// input. {name} stands for that name, {camera} for the camera's.
 [[nodiscard]] PictureFiles pictures_of(const RenderCommand& command);
 
-// The checkpoint of a render. Throws Error(usage) where --shard, --resume or --checkpoint do not go with the
-// other flags.
+// Throws Error(usage) for outputs that are inputs or each other, and for one that nobody named and that is
+// there already.
+void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs);
+
+// The checkpoint of a render. Throws Error(usage) where --samples, --shard, --resume or --checkpoint do not
+// go with the other flags.
 [[nodiscard]] Checkpoint checkpoint_of(const RenderCommand& command);
 
 // The scene as a render takes it. --error without --spp takes samples until the error is reached.
 [[nodiscard]] Scene scene_to_render(const RenderCommand& command);
+
+// Whether they are some of the samples, and its EXR has their sums.
+[[nodiscard]] bool is_part(const RenderCommand& command);
+
+// Tells the plan which samples of the scene the flags ask for. Throws Error(usage) when there are none.
+void request_samples(const RenderCommand& command, const Scene& scene, PlanRequest& request);
 
 // What the flags ask of a session, but for checkpoints (use_checkpoint).
 [[nodiscard]] RenderOptions render_options(const RenderCommand& command);

@@ -15,7 +15,9 @@ constexpr double kCheckpointEvery_s = 60.0;
 void add_output_flags(Flags& flags, RenderCommand& command) {
     flags.begin_group("Output");
     add_picture_flag(flags, command.pictures.files,
-                     "picture to write, .exr or .png; may repeat (default: INPUT's name .png, here)");
+                     "picture to write, .exr or .png; may repeat; {name} and {camera} are INPUT's and the "
+                     "camera's (default: {name}.png, here)");
+    flags.add("--sheet", "FILE.png", command.sheet, "a contact sheet of all pictures, too");
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
     flags.add_switch("--reproducible", command.pictures.reproducible,
@@ -23,6 +25,12 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     add_progress_flag(flags, command.progress);
     flags.add_switch("-v,--verbose", command.verbose,
                      "print the plan too (render), the first frame too (plan)");
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+    return text;
 }
 
 void add_stop_flags(Flags& flags, RenderCommand& command) {
@@ -42,8 +50,12 @@ double checked_interval(double seconds) {
 void add_part_flags(Flags& flags, RenderCommand& command) {
     flags.begin_group("Parts and checkpoints");
     flags.add_parsed(
-        "--shard", "I/N", command.shard, parse_shard,
-        "render every Nth sample from the Ith on, for voxilux merge; the EXR has its exact sums");
+        "--samples", "A-B,C-D", command.samples, parse_samples,
+        "render these samples only, of 0 and up, for voxilux merge; the EXR has their exact sums");
+    flags
+        .add_parsed("--shard", "I/N", command.shard, parse_shard,
+                    "the same for every Nth sample from the Ith on")
+        .excludes("--samples");
     flags.on<double>(
         "--checkpoint", "SECONDS",
         [&command](double seconds) { command.checkpoint_s = checked_interval(seconds); },
@@ -53,21 +65,28 @@ void add_part_flags(Flags& flags, RenderCommand& command) {
                      "go on from FILE.exr.part, which a killed, interrupted or timed out render left");
 }
 
+const char* part_flag(const RenderCommand& command) {
+    return command.shard ? "--shard" : "--samples";
+}
+
 void refuse_parts_of_a_range(const RenderCommand& command) {
     const auto refuse_flag = [](const char* flag, const char* instead) {
         refuse(fmt::format("{} is for one picture; {}", flag, instead));
     };
-    if (command.shard) refuse_flag("--shard", "share a frame range by --frames A-B instead");
+    if (is_part(command)) refuse_flag(part_flag(command), "share a frame range by --frames A-B instead");
     if (command.resume) refuse_flag("--resume", "go on with --frames from the first frame that is missing");
     if (command.checkpoint_s) refuse_flag("--checkpoint", "a frame range keeps each frame that is finished");
 }
 
 void check_part_flags(const RenderCommand& command, bool writes_exr) {
-    if (command.scene.frames) refuse_parts_of_a_range(command);
-    if (command.shard && command.error_target)
-        refuse("--shard and --error: the error of the whole picture is not known before voxilux merge");
+    if (command.scene.frames || command.scene.turntable) refuse_parts_of_a_range(command);
+    if (is_part(command) && command.error_target)
+        refuse(fmt::format("{} and --error: the error of the whole picture is not known before voxilux merge",
+                           part_flag(command)));
     if (writes_exr) return;
-    if (command.shard) refuse("--shard: its part of the picture goes into an EXR; add -o FILE.exr");
+    if (is_part(command))
+        refuse(
+            fmt::format("{}: its part of the picture goes into an EXR; add -o FILE.exr", part_flag(command)));
     if (command.resume || command.checkpoint_s.value_or(0.0) > 0.0)
         refuse("--resume and --checkpoint: checkpoints lie beside an EXR; add -o FILE.exr");
 }
@@ -75,7 +94,7 @@ void check_part_flags(const RenderCommand& command, bool writes_exr) {
 }  // namespace
 
 Flag add_render_flags(Flags& flags, RenderCommand& command) {
-    const Flag input = add_scene_flags(flags, command.scene);
+    const Flag input = add_scene_flags(flags, command.scene, PicturesOf::inputs);
     add_output_flags(flags, command);
     add_stop_flags(flags, command);
     add_part_flags(flags, command);
@@ -85,12 +104,35 @@ Flag add_render_flags(Flags& flags, RenderCommand& command) {
     return input;
 }
 
+bool is_part(const RenderCommand& command) {
+    return command.shard || !command.samples.empty();
+}
+
+void request_samples(const RenderCommand& command, const Scene& scene, PlanRequest& request) {
+    const std::uint32_t spp = scene.settings.spp;
+    request.part = command.samples;
+    if (command.scene.spp && command.samples.end() > spp)
+        refuse(fmt::format("--samples {}: a render of {} samples has 0 to {}", command.samples.text(), spp,
+                           spp - 1));
+    if (!command.shard) return;
+    if (spp > kMaxPartSamples)
+        refuse(fmt::format("--shard: sums are exact up to {} samples, these are {}", kMaxPartSamples, spp));
+    request.part = SampleSet::shard(command.shard->index, command.shard->count, spp);
+    if (request.part.empty())
+        refuse(fmt::format("--shard {}/{}: a render of {} samples has no such shard",
+                           command.shard->index + 1, command.shard->count, spp));
+}
+
 PictureFiles pictures_of(const RenderCommand& command) {
     PictureFiles pictures = command.pictures;
     const std::filesystem::path input = command.scene.input;
-    pictures.is_part = command.shard.has_value();
+    pictures.is_part = is_part(command);
     pictures.scene_name = input.filename().string();
-    if (pictures.files.empty()) pictures.files = {input.stem().string() + ".png"};
+    if (pictures.files.empty())
+        pictures.files = {command.scene.cameras.size() > 1 ? "{name}_{camera}.png" : "{name}.png"};
+    const std::string camera = command.scene.camera ? command.scene.camera->name : "default";
+    for (std::string& file : pictures.files)
+        file = replaced(replaced(file, "{name}", input.stem().string()), "{camera}", camera);
     return pictures;
 }
 
@@ -102,7 +144,8 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
     };
     checkpoint.warn = [](const std::string& line) { print_message("warning: {}\n", line); };
     check_part_flags(command, std::ranges::any_of(checkpoint.pictures.files, is_exr));
-    if (!command.scene.frames) checkpoint.file = checkpoint_file(checkpoint.pictures);
+    if (!command.scene.frames && !command.scene.turntable)
+        checkpoint.file = checkpoint_file(checkpoint.pictures);
     return checkpoint;
 }
 
@@ -117,7 +160,6 @@ RenderOptions render_options(const RenderCommand& command) {
                           .device = command.device.request(),
                           .time_limit_s = command.time_limit_s,
                           .error_target = command.error_target};
-    options.plan.shard = command.shard.value_or(Shard{});
     options.plan.effects.wants_aov = std::ranges::any_of(command.pictures.files, is_exr);
     options.executor.cache_dir = command.device.cache_dir();
     options.executor.group_size = {static_cast<std::uint32_t>(command.group_size.x),

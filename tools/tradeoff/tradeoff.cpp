@@ -57,7 +57,7 @@ void warn(const PriceList& list) {
 }  // namespace
 
 void add_tradeoff_flags(Flags& flags, TradeoffCommand& command) {
-    add_scene_flags(flags, command.scene).required();
+    add_scene_flags(flags, command.scene, PicturesOf::frames).required();
     flags.begin_group("Output");
     flags.add("-o,--output", "DIR", command.output, "folder for tradeoff.json, .csv, .html and pictures");
     flags.add_switch("--no-page", command.no_page, "no tradeoff.html, which needs Python and matplotlib");

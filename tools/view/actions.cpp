@@ -3,7 +3,11 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "view/picture_look.h"
 
 namespace voxilux {
 namespace {
@@ -12,9 +16,9 @@ constexpr double kFlightPerSecond = 0.5;  // of the distance to the centre
 constexpr float kExposureStep = 0.5f;     // stops
 
 void look_from(View side, glm::ivec2 window, ViewState& state) {
-    const double aspect = static_cast<double>(window.x) / std::max(window.y, 1);
-    const double fov_y_deg = state.view.camera.fov_y_deg;
-    state.view = view_of(framing_camera(state.box, side, aspect, fov_y_deg), state.box);
+    Camera looking = looking_along(side, state.view.camera.fov_y_deg);
+    looking.projection = state.view.camera.projection;
+    state.view = view_of(framing_camera(state.box, looking, glm::dvec2(glm::max(window, 1))), state.box);
 }
 
 void take_screenshot(const char* ending, ViewState& state) {
@@ -25,6 +29,21 @@ void take_screenshot(const char* ending, ViewState& state) {
         state.screenshots.push_back(name);
         return;
     }
+}
+
+// The first frame comes after the last one, and the other way round.
+void show_frame(std::int64_t frame, ViewState& state) {
+    if (!state.frames) return;
+    const auto& [first, last] = *state.frames;
+    state.frame = frame > last ? first : frame < first ? last : frame;
+}
+
+void choose_tool(int key, ViewState& state) {
+    constexpr std::pair<int, Tool> kTools[] = {{GLFW_KEY_V, Tool::view},   {GLFW_KEY_P, Tool::place},
+                                               {GLFW_KEY_R, Tool::remove}, {GLFW_KEY_B, Tool::paint},
+                                               {GLFW_KEY_F, Tool::fill},   {GLFW_KEY_I, Tool::pick}};
+    for (const auto& [tool_key, tool] : kTools)
+        if (tool_key == key) state.edit.tool = tool;
 }
 
 void take_key(int key, glm::ivec2 window, ViewState& state) {
@@ -47,33 +66,77 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
             state.shows_panels = !state.shows_panels;
             return;
         case GLFW_KEY_T:
-            state.curve = state.curve == ToneMap::filmic ? ToneMap::plain : ToneMap::filmic;
+            state.look.curve = state.look.curve == ToneMap::filmic ? ToneMap::plain : ToneMap::filmic;
             return;
         case GLFW_KEY_EQUAL:
-            state.exposure_ev += kExposureStep;
-            return;
+            return expose(state.exposure_ev + kExposureStep, state);
         case GLFW_KEY_MINUS:
-            state.exposure_ev -= kExposureStep;
-            return;
+            return expose(state.exposure_ev - kExposureStep, state);
         case GLFW_KEY_F12:
             return take_screenshot(state.held.shift ? ".exr" : ".png", state);
+        case GLFW_KEY_C:
+            return step_channel(state.held.shift ? -1 : 1, state);
+        case GLFW_KEY_X:
+            return step_comparison(state);
+        case GLFW_KEY_SPACE:
+            state.is_playing = !state.is_playing && state.frames;
+            return;
+        case GLFW_KEY_PERIOD:
+            return show_frame(state.frame + 1, state);
+        case GLFW_KEY_COMMA:
+            return show_frame(state.frame - 1, state);
+        case GLFW_KEY_LEFT_BRACKET:
+            state.edit.brush = std::max(state.edit.brush - 1, 1);
+            return;
+        case GLFW_KEY_RIGHT_BRACKET:
+            state.edit.brush = std::min(state.edit.brush + 1, kMaxBrush);
+            return;
         case GLFW_KEY_ESCAPE:
             state.wants_close = true;
             return;
         default:
-            return;
+            return choose_tool(key, state);
     }
+}
+
+void take_shortcut(int key, ViewState& state) {
+    if (key == GLFW_KEY_Z) return state.held.shift ? redo_edit(state) : undo_edit(state);
+    if (key == GLFW_KEY_Y) return redo_edit(state);
+    if (key == GLFW_KEY_C) state.wants_command = true;
+    if (key == GLFW_KEY_S) save_edits(state.input, state);
 }
 
 void take_move(glm::dvec2 place, glm::ivec2 window, ViewState& state) {
     const glm::dvec2 way = place - std::exchange(state.held.pointer, place);
-    if (state.held.holds(MouseButton::right))
+    aim(window, state);
+    if (state.drags_divider)
+        state.divider = std::clamp(place.x / window.x, 0.0, 1.0);
+    else if (state.held.holds(MouseButton::right))
         state.view = looked(state.view, way, glm::dvec2(window));
     else if (state.held.holds(MouseButton::middle) ||
              (state.held.shift && state.held.holds(MouseButton::left)))
         state.view = panned(state.view, way, glm::dvec2(window));
+    else if (state.held.holds(MouseButton::left) && state.edit.tool != Tool::view)
+        move_stroke(state);
     else if (state.held.holds(MouseButton::left))
         state.view = orbited(state.view, way, glm::dvec2(window));
+}
+
+// Pixels from the divider within which it is dragged.
+constexpr double kDividerReach = 6.0;
+
+void take_button(const ButtonEvent& button, glm::ivec2 window, ViewState& state) {
+    state.held.buttons[static_cast<int>(button.button)] = button.is_down;
+    if (button.button != MouseButton::left) return;
+    if (!button.is_down) {
+        state.drags_divider = false;
+        return end_stroke(state);
+    }
+    state.drags_divider =
+        is_wiping(state) && std::abs(state.held.pointer.x - state.divider * window.x) < kDividerReach;
+    if (state.drags_divider || state.held.shift) return;
+    aim(window, state);
+    begin_stroke(state);
 }
 
 void hold(const KeyEvent& key, InputState& held) {
@@ -88,9 +151,13 @@ void hold(const KeyEvent& key, InputState& held) {
 void take_event(const InputEvent& event, glm::ivec2 window, ViewState& state) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) {
         hold(*key, state.held);
-        if (key->is_down && !key->is_repeat) take_key(key->key, window, state);
+        if (!key->is_down || key->is_repeat) return;
+        if (state.held.control)
+            take_shortcut(key->key, state);
+        else
+            take_key(key->key, window, state);
     } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
-        state.held.buttons[static_cast<int>(button->button)] = button->is_down;
+        take_button(*button, window, state);
     } else if (const auto* move = std::get_if<MoveEvent>(&event)) {
         take_move(move->place, window, state);
     } else if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
@@ -101,6 +168,7 @@ void take_event(const InputEvent& event, glm::ivec2 window, ViewState& state) {
 }
 
 void fly(double seconds, ViewState& state) {
+    if (state.held.control) return;
     const auto axis = [&](int plus, int minus) {
         return static_cast<double>(state.held.keys[plus]) - static_cast<double>(state.held.keys[minus]);
     };
@@ -112,7 +180,7 @@ void fly(double seconds, ViewState& state) {
 }
 
 std::span<const std::pair<const char*, const char*>> key_sheet() {
-    static constexpr std::array<std::pair<const char*, const char*>, 13> kSheet{{
+    static constexpr std::array<std::pair<const char*, const char*>, 22> kSheet{{
         {"left drag", "orbit"},
         {"middle or shift drag", "pan"},
         {"right drag", "look around"},
@@ -121,6 +189,15 @@ std::span<const std::pair<const char*, const char*>> key_sheet() {
         {"1 3 7 9", "front, right, top, iso"},
         {"Enter", "the first view again"},
         {"+ -", "exposure"},
+        {"C, shift C", "the next channel, the one before"},
+        {"X", "compare with the reference"},
+        {"V P R B F I", "view, place, remove, paint, fill, pick"},
+        {"[ ]", "a smaller, a larger brush"},
+        {"Ctrl Z, Ctrl Y", "undo, redo"},
+        {"Ctrl S", "save the .vox"},
+        {"Ctrl C", "copy the command that renders this view"},
+        {"Space", "play or pause an animation"},
+        {", .", "the frame before, the next one"},
         {"T", "tone curve"},
         {"F12", "screenshot; with shift the film as EXR"},
         {"Tab", "panels"},

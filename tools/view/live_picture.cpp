@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "estimators/film_error.h"
+#include "plan/error_law.h"
 
 namespace voxilux {
 namespace {
@@ -12,17 +14,53 @@ constexpr int kRestFrames = 5;
 // Frames of a motion, as far as the plan is concerned: as many as make sharing worth while.
 constexpr std::uint32_t kMotionFrames = 1000;
 
+// The channels of an image that hold one of the display.
+std::array<std::string, 3> channel_names(DisplayChannel channel) {
+    switch (channel) {
+        case DisplayChannel::albedo:
+            return {"albedo.R", "albedo.G", "albedo.B"};
+        case DisplayChannel::normal:
+            return {"N.X", "N.Y", "N.Z"};
+        case DisplayChannel::position:
+            return {"P.X", "P.Y", "P.Z"};
+        case DisplayChannel::depth:
+            return {"Z", "Z", "Z"};
+        case DisplayChannel::ao:
+            return {"ao.Y", "ao.Y", "ao.Y"};
+        case DisplayChannel::sun:
+            return {"sun.Y", "sun.Y", "sun.Y"};
+        default:
+            return {};
+    }
+}
+
+RenderSettings moving(RenderSettings settings, const Resolution& resolution) {
+    settings.size = resolution.size_in(settings.size);
+    return settings;
+}
+
+// Occlusion stands in for indirect light, and frames can share it.
+PlanRequest moving(PlanRequest request) {
+    request.frames = kMotionFrames;
+    request.effects.switches[Effect::indirect] = Switch::off;
+    request.effects.switches[Effect::caustics] = Switch::off;
+    return request;
+}
+
 }  // namespace
 
 void LivePicture::load(const Scene& scene, const PlanRequest& request) {
+    Scene coarse = scene;
+    coarse.settings = moving(scene.settings, resolution_);
     if (measure_scene(scene).has_voxels)
-        renderer_.prepare_editable(scene, request);
+        renderer_.prepare_editable(coarse, moving(request));
     else
-        renderer_.prepare(scene, request);
+        renderer_.prepare(coarse, moving(request));
     settings_ = scene.settings;
     request_ = request;
-    moving_frames_ = 0;
-    forget();
+    rest_plan_.reset();
+    resolution_.start();
+    moving_frames_ = kRestFrames;
 }
 
 void LivePicture::set_camera(const Camera& camera) {
@@ -30,25 +68,55 @@ void LivePicture::set_camera(const Camera& camera) {
     renderer_.set_camera(camera);
 }
 
+void LivePicture::set_voxels(const Scene& still) {
+    begin_motion();
+    Scene coarse = still;
+    coarse.settings = moving(settings_, resolution_);
+    coarse.camera = renderer_.scene().camera;
+    renderer_.set_voxels(coarse);
+}
+
 void LivePicture::set_size(glm::ivec2 size) {
     settings_.size = size;
-    if (is_moving())
-        apply_motion();
-    else
-        change(settings_, request_);
+    apply_motion();
 }
 
 void LivePicture::change(const RenderSettings& settings, const PlanRequest& request) {
-    renderer_.change(settings, request);
+    renderer_.change(settings, request);  // throws where the picture at rest cannot be
+    rest_plan_ = renderer_.plan();
     settings_ = settings;
     request_ = request;
-    moving_frames_ = 0;
-    forget();
+    apply_motion();
 }
 
-void LivePicture::edit(std::span<const BoxEdit> edits) {
+std::vector<BoxEdit> LivePicture::edit(std::span<const BoxEdit> edits) {
     begin_motion();
-    renderer_.edit(edits);
+    return renderer_.edit(edits);
+}
+
+void LivePicture::set_reference(std::vector<float> radiance, glm::ivec2 size) {
+    reference_ = std::move(radiance);
+    reference_size_ = size;
+    has_sent_reference_ = false;
+    has_news_ = true;
+}
+
+std::optional<PixelReading> LivePicture::read_pixel(glm::ivec2 pixel, DisplayChannel channel) {
+    if (is_moving() || samples() == 0) return std::nullopt;
+    pixel = glm::clamp(pixel, glm::ivec2(0), renderer_.plan().settings.size - 1);
+    const FilmSums row = renderer_.ready_film().read_rows({static_cast<std::uint32_t>(pixel.y), 1});
+    const Image image = picture_of(row);
+    const auto at = [&](const std::string& name) {
+        return image.channels.at(name).pixels[static_cast<std::size_t>(pixel.x)];
+    };
+    PixelReading reading{.pixel = pixel,
+                         .radiance = {at("R"), at("G"), at("B")},
+                         .error = at("error.Y"),
+                         .samples = row.even[0] + row.odd[0]};
+    const std::array<std::string, 3> names = channel_names(channel);
+    if (!names[0].empty() && image.channels.contains(names[0]))
+        reading.channel = glm::vec3(at(names[0]), at(names[1]), at(names[2]));
+    return reading;
 }
 
 void LivePicture::begin_motion() {
@@ -56,54 +124,82 @@ void LivePicture::begin_motion() {
     moving_frames_ = kRestFrames;
 }
 
-// The same scene, coarser, and with what frames can share.
 void LivePicture::apply_motion() {
-    RenderSettings settings = settings_;
-    settings.size = resolution_.size_in(settings_.size);
-    PlanRequest request = request_;
-    request.effects.wants_aov = false;
-    request.frames = kMotionFrames;
-    renderer_.change(settings, request);
+    replan_motion();
+    moving_frames_ = kRestFrames;
+}
+
+// The same scene, coarser, and with what frames can share.
+void LivePicture::replan_motion() {
+    renderer_.change(moving(settings_, resolution_), moving(request_));
+    resolution_.start();
 }
 
 void LivePicture::end_motion() {
     renderer_.change(settings_, request_);
-    forget();
+    rest_plan_ = renderer_.plan();
+    passes_.clear();
+    errors_.start(error_law(*rest_plan_));
 }
 
-void LivePicture::forget() {
-    passes_.clear();
+void LivePicture::set_ends(const SampleEnds& ends) {
+    ends_ = ends;
+    errors_.set_target(ends.error);
 }
 
 bool LivePicture::is_done() const {
-    return !is_moving() && samples() >= max_samples_;
+    const bool is_late = ends_.time_limit_s && errors_.seconds() >= *ends_.time_limit_s;
+    return !is_moving() && (samples() >= max_samples() || errors_.has_reached_target() || is_late);
 }
 
 LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
-    const auto start = std::chrono::steady_clock::now();
     if (is_moving() && --moving_frames_ == 0) end_motion();
-    LiveFrame frame{.size = renderer_.plan().settings.size};
-    if (is_moving()) {
-        const std::uint32_t before = samples();
-        while (samples() == before)
-            (void)renderer_.step(budget_s, before + 1);
-        frame.step_s = seconds_since(start);
-        if (resolution_.learn(frame.step_s)) apply_motion();
-        frame.samples = before + 1;
-        return frame;
-    }
-    const std::uint32_t end = std::min(end_samples, max_samples_);
-    if (samples() < end) {
-        const StepResult step = renderer_.step(budget_s, end);
-        add_times(passes_, step.passes);
-    }
-    frame.samples = samples();
-    frame.step_s = seconds_since(start);
+    if (is_moving()) return advance_motion(budget_s);
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t end = std::min(end_samples, max_samples());
+    if (samples() < end && !is_done()) take_samples(budget_s, end);
+    return {renderer_.plan().settings.size, samples(), seconds_since(start)};
+}
+
+void LivePicture::take_samples(double budget_s, std::uint32_t end_samples) {
+    const auto start = std::chrono::steady_clock::now();
+    // A film that is looked at has whole samples.
+    const std::uint32_t look = std::max(errors_.next_look(), samples() + 1);
+    const StepResult step = renderer_.step(budget_s, std::min(end_samples, look));
+    errors_.add_time(seconds_since(start));
+    add_times(passes_, step.passes);
+    if (step.samples == 0) return;
+    has_news_ = true;
+    if (errors_.is_due(samples())) errors_.add(samples(), error_of(renderer_.ready_film().read_for_error()));
+}
+
+// One whole sample, however long it takes.
+LiveFrame LivePicture::advance_motion(double budget_s) {
+    // Not before the frame that it was learnt from is shown.
+    if (std::exchange(has_other_size_, false)) replan_motion();
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint32_t before = samples();
+    while (samples() == before)
+        (void)renderer_.step(budget_s, before + 1);
+    has_news_ = true;
+    const LiveFrame frame{renderer_.plan().settings.size, samples(), seconds_since(start)};
+    has_other_size_ = resolution_.learn(frame.step_s);
     return frame;
 }
 
-DisplayBuffer LivePicture::display() {
-    if (samples() > 0) shown_ = renderer_.display();
+DisplayBuffer LivePicture::display(const DisplayLook& look) {
+    const bool is_new = std::exchange(has_news_, false) || look != shown_look_;
+    // A film that is empty again cannot be shown otherwise; a coarse one soon can.
+    if (samples() == 0 && look != shown_look_) begin_motion();
+    if (samples() > 0 && is_new) {
+        shown_look_ = look;
+        DisplayLook shown = look;
+        if (!has_channel(renderer_.plan(), look.channel)) shown.channel = DisplayChannel::color;
+        if (reference_size_ != renderer_.plan().settings.size) shown.comparison = DisplayComparison::none;
+        if (shown.comparison != DisplayComparison::none && !std::exchange(has_sent_reference_, true))
+            renderer_.set_reference(reference_);
+        shown_ = renderer_.display(shown);
+    }
     return shown_;
 }
 

@@ -6,10 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "jobs/live_errors.h"
 #include "renderer/renderer.h"
+#include "view/pixel_reading.h"
 #include "view/resolution.h"
 
 namespace voxilux {
+
+// What ends the samples of a picture at rest, beside their number.
+struct SampleEnds {
+    std::optional<double> error;  // root of relMSE; then their number ends nothing
+    std::optional<double> time_limit_s;
+};
 
 // What a frame of the window did.
 struct LiveFrame {
@@ -18,9 +26,9 @@ struct LiveFrame {
     double step_s = 0.0;        // in the renderer
 };
 
-// The picture of a window: a scene, a camera and a size that change at any time. While something changes it
-// is as coarse as the frame time wants and shares occlusion between frames; at rest it is the picture that
-// `voxilux render` makes, sample by sample.
+// The picture of a window: a scene, a camera and a size that change at any time. When something changes it is
+// as coarse as the frame time wants, shares occlusion between frames and leaves out indirect light; at rest
+// it is the picture that `voxilux render` makes, sample by sample.
 class LivePicture {
   public:
     LivePicture(Device& device, const ExecutorOptions& options) : renderer_(device, options) {}
@@ -29,44 +37,75 @@ class LivePicture {
     void load(const Scene& scene, const PlanRequest& request);
     void set_camera(const Camera& camera);
     void set_size(glm::ivec2 size);
+    // The frame of an animation; its voxels cannot be edited.
+    void set_voxels(const Scene& still);
     void change(const RenderSettings& settings, const PlanRequest& request);
-    void edit(std::span<const BoxEdit> edits);
+    // Returns the edits that take it back.
+    std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
     void set_max_samples(std::uint32_t samples) { max_samples_ = samples; }
+    void set_ends(const SampleEnds& ends);
 
     // Takes samples for about so long, at rest until there are `end_samples` whole ones, or all.
     LiveFrame advance(double budget_s, std::uint32_t end_samples = kNoEnd);
 
     // What there is to show: the picture of the last whole sample; size 0 before the first.
-    [[nodiscard]] DisplayBuffer display();
+    [[nodiscard]] DisplayBuffer display(const DisplayLook& look);
+    // Whether a sample has ended since the last display().
+    [[nodiscard]] bool has_news() const { return has_news_; }
+
+    // What to compare with: [height][width][3] radiance of so many pixels. It is shown where the picture has
+    // its size.
+    void set_reference(std::vector<float> radiance, glm::ivec2 size);
+    [[nodiscard]] glm::ivec2 reference_size() const { return reference_size_; }
+
+    // What the film at rest knows of a pixel and of a channel; nothing while something moves or before the
+    // first sample.
+    [[nodiscard]] std::optional<PixelReading> read_pixel(glm::ivec2 pixel, DisplayChannel channel);
 
     [[nodiscard]] bool is_loaded() const { return renderer_.is_prepared(); }
     [[nodiscard]] bool is_moving() const { return moving_frames_ > 0; }
     [[nodiscard]] bool is_done() const;
     [[nodiscard]] std::uint32_t samples() const { return renderer_.film().position().samples; }
-    [[nodiscard]] std::uint32_t max_samples() const { return max_samples_; }
+    [[nodiscard]] std::uint32_t max_samples() const { return ends_.error ? kMaxSamples : max_samples_; }
     // Of the picture at rest.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] const PlanRequest& request() const { return request_; }
+    // What the film at rest has claimed so far.
+    [[nodiscard]] const LiveErrors& errors() const { return errors_; }
     // Times of the passes since the picture was changed.
     [[nodiscard]] std::span<const PassTime> passes() const { return passes_; }
     [[nodiscard]] Renderer& renderer() { return renderer_; }
+    // Of the picture at rest, as far as it was made.
+    [[nodiscard]] const RenderPlan& rest_plan() const { return rest_plan_ ? *rest_plan_ : renderer_.plan(); }
     [[nodiscard]] const Executor& executor() { return renderer_.executor(); }
 
-    void set_frame_time(double seconds) { resolution_.set_target(seconds); }
+    // What the samples of a frame may take while something moves.
+    void set_motion_budget(double seconds) { resolution_.set_budget(seconds); }
 
   private:
     void begin_motion();
     void apply_motion();
+    void replan_motion();
     void end_motion();
-    void forget();
+    void take_samples(double budget_s, std::uint32_t end_samples);
+    LiveFrame advance_motion(double budget_s);
 
     Renderer renderer_;
     RenderSettings settings_;
     PlanRequest request_;
+    std::optional<RenderPlan> rest_plan_;
     Resolution resolution_;
     std::uint32_t max_samples_ = 1;
+    SampleEnds ends_;
+    LiveErrors errors_;
     int moving_frames_ = 0;  // until the picture counts as at rest; 0: it is
     DisplayBuffer shown_;
+    DisplayLook shown_look_;
+    bool has_news_ = false;
+    bool has_other_size_ = false;  // the resolution of a motion
+    std::vector<float> reference_;
+    glm::ivec2 reference_size_{0};
+    bool has_sent_reference_ = false;  // to the device
     std::vector<PassTime> passes_;
 };
 

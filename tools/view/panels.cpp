@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "jobs/effect_time.h"
 #include "view/actions.h"
+#include "view/error_panel.h"
+#include "view/picture_panel.h"
 
 namespace voxilux {
 namespace {
@@ -13,6 +16,7 @@ namespace {
 constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                     ImGuiWindowFlags_NoMove;
+constexpr float kFontSize = 13.0f;  // on a monitor of scale 1
 
 void text(const std::string& line) {
     ImGui::TextUnformatted(line.c_str());
@@ -28,12 +32,17 @@ std::string technique_of(const RenderPlan& plan, Effect effect) {
 void switch_effect(Effect effect, bool on, ViewState& state) {
     PlanRequest request = state.picture.request();
     request.effects.switches[effect] = on ? Switch::on : Switch::off;
-    state.picture.change(state.picture.settings(), request);
+    try {
+        state.picture.change(state.picture.settings(), request);
+        state.message.clear();
+    } catch (const Error& error) {
+        state.message = error.what();
+    }
 }
 
 void draw_effect(const EffectState& effect, ViewState& state) {
     LivePicture& picture = state.picture;
-    const RenderPlan& plan = picture.renderer().plan();
+    const RenderPlan& plan = picture.rest_plan();
     const std::string name(name_of(effect.effect));
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -50,9 +59,7 @@ void draw_effect(const EffectState& effect, ViewState& state) {
 }
 
 void draw_prices(ViewState& state) {
-    ImGui::SetNextWindowPos({8.0f, 96.0f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(0.75f);
-    ImGui::Begin("Effects", nullptr, kStill);
+    begin_panel("Effects", {8.0f, 96.0f});
     if (ImGui::BeginTable("effects", 4)) {
         ImGui::TableSetupColumn("effect");
         ImGui::TableSetupColumn("technique");
@@ -60,7 +67,7 @@ void draw_prices(ViewState& state) {
         ImGui::TableSetupColumn("why");
         ImGui::TableHeadersRow();
         // A copy: a switch makes another plan.
-        const EffectStates effects = state.picture.renderer().plan().effects;
+        const EffectStates effects = state.picture.rest_plan().effects;
         for (const EffectState& effect : effects)
             draw_effect(effect, state);
         ImGui::EndTable();
@@ -68,17 +75,22 @@ void draw_prices(ViewState& state) {
     ImGui::End();
 }
 
+void draw_frames(ViewState& state) {
+    ImGui::Checkbox("play", &state.is_playing);
+    ImGui::SameLine();
+    const std::int64_t first = state.frames->first, last = state.frames->last;
+    ImGui::SliderScalar("frame", ImGuiDataType_S64, &state.frame, &first, &last);
+}
+
 void draw_status(ViewState& state) {
-    ImGui::SetNextWindowPos({8.0f, 8.0f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(0.75f);
-    ImGui::Begin("voxilux", nullptr, kStill);
+    begin_panel("voxilux", {8.0f, 8.0f});
     if (state.picture.is_loaded()) {
         const glm::ivec2 size = state.picture.renderer().plan().settings.size;
         text(fmt::format("{}  {}x{}  {} of {} samples  {:.0f} ms", state.input.filename().string(), size.x,
                          size.y, state.picture.samples(), state.picture.max_samples(),
                          1000.0 * state.frame_s));
-        text(fmt::format("exposure {:+.1f}  {}  H: keys", state.exposure_ev,
-                         state.curve == ToneMap::filmic ? "filmic" : "plain"));
+        if (state.frames) draw_frames(state);
+        text("H: keys");
     } else {
         text("drop a .vox or a .toml file here");
     }
@@ -87,8 +99,7 @@ void draw_status(ViewState& state) {
 }
 
 void draw_keys() {
-    ImGui::SetNextWindowPos({400.0f, 200.0f}, ImGuiCond_FirstUseEver);
-    ImGui::Begin("Keys", nullptr, kStill);
+    begin_panel("Keys", {400.0f, 200.0f});
     if (ImGui::BeginTable("keys", 2)) {
         for (const auto& [keys, what] : key_sheet()) {
             ImGui::TableNextColumn();
@@ -103,11 +114,28 @@ void draw_keys() {
 
 }  // namespace
 
-void draw_panels(ViewState& state) {
+void begin_panel(const char* title, glm::vec2 place, bool is_right) {
+    const float scale = ImGui::GetFontSize() / kFontSize;
+    const float x = is_right ? ImGui::GetIO().DisplaySize.x - scale * place.x : scale * place.x;
+    ImGui::SetNextWindowPos({x, scale * place.y}, ImGuiCond_Always, {is_right ? 1.0f : 0.0f, 0.0f});
+    ImGui::SetNextWindowBgAlpha(0.75f);
+    ImGui::Begin(title, nullptr, kStill);
+    ImGui::PushItemWidth(200.0f * scale);
+}
+
+void draw_panels(glm::ivec2 window, ViewState& state) {
     if (state.shows_keys) draw_keys();
+    if (state.picture.is_loaded()) {
+        draw_target(window, state);
+        draw_divider(window, state);
+    }
     if (!state.shows_panels) return;
     draw_status(state);
-    if (state.picture.is_loaded()) draw_prices(state);
+    if (!state.picture.is_loaded()) return;
+    draw_prices(state);
+    draw_picture_panel(state);
+    draw_edit_panel(state);
+    draw_error_panel(state);
 }
 
 }  // namespace voxilux

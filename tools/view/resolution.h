@@ -1,25 +1,33 @@
 #pragma once
 
+#include <array>
+
 #include <glm/glm.hpp>
 
 namespace voxilux {
 
-// How coarse the picture is while it moves: as fine as the frame time allows.
+// How coarse the picture is while it moves: as fine as the time for its samples allows.
 class Resolution {
   public:
-    void set_target(double seconds) { target_s_ = seconds; }
-    [[nodiscard]] double target() const { return target_s_; }
+    // What the samples of a frame may take.
+    void set_budget(double seconds) { budget_s_ = seconds; }
 
     // The size of the picture in a window of so many pixels.
     [[nodiscard]] glm::ivec2 size_in(glm::ivec2 window) const;
+
+    // A plan of its own begins: its first frames compile shaders and fill occlusion cells.
+    void start();
 
     // Learns from a frame of that size; true when another size would do better from now on.
     bool learn(double frame_s);
 
   private:
-    double target_s_ = 0.033;
-    double divisor_ = 2.0;  // of width and height
-    double mean_s_ = 0.0;   // of the last frames at this size
+    static constexpr int kFrames = 3;  // whose median counts
+
+    double budget_s_ = 0.033;
+    double divisor_ = 4.0;  // of width and height
+    int cold_frames_ = 0;   // still to come
+    std::array<double, kFrames> frames_s_{};
     int frames_ = 0;
 };
 

@@ -16,8 +16,8 @@ namespace {
 constexpr std::array<std::string_view, 3> kButtons{"left", "right", "middle"};
 
 // The order of the members matters: a step has exactly one of them.
-constexpr std::array<std::string_view, 10> kActions{"key",  "press",  "release",    "move", "scroll",
-                                                    "drop", "resize", "screenshot", "edit", "close"};
+constexpr std::array<std::string_view, 11> kActions{
+    "key", "press", "release", "move", "scroll", "drop", "resize", "screenshot", "edit", "save", "close"};
 
 constexpr Range kAny{.low = -1e6, .high = 1e6};
 
@@ -49,6 +49,7 @@ ScriptAction action_of(const TomlSection& section, std::string_view key) {
     if (key == "drop") return InputEvent{DropEvent{*section.texts(key)}};
     if (key == "resize") return ResizeAction{*section.get<glm::ivec2>(key, {.low = 0, .high = 16384})};
     if (key == "screenshot") return ScreenshotAction{*section.get<std::string>(key)};
+    if (key == "save") return SaveAction{*section.get<std::string>(key)};
     if (key == "edit") return edit_of(section, *section.find(key));
     return InputEvent{CloseEvent{}};
 }
@@ -95,7 +96,11 @@ std::optional<int> key_named(std::string_view name) {
                                                            {"Control", GLFW_KEY_LEFT_CONTROL},
                                                            {"F12", GLFW_KEY_F12},
                                                            {"Plus", GLFW_KEY_EQUAL},
-                                                           {"Minus", GLFW_KEY_MINUS}};
+                                                           {"Minus", GLFW_KEY_MINUS},
+                                                           {"Period", GLFW_KEY_PERIOD},
+                                                           {"Comma", GLFW_KEY_COMMA},
+                                                           {"BracketLeft", GLFW_KEY_LEFT_BRACKET},
+                                                           {"BracketRight", GLFW_KEY_RIGHT_BRACKET}};
     for (const auto& [known, number] : kNames)
         if (known == name) return number;
     if (name.size() != 1 || std::isalnum(static_cast<unsigned char>(name[0])) == 0) return std::nullopt;

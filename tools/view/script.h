@@ -25,7 +25,12 @@ struct EditAction {
     std::optional<std::uint32_t> material;
 };
 
-using ScriptAction = std::variant<InputEvent, ResizeAction, ScreenshotAction, EditAction>;
+// Writes the edited .vox file.
+struct SaveAction {
+    std::string file;
+};
+
+using ScriptAction = std::variant<InputEvent, ResizeAction, ScreenshotAction, EditAction, SaveAction>;
 
 // What happens when the window has shown so many frames, or the picture at rest has so many samples.
 struct ScriptStep {
@@ -40,7 +45,7 @@ struct ViewScript {
 };
 
 // Reads [[step]] tables: `frame` or `samples`, and one of `key` (pressed and released), `press` and `release`
-// (a key or a button), `move`, `scroll`, `drop`, `resize`, `screenshot`, `edit`, `close`. Throws
+// (a key or a button), `move`, `scroll`, `drop`, `resize`, `screenshot`, `edit`, `save`, `close`. Throws
 // Error(input_refused) with the line.
 [[nodiscard]] ViewScript read_script(const std::filesystem::path& file);
 

@@ -2,42 +2,35 @@
 
 #include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/clock.h"
-#include "base/colour.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/print.h"
 #include "film/film_sums.h"
 #include "formats/image_file.h"
 #include "interrupt.h"
 #include "view/actions.h"
+#include "view/file_watch.h"
 #include "view/panels.h"
+#include "view/picture_look.h"
+#include "view/playback.h"
+#include "view/render_command.h"
+#include "view/screenshot.h"
+#include "view/script_player.h"
+#include "view/show_pace.h"
 #include "view/user_interface.h"
+#include "view/view_report.h"
 #include "view/window.h"
-#include "write_json.h"
 
 namespace voxilux {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr glm::ivec2 kFirstSize{1280, 720};
 constexpr double kIdleWait_s = 0.1;
-
-Image image_of(const WindowCapture& capture) {
-    const std::array<std::string, 3> names{"R", "G", "B"};
-    Image image = make_image(capture.size.x, capture.size.y, names);
-    image.display_referred = true;
-    const std::array<float, 256> decoded = decoded_srgb_codes();
-    for (std::size_t c = 0; c < 3; ++c) {
-        std::vector<float>& plane = image.channels[names[c]].pixels;
-        for (std::size_t i = 0; i < plane.size(); ++i)
-            plane[i] = decoded[capture.rgb[3 * i + c]];
-    }
-    return image;
-}
+constexpr double kMinStepShare = 0.3;  // of a frame, for samples, however long showing them takes
 
 // One run of the window: events in, frames out.
 class Session {
@@ -52,19 +45,17 @@ class Session {
           interface_(presenter_, window_.scale()),
           picture_(device_, {.cache_dir = command.device.cache_dir()}),
           state_(picture_) {
-        picture_.set_frame_time(command.frame_ms / 1000.0);
+        state_.ends = {command.error_target, command.time_limit_s};
+        picture_.set_ends(state_.ends);
         if (!command.scene.input.empty()) load(scene_, command.scene.input);
     }
 
     int run() {
         const std::atomic<bool>& is_interrupted = interrupted_by_signal();
-        auto last = Clock::now();
-        while (!state_.wants_close && !is_interrupted) {
-            const double seconds = seconds_since(std::exchange(last, Clock::now()));
-            if (shown_frames_ > 0) state_.frame_s = seconds;
-            if (show_frame(seconds)) end_of_frame(seconds);
-        }
-        write_report();
+        while (!state_.wants_close && !is_interrupted)
+            turn();
+        if (!command_.report.empty())
+            report_.write(command_.report, state_, window_.size(), device_.messages());
         return static_cast<int>(ExitCode::done);
     }
 
@@ -84,19 +75,52 @@ class Session {
 
     void load(Scene scene, const std::string& input) {
         scene.settings.size = window_.size().x > 0 ? window_.size() : scene.settings.size;
+        scene.background = {};  // a window shows the sky
         scene.camera = camera_of(scene);
+        // Images in motion are smaller, and the size of an orthographic one says what it shows.
+        if (scene.camera->projection == Projection::orthographic) {
+            scene.camera->projection = Projection::perspective;
+            scene.camera = framing_camera(scene, *scene.camera);
+        }
         picture_.load(scene, command_.scene.request);
         picture_.set_max_samples(scene.settings.spp);
         state_.input = input;
+        state_.edit = {};
+        watch_ = FileWatch(input);
+        playback_.load(scene, frames_to_render(command_.scene, scene).first, state_);
         state_.box = scene_bounds(scene);
         state_.view = state_.home = view_of(*scene.camera, state_.box);
         shown_camera_ = *scene.camera;
         window_.set_title("voxilux " + state_.input.filename().string());
     }
 
+    // Somebody wrote the scene's file; the camera stays.
+    void reload() {
+        try {
+            SceneOptions options = command_.scene;
+            options.input = state_.input.string();
+            const ViewPoint view = state_.view;
+            const ViewPoint home = state_.home;
+            load(load_scene_with(options), options.input);
+            state_.view = view;
+            state_.home = home;
+            state_.message = "loaded again";
+        } catch (const Error& error) {
+            state_.message = error.what();
+        }
+    }
+
+    void copy_command() {
+        const std::string line = render_command(command_.words, command_.scene.input, state_);
+        window_.set_clipboard(line);
+        print_result("{}\n", line);
+    }
+
     // A file that cannot be shown leaves the picture as it was.
     void take_drop(const DropEvent& drop) {
         try {
+            if (has_ending(drop.files.at(0), ".exr") || has_ending(drop.files.at(0), ".png"))
+                return take_reference(drop.files.at(0));
             SceneOptions options = command_.scene;
             options.input = drop.files.at(0);
             load(load_scene_with(options), options.input);
@@ -106,50 +130,45 @@ class Session {
         }
     }
 
+    // What is dropped as an image is compared with; the window takes its size.
+    void take_reference(const std::string& file) {
+        const Image image = read_image(file);
+        const std::optional<std::vector<float>> radiance = interleaved_colours(image);
+        if (!radiance) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
+        const glm::ivec2 size(image.width, image.height);
+        picture_.set_reference(*radiance, size);
+        if (size != window_.size()) window_.resize(size);
+        state_.reference_name = std::filesystem::path(file).filename().string();
+        state_.look.comparison = DisplayComparison::reference;
+        state_.message.clear();
+    }
+
+    [[nodiscard]] bool is_scripted() const { return !script_.is_empty() || command_.frames.has_value(); }
+
     [[nodiscard]] bool is_idle() const {
-        return script_.steps.empty() && !command_.frames && (!picture_.is_loaded() || picture_.is_done());
+        return !is_scripted() && (!picture_.is_loaded() || picture_.is_done());
     }
 
     std::vector<InputEvent> take_input() {
         std::vector<InputEvent> events = window_.poll(is_idle() ? kIdleWait_s : 0.0);
-        while (next_step_ < script_.steps.size() && is_due(script_.steps[next_step_])) {
-            const ScriptAction& action = script_.steps[next_step_].action;
-            // A screenshot is of this frame: what comes after it waits.
-            if (!state_.screenshots.empty() && !std::holds_alternative<ScreenshotAction>(action)) break;
-            ++next_step_;
-            if (const auto* event = std::get_if<InputEvent>(&action)) events.push_back(*event);
-            if (const auto* resize = std::get_if<ResizeAction>(&action)) resize_window(resize->size);
-            if (const auto* shot = std::get_if<ScreenshotAction>(&action))
+        while (const ScriptAction* const action =
+                   script_.next(shown_frames_, picture_, !state_.screenshots.empty())) {
+            if (const auto* event = std::get_if<InputEvent>(action)) events.push_back(*event);
+            if (const auto* resize = std::get_if<ResizeAction>(action)) resize_window(resize->size);
+            if (const auto* shot = std::get_if<ScreenshotAction>(action))
                 state_.screenshots.push_back(shot->file);
-            if (const auto* edit = std::get_if<EditAction>(&action)) edit_boxes(*edit);
+            if (const auto* edit = std::get_if<EditAction>(action)) {
+                const BoxEdit box{edit->box, edit->material};
+                make_edits({&box, 1}, state_);
+            }
+            if (const auto* save = std::get_if<SaveAction>(action)) save_edits(save->file, state_);
         }
         return events;
-    }
-
-    // The film that the script waits for is not to grow beyond.
-    [[nodiscard]] std::uint32_t awaited_samples() const {
-        return next_step_ < script_.steps.size() ? script_.steps[next_step_].samples.value_or(kNoEnd)
-                                                 : kNoEnd;
-    }
-
-    [[nodiscard]] bool is_due(const ScriptStep& step) {
-        if (step.frame > shown_frames_) return false;
-        return !step.samples ||
-               (picture_.is_loaded() && !picture_.is_moving() && picture_.samples() >= *step.samples);
     }
 
     void resize_window(glm::ivec2 size) {
         window_.minimise(size.x == 0);
         if (size.x > 0) window_.resize(size);
-    }
-
-    void edit_boxes(const EditAction& edit) {
-        const BoxEdit box{edit.box, edit.material};
-        try {
-            picture_.edit({&box, 1});
-        } catch (const Error& error) {
-            state_.message = error.what();
-        }
     }
 
     void apply_changes(glm::ivec2 size) {
@@ -163,51 +182,76 @@ class Session {
         shown_camera_ = camera;
     }
 
-    // True when a frame reached the window.
-    bool show_frame(double seconds) {
+    void turn() {
+        const double seconds = seconds_since(std::exchange(turn_began_, Clock::now()));
         const std::vector<InputEvent> events = take_input();
         const glm::ivec2 size = window_.size();
-        interface_.begin(events, glm::max(size, glm::ivec2(1)), seconds);
+        const bool is_due = is_frame_due(events, size);
+        if (is_due) take_events(events, glm::max(size, glm::ivec2(1)));
+        fly(seconds, state_);
+        if (std::exchange(state_.has_saved, false)) watch_.forgive();
+        if (watch_.has_changed()) reload();
+        if (picture_.is_loaded()) playback_.advance(seconds, state_);
+        apply_changes(size);
+        if (std::exchange(state_.wants_command, false) && picture_.is_loaded()) copy_command();
+        if (picture_.is_loaded()) take_samples();
+        if (!is_due) return;
+        aim(glm::max(size, glm::ivec2(1)), state_);
+        if (size.x > 0) read_pixel(state_);
+        fit_range(state_);
+        draw_panels(glm::max(size, glm::ivec2(1)), state_);
+        show(size);
+    }
+
+    // Whether somebody waits for a frame, or there is something new to see.
+    [[nodiscard]] bool is_frame_due(const std::vector<InputEvent>& events, glm::ivec2 size) const {
+        if (!events.empty() || !picture_.is_loaded() || picture_.is_moving()) return true;
+        if (shown_frames_ == 0 || size != shown_size_ || !state_.screenshots.empty()) return true;
+        const bool is_waiting = picture_.samples() >= script_.awaited_samples() || picture_.is_done();
+        if (is_scripted() && is_waiting) return true;
+        if (!pace_.is_due()) return false;
+        return picture_.has_news() || is_scripted();
+    }
+
+    void take_events(const std::vector<InputEvent>& events, glm::ivec2 size) {
+        interface_.begin(events, size, seconds_since(std::exchange(frame_began_, Clock::now())));
         for (const InputEvent& event : events) {
             if (const auto* drop = std::get_if<DropEvent>(&event)) take_drop(*drop);
-            if (!is_of_panels(event)) take_event(event, glm::max(size, glm::ivec2(1)), state_);
+            if (!interface_.wants(event)) take_event(event, size, state_);
         }
-        fly(seconds, state_);
-        apply_changes(size);
-        if (picture_.is_loaded()) frame_ = picture_.advance(command_.frame_ms / 1000.0, awaited_samples());
-        draw_panels(state_);
-        return present(interface_.end(), size);
     }
 
-    // Releases always reach the view, so that nothing stays held.
-    [[nodiscard]] bool is_of_panels(const InputEvent& event) const {
-        if (const auto* button = std::get_if<ButtonEvent>(&event))
-            return button->is_down && interface_.wants_mouse();
-        if (std::holds_alternative<ScrollEvent>(event)) return interface_.wants_mouse();
-        const auto* key = std::get_if<KeyEvent>(&event);
-        return key != nullptr && key->is_down && interface_.wants_keys();
+    void take_samples() {
+        const double frame_s = command_.frame_ms / 1000.0;
+        picture_.set_motion_budget(std::max(frame_s - pace_.show_s(), kMinStepShare * frame_s));
+        report_.add_step(picture_.advance(frame_s, script_.awaited_samples()));
     }
 
-    bool present(const Overlay& overlay, glm::ivec2 size) {
-        ShownPicture shown;
-        if (picture_.is_loaded()) {
-            const DisplayBuffer display = picture_.display();
-            shown.buffer = display.buffer;
-            if (display.size.x > 0) shown.executor = &picture_.executor();
-            shown.how.size = display.size;
-        }
-        shown.how.exposure = std::exp2(state_.exposure_ev);
-        shown.how.is_filmic = state_.curve == ToneMap::filmic ? 1u : 0u;
+    void show(glm::ivec2 size) {
         const bool is_last = command_.frames && shown_frames_ + 1 >= *command_.frames;
         if (is_last && !command_.screenshot.empty()) state_.screenshots.push_back(command_.screenshot);
+        const Overlay& overlay = interface_.end();
+        const auto start = Clock::now();
         WindowCapture capture;
-        const bool is_shown =
-            presenter_.present(shown, overlay, size, state_.screenshots.empty() ? nullptr : &capture);
-        if (is_shown)
-            write_screenshots(capture);
-        else if (size.x <= 0)
-            (void)window_.poll(kIdleWait_s);
-        return is_shown;
+        const bool is_shown = presenter_.present(shown_picture(), overlay, size,
+                                                 state_.screenshots.empty() ? nullptr : &capture);
+        pace_.add(seconds_since(start));
+        if (!is_shown) {
+            if (size.x <= 0) (void)window_.poll(kIdleWait_s);
+            return;
+        }
+        shown_size_ = size;
+        write_screenshots(capture);
+        end_of_frame(seconds_since(start));
+    }
+
+    ShownPicture shown_picture() {
+        if (!picture_.is_loaded()) return {};
+        state_.look.divider = static_cast<std::uint32_t>(state_.divider * picture_.settings().size.x);
+        state_.look.is_bgr = presenter_.is_bgr();
+        const DisplayBuffer display = picture_.display(state_.look);
+        if (display.size.x == 0) return {};
+        return {&picture_.executor(), display.buffer, display.size};
     }
 
     void write_screenshots(const WindowCapture& capture) {
@@ -220,38 +264,19 @@ class Session {
         }
     }
 
-    void end_of_frame(double seconds) {
+    void end_of_frame(double show_s) {
+        state_.frame_s = seconds_since(std::exchange(frame_ended_, Clock::now()));
+        if (shown_frames_ == 0) report_.set_first(seconds_since(start_));
+        report_.add_frame(state_.frame_s, show_s);
         ++shown_frames_;
-        if (!command_.report.empty())
-            frames_.push_back({{"ms", 1000.0 * seconds},
-                               {"step_ms", 1000.0 * frame_.step_s},
-                               {"samples", frame_.samples},
-                               {"width", frame_.size.x},
-                               {"height", frame_.size.y}});
         const bool is_over = command_.frames && shown_frames_ >= *command_.frames;
-        const bool has_played = !script_.steps.empty() && next_step_ == script_.steps.size();
+        const bool has_played = !script_.is_empty() && script_.has_ended();
         if (is_over || (has_played && !command_.frames)) state_.wants_close = true;
     }
 
-    void write_report() {
-        if (command_.report.empty()) return;
-        const Camera& camera = state_.view.camera;
-        const glm::ivec2 size = window_.size();
-        write_json(command_.report,
-                   {{"frames", frames_},
-                    {"shown",
-                     {{"input", state_.input.string()},
-                      {"window", {size.x, size.y}},
-                      {"camera",
-                       {{"position", {camera.position.x, camera.position.y, camera.position.z}},
-                        {"yaw", camera.yaw_deg},
-                        {"pitch", camera.pitch_deg},
-                        {"fov_y", camera.fov_y_deg}}}}},
-                    {"messages", device_.messages()}});
-    }
-
+    const Clock::time_point start_ = Clock::now();
     const ViewCommand& command_;
-    ViewScript script_;
+    ScriptPlayer script_;
     Scene scene_;
     Window window_;
     Device device_;
@@ -260,10 +285,15 @@ class Session {
     LivePicture picture_;
     ViewState state_;
     Camera shown_camera_;
-    LiveFrame frame_;
-    Json frames_ = Json::array();
+    FileWatch watch_;
+    Playback playback_;
+    ShowPace pace_;
+    ViewReport report_;
+    Clock::time_point turn_began_ = Clock::now();
+    Clock::time_point frame_began_ = Clock::now();
+    Clock::time_point frame_ended_ = Clock::now();
     std::int64_t shown_frames_ = 0;
-    std::size_t next_step_ = 0;
+    glm::ivec2 shown_size_{0};
 };
 
 }  // namespace

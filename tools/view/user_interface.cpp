@@ -103,12 +103,12 @@ const Overlay& UserInterface::end() {
     return overlay_;
 }
 
-bool UserInterface::wants_mouse() const {
-    return ImGui::GetIO().WantCaptureMouse;
-}
-
-bool UserInterface::wants_keys() const {
-    return ImGui::GetIO().WantTextInput;
+bool UserInterface::wants(const InputEvent& event) const {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (const auto* button = std::get_if<ButtonEvent>(&event)) return button->is_down && io.WantCaptureMouse;
+    if (std::holds_alternative<ScrollEvent>(event)) return io.WantCaptureMouse;
+    const auto* key = std::get_if<KeyEvent>(&event);
+    return key != nullptr && key->is_down && io.WantTextInput;
 }
 
 }  // namespace voxilux

@@ -25,9 +25,8 @@ class UserInterface {
     void begin(std::span<const InputEvent> events, glm::ivec2 window, double seconds);
     [[nodiscard]] const Overlay& end();
 
-    // Whether the mouse or the keys belong to the panels now.
-    [[nodiscard]] bool wants_mouse() const;
-    [[nodiscard]] bool wants_keys() const;
+    // Whether the event belongs to the panels now. Releases never do, so that nothing stays held.
+    [[nodiscard]] bool wants(const InputEvent& event) const;
 
   private:
     Overlay overlay_;

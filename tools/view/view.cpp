@@ -7,7 +7,7 @@
 namespace voxilux {
 
 void add_view_flags(Flags& flags, ViewCommand& command) {
-    add_scene_flags(flags, command.scene, false);
+    add_scene_flags(flags, command.scene, PicturesOf::scene);
     flags.begin_group("Window");
     flags.on<double>(
         "--frame-time", "MS",
@@ -16,6 +16,10 @@ void add_view_flags(Flags& flags, ViewCommand& command) {
             command.frame_ms = ms;
         },
         "what a frame may take while something moves (default 33)");
+    flags.add_parsed("--error", "E", command.error_target, parse_error_target,
+                     "take samples until the estimated error is below this: 2% (however many --spp says)");
+    flags.add_parsed("--time-limit", "T", command.time_limit_s, parse_duration,
+                     "take samples for so long: 90s, 5m");
     flags.add("--script", "FILE", command.script, "a person's input as a .toml file; then exit");
     flags.add("--frames", "N", command.frames, "exit when so many frames are shown").from_zero();
     flags.add("--screenshot", "FILE", command.screenshot,

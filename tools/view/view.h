@@ -11,6 +11,7 @@
 namespace voxilux {
 
 struct ViewCommand {
+    std::vector<std::string> words;  // of the command line, after the subcommand
     SceneOptions scene;
     DeviceOptions device;
     std::string script;
@@ -18,6 +19,8 @@ struct ViewCommand {
     std::string report;
     std::optional<std::int64_t> frames;
     double frame_ms = 33.0;
+    std::optional<double> error_target;
+    std::optional<double> time_limit_s;
 };
 
 void add_view_flags(Flags& flags, ViewCommand& command);

@@ -42,6 +42,13 @@ glm::dvec3 direction_through(const Camera& camera, glm::dvec2 place, glm::dvec2 
     return glm::normalize(basis[2] + basis[0] * offset.x - basis[1] * offset.y);
 }
 
+std::optional<glm::dvec2> place_of(const Camera& camera, glm::dvec3 point, glm::dvec2 size) {
+    constexpr double kNearest = 1e-3;  // voxels: nearer points lie far outside any picture
+    const glm::dvec3 seen = glm::transpose(camera_basis(camera)) * (point - camera.position);
+    if (seen.z < kNearest) return std::nullopt;
+    return 0.5 * size + glm::dvec2(seen.x, -seen.y) * (pixels_per_tangent(camera, size) / seen.z);
+}
+
 ViewPoint orbited(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size) {
     ViewPoint next = view;
     next.camera = turned(view.camera, -pixels * kDegreesPerWindow / size.y);

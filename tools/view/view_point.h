@@ -2,6 +2,8 @@
 
 // How input moves the camera: pure geometry.
 
+#include <optional>
+
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
@@ -21,6 +23,9 @@ struct ViewPoint {
 
 // The ray through a place of a picture of so many pixels: unit direction.
 [[nodiscard]] glm::dvec3 direction_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size);
+
+// Where a point of the scene appears in such a picture; nothing for one behind the camera.
+[[nodiscard]] std::optional<glm::dvec2> place_of(const Camera& camera, glm::dvec3 point, glm::dvec2 size);
 
 // Turns about the centre: columns turn the camera to the side, rows up and down.
 [[nodiscard]] ViewPoint orbited(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "film/tonemap.h"
+#include "scene/animation.h"
+#include "view/edit_tool.h"
 #include "view/input_event.h"
 #include "view/live_picture.h"
+#include "view/pixel_reading.h"
 #include "view/view_point.h"
 
 namespace voxilux {
@@ -22,7 +24,18 @@ struct ViewState {
     ViewPoint home;
     InputState held;
     float exposure_ev = 0.0f;
-    ToneMap curve = ToneMap::filmic;
+    DisplayLook look;
+    double divider = 0.5;  // between picture and reference, of the window's width
+    bool drags_divider = false;
+    std::string reference_name;           // empty: there is none
+    std::optional<PixelReading> reading;  // of the pixel under the pointer, at rest
+    EditState edit;
+    std::optional<FrameRange> frames;  // of an animation
+    std::int64_t frame = 0;
+    bool is_playing = false;
+    bool has_saved = false;      // to a file that is watched, maybe
+    bool wants_command = false;  // the line that renders this view
+    SampleEnds ends;
     bool shows_panels = true;
     bool shows_keys = false;
     double frame_s = 0.0;  // of the last frame

@@ -157,6 +157,10 @@ void Window::minimise(bool is_minimised) {
         glfwRestoreWindow(state_->handle);
 }
 
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(state_->handle, text.c_str());
+}
+
 void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(state_->handle, title.c_str());
 }

@@ -32,6 +32,7 @@ class Window {
     void resize(glm::ivec2 size);
     void minimise(bool is_minimised);
     void set_title(const std::string& title);
+    void set_clipboard(const std::string& text);
 
   private:
     std::unique_ptr<WindowState> state_;

@@ -70,7 +70,7 @@ std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guid
     for_each_pixel(size, [&](glm::ivec2 pixel) {
         const auto x = static_cast<gpu::uint>(pixel.x);
         const auto y = static_cast<gpu::uint>(pixel.y);
-        const gpu::Ray camera_ray = gpu::camera_ray(params, gpu::kSequenceSobol, x, y);
+        const gpu::Ray camera_ray = gpu::camera_ray(params, gpu::kPerspective, gpu::kSequenceSobol, x, y);
         if (kind == RayKind::primary) {
             rays.push_back(camera_ray);
             return;

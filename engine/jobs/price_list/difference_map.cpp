@@ -7,29 +7,22 @@
 #include "base/assert.h"
 #include "base/colour.h"
 #include "estimators/metrics.h"
+#include "shared/false_colour.h"
 
 namespace voxilux {
 namespace {
 
 constexpr double kDecades = 3.0;  // of the scale, below 100 %
 
-// Every fourth part of matplotlib's map "magma" (N. Smith and S. van der Walt, 2015, public domain): its
-// lightness rises evenly, also in print and for every eye.
-constexpr std::array<std::array<double, 3>, 5> kStops = {
-    {{0, 0, 4}, {81, 18, 124}, {183, 55, 121}, {252, 137, 97}, {252, 253, 191}}};
-
 }  // namespace
 
 std::array<int, 3> difference_colour(double difference) {
     const double place =
         difference > 0.0 ? std::clamp(1.0 + std::log10(difference) / kDecades, 0.0, 1.0) : 0.0;
-    const double step = place * static_cast<double>(kStops.size() - 1);
-    const std::size_t first = std::min(static_cast<std::size_t>(step), kStops.size() - 2);
-    const double share = step - static_cast<double>(first);
+    const gpu::vec3 codes = gpu::false_colour(static_cast<float>(place));
     std::array<int, 3> colour{};
-    for (std::size_t c = 0; c < 3; ++c)
-        colour[c] =
-            static_cast<int>(std::lround((1.0 - share) * kStops[first][c] + share * kStops[first + 1][c]));
+    for (int c = 0; c < 3; ++c)
+        colour[static_cast<std::size_t>(c)] = static_cast<int>(std::lround(255.0f * codes[c]));
     return colour;
 }
 

@@ -191,6 +191,7 @@ Plane record_ao_filter(const RenderPlan& plan, const DispatchTile& tile, const P
                                          {"Variance", resolved.variance},
                                          {"FilteredAo", filtered.visibility},
                                          {"FilteredVariance", filtered.variance}},
+                            .constants = {projection_constant(plan)},
                             .push = to_bytes(gpu::AoFilterPush{1 << i})});
         std::swap(resolved, filtered);
     }

@@ -2,39 +2,121 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
 #include "passes/plane.h"
-#include "plan/film_planes.h"
-#include "shared/gpu_types.h"
+#include "shared/window.h"
 
 namespace voxilux {
+namespace {
+
+// Where the values of a channel are, and what they mean.
+struct ChannelSource {
+    FilmPlane plane;
+    bool has_halves = false;
+    bool has_floats = false;
+    gpu::uint shows = gpu::kShowsRadiance;
+};
+
+ChannelSource source_of(DisplayChannel channel) {
+    switch (channel) {
+        case DisplayChannel::albedo:
+            return {.plane = {"albedo", 3}, .shows = gpu::kShowsAlbedo};
+        case DisplayChannel::normal:
+            return {.plane = {"normal", 3}, .shows = gpu::kShowsVector};
+        case DisplayChannel::position:
+            return {.plane = {"position", 3}, .has_floats = true, .shows = gpu::kShowsVector};
+        case DisplayChannel::depth:
+            return {.plane = {"depth", 1}, .has_floats = true, .shows = gpu::kShowsNumber};
+        case DisplayChannel::ao:
+            return {.plane = {"ao", 1}, .shows = gpu::kShowsNumber};
+        case DisplayChannel::sun:
+            return {.plane = {"sun", 1}, .shows = gpu::kShowsNumber};
+        case DisplayChannel::error:
+            return {.plane = {"beauty_a", 3}, .has_halves = true, .shows = gpu::kShowsError};
+        case DisplayChannel::color:
+            break;
+    }
+    return {.plane = {"beauty_a", 3}, .has_halves = true};
+}
+
+std::uint64_t pixels_of(const RenderPlan& plan) {
+    return static_cast<std::uint64_t>(plan.settings.size.x) *
+           static_cast<std::uint64_t>(plan.settings.size.y);
+}
+
+std::string reference_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<float>(recording, "display.reference", 3 * pixels_of(plan), Lifetime::persistent);
+}
+
+std::vector<Constant> display_constants(const ChannelSource& source, const DisplayLook& look) {
+    const bool compares = source.shows == gpu::kShowsRadiance;
+    return {{"shows", source.shows},
+            {"compares", compares ? static_cast<gpu::uint>(look.comparison) : gpu::kComparesNothing},
+            {"components", source.plane.components},
+            {"has_halves", source.has_halves ? 1u : 0u},
+            {"has_floats", source.has_floats ? 1u : 0u},
+            {"is_filmic", look.curve == ToneMap::filmic ? 1u : 0u},
+            {"is_bgr", look.is_bgr ? 1u : 0u}};
+}
+
+std::string values_of(const RenderPlan& plan, const ChannelSource& source, std::uint32_t film_tile,
+                      Recording& recording) {
+    return source.has_floats ? film_plane<float>(plan, source.plane, film_tile, recording)
+                             : film_plane<std::int64_t>(plan, source.plane, film_tile, recording);
+}
+
+}  // namespace
+
+bool has_channel(const RenderPlan& plan, DisplayChannel channel) {
+    if (channel == DisplayChannel::color || channel == DisplayChannel::error) return true;
+    if (channel == DisplayChannel::ao && !plan.has(Effect::ao)) return false;
+    if (channel == DisplayChannel::sun && !plan.has(Effect::sun)) return false;
+    return plan.has(Effect::aov);
+}
 
 DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts& counts,
-                                     Recording& recording) {
-    const DisplayBuffer display{"display.color", plan.settings.size};
+                                     const DisplayLook& look, Recording& recording) {
+    VX_ASSERT(has_channel(plan, look.channel));
+    const ChannelSource source = source_of(look.channel);
+    const DisplayBuffer display{
+        declare<std::uint32_t>(recording, "display.codes", pixels_of(plan), Lifetime::persistent),
+        plan.settings.size};
+    const bool compares = look.comparison != DisplayComparison::none;
+    const std::string reference =
+        compares ? reference_buffer(plan, recording) : placeholder_buffer(recording);
+    const auto width = static_cast<std::uint32_t>(display.size.x);
     const auto height = static_cast<std::uint32_t>(display.size.y);
-    const std::uint32_t row_values = 3 * static_cast<std::uint32_t>(display.size.x);
-    recording.declare({.name = display.buffer,
-                       .size_bytes = std::uint64_t{height} * row_values * sizeof(float),
-                       .persistent = true});
     for (std::uint32_t film_tile = 0; film_tile < plan.film_tile_count; ++film_tile) {
         const std::uint32_t first_row = film_tile * plan.film_tile_rows;
-        const std::uint32_t rows = std::min(plan.film_tile_rows, height - first_row);
-        const gpu::DisplayResolvePush push{.count = row_values * rows,
-                                           .row_values = row_values,
-                                           .first_row = first_row,
-                                           .samples = counts.samples,
-                                           .rows_ahead = counts.rows_ahead,
-                                           .rows_behind = counts.rows_behind};
-        recording.dispatch(
-            {.label = "display.resolve",
-             .shader = "display_resolve",
-             .extent = {push.count, 1, 1},
-             .bindings = {{"SumsA", film_plane<std::int64_t>(plan, {"beauty_a", 3}, film_tile, recording)},
-                          {"SumsB", film_plane<std::int64_t>(plan, {"beauty_b", 3}, film_tile, recording)},
-                          {"Display", display.buffer}},
-             .push = to_bytes(push)});
+        const gpu::DisplayResolvePush push{
+            .low = look.low,
+            .high = look.high,
+            .pixel_count = width * std::min(plan.film_tile_rows, height - first_row),
+            .width = width,
+            .first_row = first_row,
+            .samples = counts.samples,
+            .rows_ahead = counts.rows_ahead,
+            .exposure = look.exposure,
+            .divider = look.divider};
+        const std::string other = source.has_halves
+                                      ? film_plane<std::int64_t>(plan, {"beauty_b", 3}, film_tile, recording)
+                                      : placeholder_buffer(recording);
+        recording.dispatch({.label = "display.resolve",
+                            .shader = "display_resolve",
+                            .extent = {(push.pixel_count + gpu::kGroupPixels - 1) / gpu::kGroupPixels, 1, 1},
+                            .bindings = {{"Values", values_of(plan, source, film_tile, recording)},
+                                         {"OtherHalf", other},
+                                         {"Reference", reference},
+                                         {"Display", display.buffer}},
+                            .constants = display_constants(source, look),
+                            .push = to_bytes(push)});
     }
     return display;
+}
+
+void record_display_reference(const RenderPlan& plan, std::span<const float> radiance, Recording& recording) {
+    VX_ASSERT_EQ(radiance.size(), 3 * pixels_of(plan));
+    recording.upload(reference_buffer(plan, recording), std::as_bytes(radiance));
 }
 
 }  // namespace voxilux

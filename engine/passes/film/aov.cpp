@@ -14,7 +14,7 @@ void record_aov_position(const RenderPlan& plan, const DispatchTile& tile, const
                       {"Hits", hits.buffer},
                       {"Position", film_plane<float>(plan, {"position", 3}, tile.film_tile, recording)},
                       {"Depth", film_plane<float>(plan, {"depth", 1}, tile.film_tile, recording)}},
-         .constants = {{"hits_stride", hits.stride}}});
+         .constants = {{"hits_stride", hits.stride}, projection_constant(plan)}});
 }
 
 }  // namespace voxilux

@@ -49,10 +49,27 @@ PhotonPlanes photon_planes(const RenderPlan& plan, Recording& recording) {
             {declare_plane<gpu::vec3>(plan, "photon.half_area", recording)}};
 }
 
+std::string totals_buffer(const RenderPlan& plan, Recording& recording) {
+    return declare<std::uint64_t>(recording, "photon.totals", 6 * plan.tile_pixels());
+}
+
+std::string met_buffer(const RenderPlan& plan, PhotonRadii radii, Recording& recording) {
+    if (radii == PhotonRadii::common) return placeholder_buffer(recording);
+    return declare<gpu::uint>(recording, "photon.met", plan.tile_pixels());
+}
+
 // Adds what a pass needs that turns sums into light.
-void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& dispatch,
+void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, PhotonRadii radii, Dispatch& dispatch,
                  Recording& recording) {
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Spheres", spheres_buffer(plan, recording)},
+    const bool own = radii == PhotonRadii::own;
+    dispatch.bindings.push_back(
+        {"PixelRadii",
+         own ? declare_plane<gpu::PixelRadius>(plan, "photon.radii", recording, Lifetime::persistent)
+             : placeholder_buffer(recording)});
+    dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Counters", counters_buffer(recording)},
+                                                       {"Spheres", spheres_buffer(plan, recording)},
+                                                       {"SphereTree", sphere_tree_buffer(plan, recording)},
                                                        {"SphereTable", sphere_table_buffer(plan, recording)},
                                                        {"Light", planes.light.buffer},
                                                        {"HalfAreaLight", planes.half_area.buffer}});
@@ -60,34 +77,23 @@ void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, Dispatch& d
         dispatch.constants.push_back(constant);
 }
 
-// Sorts the visible points into buckets.
-void record_points(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
-                   const Plane& hits, Recording& recording) {
-    const std::string ranks = declare_plane<gpu::uint>(plan, "photon.ranks", recording);
-    Dispatch point{.label = "photon.point",
-                   .shader = "photon_point",
-                   .extent = pixel_extent(plan, tile),
-                   .bindings = point_bindings(hits, recording)};
-    point.bindings.insert(point.bindings.end(),
-                          {{"BucketCounts", photon_counts_buffer(plan, recording)}, {"PointRanks", ranks}});
-    recording.dispatch(std::move(point));
-    record_photon_scan(plan, params, recording);
-    Dispatch place{.label = "photon.place",
-                   .shader = "photon_place",
-                   .extent = pixel_extent(plan, tile),
-                   .bindings = point_bindings(hits, recording)};
-    place.bindings.insert(
-        place.bindings.end(),
-        {{"PointRanks", ranks},
-         {"BucketStarts", photon_starts_buffer(plan, recording)},
-         {"SortedPoints", declare_plane<gpu::PhotonPoint>(plan, "photon.points", recording)}});
-    recording.dispatch(std::move(place));
-}
-
 // Invocations of a pass over the pixels of a tile in tiles of 8x8.
 Extent tile_extent(const RenderPlan& plan, const DispatchTile& tile) {
     const auto columns = static_cast<std::uint32_t>(plan.settings.size.x);
     return {(columns + 7) / 8 * ((tile.row_count + 7) / 8) * 64, 1, 1};
+}
+
+Dispatch gathering(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                   Recording& recording) {
+    Dispatch dispatch{.label = "photon.gather",
+                      .shader = "photon_gather",
+                      .extent = tile_extent(plan, tile),
+                      .bindings = point_bindings(hits, recording),
+                      .constants = {{"known_lanes", plan.photons.gather_lanes}}};
+    dispatch.bindings.insert(dispatch.bindings.end(),
+                             {{"BucketStarts", photon_starts_buffer(plan, recording)},
+                              {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
+    return dispatch;
 }
 
 }  // namespace
@@ -145,33 +151,51 @@ void record_photon_sort(const RenderPlan& plan, const gpu::PhotonParams& params,
 
 PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                   PhotonRadii radii, Recording& recording) {
-    const bool own = radii == PhotonRadii::own;
     const PhotonPlanes planes = photon_planes(plan, recording);
-    Dispatch dispatch{.label = "photon.gather",
-                      .shader = "photon_gather",
-                      .extent = tile_extent(plan, tile),
-                      .bindings = point_bindings(hits, recording)};
-    dispatch.bindings.insert(dispatch.bindings.end(),
-                             {{"Counters", counters_buffer(recording)},
-                              {"BucketStarts", photon_starts_buffer(plan, recording)},
-                              {"SortedPhotons", photon_sorted_buffer(plan, recording)}});
-    dispatch.bindings.push_back(
-        {"PixelRadii",
-         own ? declare_plane<gpu::PixelRadius>(plan, "photon.radii", recording, Lifetime::persistent)
-             : placeholder_buffer(recording)});
-    dispatch.constants.push_back({"own_radii", own ? 1u : 0u});
-    dispatch.constants.push_back({"known_lanes", plan.photons.gather_lanes});
-    let_resolve(plan, planes, dispatch, recording);
+    const std::string unused = placeholder_buffer(recording);
+    Dispatch dispatch = gathering(plan, tile, hits, recording);
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"PhotonTotals", unused}, {"MetTotals", unused}});
+    let_resolve(plan, planes, radii, dispatch, recording);
     recording.dispatch(std::move(dispatch));
     return planes;
 }
 
-PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
-                                 const DispatchTile& tile, const Plane& hits, Recording& recording) {
-    record_points(plan, params, tile, hits, recording);
-    const std::string totals = declare<std::uint64_t>(recording, "photon.totals", 6 * plan.tile_pixels());
+void record_photon_add(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, PhotonRadii radii,
+                       Recording& recording) {
+    const PhotonPlanes none{{placeholder_buffer(recording)}, {placeholder_buffer(recording)}};
+    Dispatch dispatch = gathering(plan, tile, hits, recording);
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"PhotonTotals", totals_buffer(plan, recording)},
+                                                       {"MetTotals", met_buffer(plan, radii, recording)}});
+    dispatch.constants.push_back({"adds_up", 1u});
+    let_resolve(plan, none, radii, dispatch, recording);
+    recording.dispatch(std::move(dispatch));
+}
+
+void record_photon_points(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
+                          const Plane& hits, Recording& recording) {
+    const std::string ranks = declare_plane<gpu::uint>(plan, "photon.ranks", recording);
+    Dispatch point{.label = "photon.point",
+                   .shader = "photon_point",
+                   .extent = pixel_extent(plan, tile),
+                   .bindings = point_bindings(hits, recording)};
+    point.bindings.insert(point.bindings.end(),
+                          {{"BucketCounts", photon_counts_buffer(plan, recording)}, {"PointRanks", ranks}});
+    recording.dispatch(std::move(point));
+    record_photon_scan(plan, params, recording);
+    Dispatch place{.label = "photon.place",
+                   .shader = "photon_place",
+                   .extent = pixel_extent(plan, tile),
+                   .bindings = point_bindings(hits, recording)};
+    place.bindings.insert(
+        place.bindings.end(),
+        {{"PointRanks", ranks},
+         {"BucketStarts", photon_starts_buffer(plan, recording)},
+         {"SortedPoints", declare_plane<gpu::PhotonPoint>(plan, "photon.points", recording)}});
+    recording.dispatch(std::move(place));
+}
+
+void record_photon_splat(const RenderPlan& plan, Recording& recording) {
     const std::string head = photon_head_buffer(recording);
-    recording.clear(totals);
     recording.dispatch_indirect(
         {.label = "photon.splat",
          .shader = "photon_splat",
@@ -181,15 +205,25 @@ PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams
                       {"StoredPhotons", photon_store_buffer(plan, recording)},
                       {"BucketStarts", photon_starts_buffer(plan, recording)},
                       {"SortedPoints", declare_plane<gpu::PhotonPoint>(plan, "photon.points", recording)},
-                      {"PhotonTotals", totals}}},
+                      {"PhotonTotals", totals_buffer(plan, recording)}}},
         head);
+}
+
+void record_photon_totals(const RenderPlan& plan, PhotonRadii radii, Recording& recording) {
+    recording.clear(totals_buffer(plan, recording));
+    if (radii == PhotonRadii::own) recording.clear(met_buffer(plan, radii, recording));
+}
+
+PhotonPlanes record_photon_resolve(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
+                                   PhotonRadii radii, Recording& recording) {
     const PhotonPlanes planes = photon_planes(plan, recording);
     Dispatch resolve{.label = "photon.resolve",
                      .shader = "photon_resolve",
                      .extent = pixel_extent(plan, tile),
                      .bindings = point_bindings(hits, recording)};
-    resolve.bindings.push_back({"PhotonTotals", totals});
-    let_resolve(plan, planes, resolve, recording);
+    resolve.bindings.insert(resolve.bindings.end(), {{"PhotonTotals", totals_buffer(plan, recording)},
+                                                     {"MetTotals", met_buffer(plan, radii, recording)}});
+    let_resolve(plan, planes, radii, resolve, recording);
     recording.dispatch(std::move(resolve));
     return planes;
 }

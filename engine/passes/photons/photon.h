@@ -22,7 +22,7 @@ struct PhotonSetup {
 // 1/sqrt(2) of it. A channel without power gets none.
 [[nodiscard]] gpu::PhotonParams photon_params(const PhotonSetup& setup);
 
-// Puts the parameters on the device and empties the store, before the pass that traces photons.
+// Puts the parameters on the device and empties the store, before the pass that traces a run of photons.
 void record_photon_clear(const RenderPlan& plan, const gpu::PhotonParams& params, Recording& recording);
 
 // Finds where photons are wanted, before the pass that traces them: the cells that a disc about a hit
@@ -47,10 +47,21 @@ enum class PhotonRadii { common, own };
 [[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& tile,
                                                 const Plane& hits, PhotonRadii radii, Recording& recording);
 
+// The same in runs of photons: their sums are added to the totals of the pixels, which record_photon_resolve
+// turns into irradiance after the last run.
+void record_photon_add(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, PhotonRadii radii,
+                       Recording& recording);
+
 // The same, to the bit, from photons that look for the points around them instead: `scatter`. Photons need
-// not be sorted (constant sorts_photons of the pass that stores them is 0).
-[[nodiscard]] PhotonPlanes record_photon_splat(const RenderPlan& plan, const gpu::PhotonParams& params,
-                                               const DispatchTile& tile, const Plane& hits,
-                                               Recording& recording);
+// not be sorted (constant sorts_photons of the pass that stores them is 0), but the points, for each run:
+// that tells the splat how many photons there are, too.
+void record_photon_points(const RenderPlan& plan, const gpu::PhotonParams& params, const DispatchTile& tile,
+                          const Plane& hits, Recording& recording);
+void record_photon_splat(const RenderPlan& plan, Recording& recording);
+
+// Empties the totals, before the first run that adds to them.
+void record_photon_totals(const RenderPlan& plan, PhotonRadii radii, Recording& recording);
+[[nodiscard]] PhotonPlanes record_photon_resolve(const RenderPlan& plan, const DispatchTile& tile,
+                                                 const Plane& hits, PhotonRadii radii, Recording& recording);
 
 }  // namespace voxilux

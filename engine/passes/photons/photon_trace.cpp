@@ -18,13 +18,14 @@ void record_photon_emit(const RenderPlan& plan, Recording& recording) {
     recording.dispatch(
         {.label = "photon.emit",
          .shader = "photon_emit",
-         .extent = {plan.photons.count(), 1, 1},
+         .extent = {plan.photons.at_once, 1, 1},
          .bindings = {{"Frame", frame_buffer(recording)},
+                      {"PhotonFrame", photon_frame_buffer(recording)},
                       {"Spheres", spheres_buffer(plan, recording)},
                       {"Materials", materials_buffer(plan, recording)},
                       {"Lights", emitter_buffer(plan, lights_buffer, recording)},
                       {"LightTable", emitter_buffer(plan, light_table_buffer, recording)},
-                      {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.count())}},
+                      {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.at_once)}},
          .constants = surface_constants(plan)});
 }
 
@@ -45,7 +46,7 @@ void record_photon_trace(const RenderPlan& plan, Recording& recording) {
                                {"start_anywhere", 1u},
                                {"depth_limit", settings.roulette ? 0u : settings.depth}});
     dispatch.bindings.push_back(
-        {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.count())});
+        {"Starts", declare<gpu::PhotonStart>(recording, "photon.rays", plan.photons.at_once)});
     dispatch.bindings.insert(dispatch.bindings.end(),
                              {{"PhotonFrame", photon_frame_buffer(recording)},
                               {"PhotonHeads", photon_head_buffer(recording)},

@@ -10,7 +10,8 @@ std::string record_primary_beam(const RenderPlan& plan, const DispatchTile& tile
     Dispatch dispatch{.label = "primary.beam",
                       .shader = "primary_beam",
                       .extent = {columns * gpu::beam_count(tile.row_count), 1, 1},
-                      .bindings = {{"Frame", frame_buffer(recording)}, {"Starts", starts}}};
+                      .bindings = {{"Frame", frame_buffer(recording)}, {"Starts", starts}},
+                      .constants = {projection_constant(plan)}};
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return starts;
@@ -26,7 +27,7 @@ Plane record_primary_march(const RenderPlan& plan, const DispatchTile& tile, con
                                    {"Counters", counters_buffer(recording)},
                                    {"Starts", starts},
                                    {"Hits", hits.buffer}},
-                      .constants = {sequence_constant(plan)}};
+                      .constants = {sequence_constant(plan), projection_constant(plan)}};
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return hits;

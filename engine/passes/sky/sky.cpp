@@ -148,6 +148,7 @@ Plane record_sky_resolve(const RenderPlan& plan, const DispatchTile& tile, const
                                      {"Ao", ao.buffer},
                                      {"SkyLight", light.buffer}},
                         .constants = {sequence_constant(plan),
+                                      projection_constant(plan),
                                       {"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
                                       {"hits_stride", hits.stride},
                                       {"ao_stride", ao.stride},

@@ -322,6 +322,13 @@ TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_lea
     EXPECT_NEAR(double{walled.light[0].x} / double{open.light[0].x} * left, 1.0, 1e-3);
     EXPECT_GT(walled.half_area[0].x, open.half_area[0].x);
     EXPECT_TRUE(same_light(walled, test::run_splat(job)));
+    // Far balls take nothing of the disc, but make the pass look for the wall in the hierarchy.
+    for (int i = 0; i < 20; ++i)
+        job.spheres.push_back({gpu::sphere_anchored_near({8.0, 8.0, 2.0 * i + 8.0}, 0.5, {0, 0, 0}), 0});
+    ASSERT_TRUE(test::photon_plan(job).has_sphere_tree());
+    const PhotonOutcome found = test::run_photons(job);
+    EXPECT_TRUE(same_light(found, walled));
+    EXPECT_TRUE(same_light(found, test::run_splat(job)));
 }
 
 TEST(PhotonGather, workgroups_of_any_shape_give_the_same_bits) {

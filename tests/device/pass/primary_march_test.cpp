@@ -82,7 +82,8 @@ Marched march_picture(const Scene& scene) {
     const gpu::uint sequence = sequence_id(scene.settings.sequence);
     for (gpu::uint y = 0; y < fixture.params().height; ++y) {
         for (gpu::uint x = 0; x < fixture.params().width; ++x) {
-            marched.rays.push_back(gpu::camera_ray(fixture.params(), sequence, x, y));
+            marched.rays.push_back(gpu::camera_ray(
+                fixture.params(), static_cast<gpu::uint>(fixture.plan().projection), sequence, x, y));
             want.push_back(hit_in_cpp(fixture.march_world(), marched.rays.back()));
             marched.hit_count += want.back().face != gpu::kFaceMiss ? 1 : 0;
         }
@@ -138,6 +139,68 @@ TEST(PrimaryMarch, rays_exactly_along_lattice_lines_hit_the_cell_that_owns_the_l
         ASSERT_EQ(hit.cell, marched.solids.front() - glm::ivec3(-6, -6, -1) + glm::ivec3(-5, 0, 0));
         ASSERT_EQ(hit.fraction, glm::vec3(0.0f));
         ASSERT_EQ(hit.t, 20.0f);
+    }
+}
+
+Camera orthographic_towards(glm::dvec3 position, glm::dvec3 target, double pixels_per_voxel) {
+    Camera camera = test::camera_towards(position, target);
+    camera.projection = Projection::orthographic;
+    camera.pixels_per_voxel = pixels_per_voxel;
+    return camera;
+}
+
+TEST(PrimaryMarch, parallel_rays_from_many_sides_agree_with_the_oracle) {
+    for (const glm::dvec3 position : {glm::dvec3(14.3, -17.1, 11.7),
+                                      {0.5, -12.0, 0.5},
+                                      {30.0, 0.25, 1.0},
+                                      {0.3, -0.2, 22.5},
+                                      {-1e5, 2e5, 7e4},
+                                      {1.3, 2.1, 3.4}}) {
+        for (const double scale : {1.7, 2.0, 3.0}) {
+            Scene scene = small_scene();
+            scene.camera = orthographic_towards(position, {0.5, 0, 1}, scale);
+            EXPECT_GT(expect_oracle(scene).hit_count, 60) << position.x << " scale " << scale;
+        }
+    }
+}
+
+// Parallel rays that point along an axis: the cells of a side in rows and columns.
+TEST(PrimaryMarch, parallel_rays_along_an_axis_hit_whole_blocks_of_pixels) {
+    Scene scene = small_scene();
+    scene.settings.size = {36, 24};
+    scene.camera = orthographic_towards({0, -20, 2}, {0, 0, 2}, 3.0);
+    const std::vector<gpu::Hit> hits = march_picture(scene).hits;
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 36; ++x) {
+            const auto at = [&](int column, int row) {
+                return hits[static_cast<std::size_t>(36 * row + column)];
+            };
+            const gpu::Hit block = at(x / 3 * 3, y / 3 * 3);
+            ASSERT_EQ(at(x, y).face, block.face) << x << " " << y;
+            ASSERT_EQ(at(x, y).cell, block.cell) << x << " " << y;
+        }
+    }
+}
+
+// Sines of a device are no sines of C++, so rays agree up to their rounding only.
+TEST(PrimaryMarch, panoramas_see_what_the_oracle_does) {
+    for (const Projection projection : {Projection::equirectangular, Projection::fisheye}) {
+        Scene scene = small_scene();
+        scene.camera = test::camera_towards({1.3, -4.1, 3.4}, {0, 3, 0}, 170.0);
+        scene.camera->projection = projection;
+        test::FrameFixture fixture(scene);
+        const std::vector<gpu::Hit> hits = fixture.render(0).hits;
+        const std::vector<glm::ivec3> solids = local_cells(scene, fixture.march_world().origin);
+        int found = 0;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const gpu::Ray ray = gpu::camera_ray(
+                fixture.params(), static_cast<gpu::uint>(projection), sequence_id(scene.settings.sequence),
+                static_cast<gpu::uint>(i % 33), static_cast<gpu::uint>(i / 33));
+            found += hits[i].face != gpu::kFaceMiss ? 1 : 0;
+            ASSERT_EQ(test::hit_disagreement(solids, test::to_double(ray), hits[i], kMargin, kMargin), "")
+                << "pixel " << i << " " << test::print(ray);
+        }
+        EXPECT_GT(found, 200);
     }
 }
 

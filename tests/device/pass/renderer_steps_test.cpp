@@ -130,7 +130,7 @@ TEST_P(RendererSteps, changes_between_steps_end_as_a_fresh_render) {
     (void)renderer.step(0.0);
     renderer.set_camera(kThere);
     (void)renderer.step(0.002);
-    (void)renderer.display();
+    (void)renderer.display({});
     RenderSettings settings = scene_.settings;
     settings.size = {31, 17};
     renderer.change(settings, {});
@@ -319,56 +319,6 @@ TEST(RendererEdit, more_than_there_is_room_for_ends_as_a_fresh_render) {
     renderer.edit(edits);
     EXPECT_TRUE(grew_a_world(renderer.step(0.0)));
     EXPECT_EQ(film_after(renderer, 1), fresh_film(edited_scene(scene, edits), 1));
-}
-
-std::vector<float> displayed(Renderer& renderer) {
-    const DisplayBuffer display = renderer.display();
-    Recording recording;
-    recording.declare({.name = display.buffer,
-                       .size_bytes = sizeof(glm::vec3) * static_cast<std::uint64_t>(display.size.x) *
-                                     static_cast<std::uint64_t>(display.size.y),
-                       .persistent = true});
-    recording.readback(display.buffer);
-    return values_of<float>(renderer.executor().run(recording), display.buffer);
-}
-
-// Relative: a 64-bit sum becomes a float, and one division.
-constexpr float kRounding = 1e-6f;
-
-std::size_t values_off(const std::vector<float>& shown, const FilmSums& film) {
-    std::size_t off = 0;
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const std::size_t row = i / 3 / static_cast<std::size_t>(film.width);
-        const std::int64_t sum = film.sums.at("beauty_a")[i] + film.sums.at("beauty_b")[i];
-        const float mean = film_mean(sum, film.even[row] + film.odd[row]);
-        if (!(std::abs(shown[i] - mean) <= kRounding * std::abs(mean))) ++off;
-    }
-    return off;
-}
-
-TEST(RendererDisplay, shows_the_mean_of_the_samples_that_each_row_has) {
-    Renderer renderer(test_device(), poisoned());
-    prepared(renderer, yard());
-    EXPECT_EQ(displayed(renderer), std::vector<float>(3 * 40 * 24, 0.0f)) << "no sample yet";
-    (void)film_after(renderer, 2);
-    (void)renderer.step(0.0);
-    const FilmSums film = renderer.read_film();
-    ASSERT_NE(film.even.front() + film.odd.front(), film.even.back() + film.odd.back());
-    EXPECT_EQ(values_off(displayed(renderer), film), 0u);
-    (void)film_after(renderer, 3);  // the negative control: a film that went on
-    EXPECT_NE(values_off(displayed(renderer), film), 0u);
-}
-
-TEST(RendererDisplay, joins_film_bands) {
-    Scene scene = spheres();
-    scene.settings.size = {1024, 1100};
-    Renderer renderer(test_device(), {});
-    renderer.prepare(scene, {});
-    ASSERT_EQ(renderer.plan().film_tile_count, 2u);
-    EXPECT_EQ(values_off(displayed(renderer), film_after(renderer, 0)), 0u);
-    while (renderer.film().position().samples < 1)
-        (void)renderer.step_tile();
-    EXPECT_EQ(values_off(displayed(renderer), renderer.read_film()), 0u);
 }
 
 }  // namespace

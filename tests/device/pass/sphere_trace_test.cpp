@@ -58,8 +58,9 @@ Judged judge(const Scene& scene, const std::vector<gpu::Hit>& hits) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const gpu::uint width = fixture.params().width;
         const test::DoubleRay ray = test::to_double(
-            gpu::camera_ray(fixture.params(), sequence_id(scene.settings.sequence),
-                            static_cast<gpu::uint>(i) % width, static_cast<gpu::uint>(i) / width));
+            gpu::camera_ray(fixture.params(), static_cast<gpu::uint>(fixture.plan().projection),
+                            sequence_id(scene.settings.sequence), static_cast<gpu::uint>(i) % width,
+                            static_cast<gpu::uint>(i) / width));
         const glm::dvec3 origin = ray.origin + glm::dvec3(fixture.march_world().origin);
         double nearest = voxels[i].face == gpu::kFaceMiss ? std::numeric_limits<double>::infinity()
                                                           : static_cast<double>(voxels[i].t);

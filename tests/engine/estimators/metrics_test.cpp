@@ -116,6 +116,15 @@ TEST(Metrics, box_and_mask_select_pixels) {
     EXPECT_EQ(measure(zero, test).mae, 0.25);
 }
 
+TEST(Metrics, image_without_colours_is_refused_with_what_it_has) {
+    const std::vector<std::string> rgb{"R", "G", "B"}, layer{"BG.R", "BG.G", "BG.B\x1b"};
+    const Image image = make_image(2, 2, rgb);
+    const std::string words = refusal([&] { measure(image, make_image(2, 2, layer)); });
+    EXPECT_NE(words.find("'BG.R'"), std::string::npos) << words;
+    EXPECT_EQ(words.find('\x1b'), std::string::npos) << words;
+    EXPECT_NE(refusal([&] { measure(make_image(2, 2, {}), image); }).find("none at all"), std::string::npos);
+}
+
 TEST(Metrics, bad_selections_are_refused) {
     const Image image = test::constant_image(10, 10, 0.0f);
     const Image small = test::constant_image(9, 10, 1.0f);

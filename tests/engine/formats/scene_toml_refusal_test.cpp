@@ -130,9 +130,10 @@ INSTANTIATE_TEST_SUITE_P(
     camera, SceneTomlRefusal,
     testing::Values(
         RefusedText{"fov_zero", "[camera]\nfov = 0\n",
-                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 180), not 0"},
-        RefusedText{"fov_180", "[camera]\nfov = 180.0\n",
-                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 180), not 180"},
+                    "s.toml:2:7: 'fov' in [camera] must be a number in (0, 360], not 0"},
+        RefusedText{
+            "fov_180", "[camera]\nfov = 180.0\n",
+            "s.toml:2:7: 'fov' in [camera] must be below 180 unless the projection is fisheye, not 180"},
         RefusedText{
             "fov_too_narrow",
             "[camera]\nfov = 1e-300\n[[sphere]]\ncenter=[0,0,0]\nradius=1\nmaterial=\"m\"\n"
@@ -154,7 +155,18 @@ INSTANTIATE_TEST_SUITE_P(
             "preset_unknown", "[camera]\npreset = \"botom\"\n",
             "s.toml:2:10: 'preset' in [camera] must be one of 'three_quarter', 'front', 'back', 'left', "
             "'right', "
-            "'top', 'iso', not 'botom'"},
+            "'top', 'bottom', 'iso', not 'botom'"},
+        RefusedText{"scale_of_perspective", "[camera]\nprojection = \"perspective\"\npixels_per_voxel = 4\n",
+                    "s.toml:3:20: 'pixels_per_voxel' in [camera] needs projection = \"orthographic\""},
+        RefusedText{"scale_missing",
+                    "[camera]\nprojection = \"orthographic\"\nposition = [1, 2, 3]\nlook_at = [1, 2, 4]\n",
+                    "s.toml:1:1: [camera] with 'position' and projection = \"orthographic\" needs "
+                    "'pixels_per_voxel'"},
+        RefusedText{"scale_zero", "[camera]\npixels_per_voxel = 0\n",
+                    "s.toml:2:20: 'pixels_per_voxel' in [camera] must be a number in (0, 4096], not 0"},
+        RefusedText{"panorama_is_no_flat_image", "[camera]\nprojection = \"equirectangular\"\nfov = 200\n",
+                    "s.toml:3:7: 'fov' in [camera] must be below 180 unless the projection is fisheye, not "
+                    "200"},
         RefusedText{"pitch_beyond_zenith", "[camera]\nposition = [0, 0, 0]\nyaw = 0\npitch = 90.01\n",
                     "s.toml:4:9: 'pitch' in [camera] must be a number in [-90, 90], not 90.01"},
         RefusedText{"position_far", "[camera]\nposition = [2e9, 0, 0]\nyaw = 0\npitch = 0\n",

@@ -115,6 +115,22 @@ TEST(SceneToml, preset_frames_the_scene) {
     EXPECT_FALSE(parse_scene(std::string(kWhite), "s.toml").camera);
 }
 
+TEST(SceneToml, pixels_per_voxel_make_a_sprite_unless_the_size_is_given) {
+    const std::string box =
+        std::string(kWhite) +
+        "[[shape]]\nshape = \"box\"\nfrom = [0,0,0]\nto = [9,5,7]\nmaterial = \"white\"\n";
+    const std::string camera = "[camera]\npreset = \"front\"\npixels_per_voxel = 4\n";
+    const Scene scene = parse_scene(box + camera, "s.toml");
+    EXPECT_EQ(scene.settings.size, glm::ivec2(36, 28));
+    EXPECT_EQ(scene.camera->projection, Projection::orthographic);
+    EXPECT_EQ(scene.camera->position, glm::dvec3(4.5, -1.0, 3.5));
+    EXPECT_EQ(parse_scene(box + camera + "[render]\nsize = [50, 60]\n", "s.toml").settings.size,
+              glm::ivec2(50, 60));
+    const Scene fisheye = parse_scene("[camera]\nprojection = \"fisheye\"\nfov = 200\n", "s.toml");
+    EXPECT_EQ(fisheye.camera->fov_y_deg, 200.0);
+    EXPECT_EQ(fisheye.camera->projection, Projection::fisheye);
+}
+
 TEST(SceneTomlOverride, values_replace_and_add) {
     const std::string text =
         "[sun]\nelevation = 80\n[[sphere]]\ncenter = [0,0,0]\nradius = 1\nmaterial = \"a\"\n"

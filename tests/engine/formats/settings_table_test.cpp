@@ -71,6 +71,8 @@ const std::string kTables[] = {
     table_of<PathSettings>("[paths]"),
     table_of<Sun>("[sun]"),
     table_of<Sky>("[sky]"),
+    table_of<Background>("[background]"),
+    table_of<Ground>("[ground]"),
     table_of<Material>("[material.NAME]"),
     table_of<Sphere>("[[sphere]]"),
     table_of<CameraKeySettings>("[[camera.key]]"),

@@ -81,6 +81,70 @@ TEST(VoxExternal, shared_files_have_the_expected_values) {
     EXPECT_GE(files, 18u);
 }
 
+std::uint32_t word_at(const std::string& bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        word |= std::uint32_t{static_cast<unsigned char>(bytes[at + i])} << (8 * i);
+    return word;
+}
+
+// A dictionary, read here and not by the engine.
+json dict_at(const std::string& bytes, std::size_t at) {
+    json dict = json::object();
+    const auto text = [&] {
+        const std::size_t length = word_at(bytes, at);
+        at += 4 + length;
+        return bytes.substr(at - length, length);
+    };
+    const std::uint32_t count = word_at(bytes, at);
+    at += 4;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::string key = text();
+        dict[key] = text();
+    }
+    return dict;
+}
+
+// The dictionaries of all chunks of an id, `skip` bytes into each.
+json dicts_of(const std::string& bytes, const std::string& id, std::size_t skip) {
+    json dicts = json::array();
+    for (std::size_t at = 20; at + 12 <= bytes.size();) {
+        if (bytes.compare(at, 4, id) == 0) dicts.push_back(dict_at(bytes, at + 12 + skip));
+        at += 12 + word_at(bytes, at + 4) + word_at(bytes, at + 8);
+    }
+    return dicts;
+}
+
+TEST(VoxExternal, settings_and_cameras_equal_an_independent_dump) {
+    SKIP_WITHOUT_SHARED_DATA();
+    std::size_t with_objects = 0, with_cameras = 0;
+    const json expected = read_oracle("vox_expected_shared.json");
+    for (const auto& [name, entry] : expected.items()) {
+        SCOPED_TRACE(name);
+        const std::vector<std::byte> raw = read_file(vox_path(name), std::size_t{1} << 30);
+        const std::string bytes(reinterpret_cast<const char*>(raw.data()), raw.size());
+        const json objects = dicts_of(bytes, "rOBJ", 0);
+        const json cameras = dicts_of(bytes, "rCAM", 4);
+        const json info = to_json(summarize(load_vox(vox_path(name))).value());
+        if (!objects.empty() || dicts_of(bytes, "rLIT", 0).empty()) {
+            EXPECT_EQ(info["settings"], objects);
+        }
+        EXPECT_EQ(info["cameras"], cameras.size());
+        EXPECT_TRUE(info["saved_cameras"].empty()) << "no slot of these files was ever used";
+        with_objects += objects.empty() ? 0 : 1;
+        with_cameras += cameras.empty() ? 0 : 1;
+    }
+    EXPECT_EQ(with_objects, 9u);
+    EXPECT_EQ(with_cameras, 5u);
+    const json old = to_json(summarize(load_vox(vox_path("metal-material.vox"))).value())["settings"];
+    EXPECT_EQ(old, json::parse(R"([{"_type": "_inf", "_i": "0.6", "_k": "255 255 255", "_angle": "50 50",
+        "_area": "0.07"}, {"_type": "_uni", "_i": "0.7", "_k": "255 255 255"}, {"_type": "_fog_uni", "_d": "0.2",
+        "_k": "255 255 255", "_g": "0"}, {"_type": "_lens", "_fov": "45", "_aperture": "0.25"}, {"_type": "_film",
+        "_stops": "0", "_vig": "0", "_gam": "2.2"}, {"_type": "_bloom", "_mix": "0.5", "_scale": "1",
+        "_threshold": "1"}, {"_type": "_ground", "_color": "80 80 80"}, {"_type": "_bg", "_color": "0 0 0"},
+        {"_type": "_edge", "_color": "0 0 0"}])"));
+}
+
 TEST(VoxExternal, expected_values_comparator_sees_one_changed_thing) {
     SKIP_WITHOUT_SHARED_DATA();
     const json oracle = read_oracle("vox_expected_shared.json").at("xyz.vox").at("oracle");

@@ -172,8 +172,8 @@ TEST(PlanSettings, setting_out_of_range_is_refused_with_its_value) {
     EXPECT_EQ(refusal(Scene{}, PlanRequest{}, {}, ExitCode::input_refused), "accepted");
 }
 
-// As many photons as pixels, unless the device's store has no room for them; more are refused only when asked
-// for.
+// As many photons as pixels, unless the device's store has no room for them; more, when asked for, go in
+// runs.
 TEST(PlanPhotons, large_picture_takes_as_many_photons_as_fit) {
     const Scene scene = test::repository_scene("cornell", {"render.size=[4096, 4096]"});
     const RenderPlan plan = test::plan_of(scene);
@@ -181,7 +181,20 @@ TEST(PlanPhotons, large_picture_takes_as_many_photons_as_fit) {
     EXPECT_LT(plan.photons.count(), 4096u * 4096u);
     Scene greedy = scene;
     greedy.settings.photons.count = 4096 * 4096;
-    EXPECT_NE(refusal(greedy, PlanRequest{}, {}, ExitCode::input_refused), "accepted");
+    const RenderPlan in_runs = test::plan_of(greedy);
+    EXPECT_EQ(plan.photons.run_count(), 1u);
+    EXPECT_EQ(in_runs.photons.count(), 4096u * 4096u);
+    EXPECT_GT(in_runs.photons.run_count(), 1u);
+}
+
+TEST(PlanPhotons, runs_shrink_to_a_budget) {
+    Scene scene = test::repository_scene("cornell", {"render.size=[64, 64]"});
+    scene.settings.photons.count = 1u << 20;
+    const std::uint64_t most = footprint(test::plan_of(scene)).total_bytes();
+    PlanRequest request{.memory_budget_bytes = most / 3};
+    EXPECT_EQ(refusal(scene, request, {}, ExitCode::out_of_memory), "accepted");
+    request.memory_budget_bytes = 1u << 20;
+    EXPECT_NE(refusal(scene, request, {}, ExitCode::out_of_memory), "accepted");
 }
 
 TEST(PlanNotes, what_the_picture_lacks_is_said) {

@@ -190,7 +190,7 @@ TEST(Techniques, paths_between_whiter_walls_have_more_rounds_and_fewer_of_them_i
 
 bool takes_a_shard(const Technique& technique) {
     PlanRequest request = test::exr_request();
-    request.shard = {0, 2};
+    request.part = SampleSet::shard(0, 2, 16);
     try {
         (void)plan_with({override_of(technique)}, request);
     } catch (const Error& error) {

@@ -70,7 +70,7 @@ TEST(SceneCamera, many_boxes_are_framed_tightly) {
         const glm::ivec3 lo(below(2001) - 1000, below(2001) - 1000, below(2001) - 1000);
         const Box box{lo, lo + glm::ivec3(1 + below(largest), 1 + below(largest), 1 + below(largest))};
         const double aspect = std::exp2(below(2001) / 100.0 - 10.0);  // 1/1024 to 1024
-        const auto view = static_cast<View>(below(7));
+        const auto view = static_cast<View>(below(8));
         const double fov_y_deg = 1.0 + below(170);
         const bool tight = expect_framed(framing_camera(box, view, aspect, fov_y_deg), box, aspect);
         if (!tight) narrowest_loose = std::min(narrowest_loose, fov_y_deg);
@@ -98,6 +98,54 @@ TEST(SceneCamera, tightness_check_sees_a_small_change) {
     camera.position += 0.01 * glm::length(camera.position) * camera_basis(camera)[2];
     const glm::dvec2 nearer = reach_in_picture(camera, box, 1.5);
     EXPECT_GT(std::max(nearer.x, nearer.y), 1.0 - kFrameMargin + 100.0 * kCameraRounding);
+}
+
+// The extent of a box across and upright in the image, in its coordinates from -1 to 1.
+glm::dvec2 parallel_reach(const Camera& camera, const Box& box, glm::dvec2 size) {
+    const glm::dmat3 basis = camera_basis(camera);
+    glm::dvec2 reach(0.0);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                           corner & 4 ? box.hi.z : box.lo.z);
+        const glm::dvec3 d = p - camera.position;
+        EXPECT_GE(glm::dot(d, basis[2]), kParallelClearance - kCameraRounding);
+        const glm::dvec2 at(glm::dot(d, basis[0]), glm::dot(d, basis[1]));
+        reach = glm::max(reach, glm::abs(at) * 2.0 * camera.pixels_per_voxel / size);
+    }
+    return reach;
+}
+
+TEST(SceneCamera, orthographic_views_frame_boxes_tightly) {
+    std::mt19937 random(20240608);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (int trial = 0; trial < 500; ++trial) {
+        const glm::ivec3 lo(below(2001) - 1000, below(2001) - 1000, below(2001) - 1000);
+        const Box box{lo, lo + glm::ivec3(1 + below(99), 1 + below(99), 1 + below(99))};
+        const glm::dvec2 size(1 + below(900), 1 + below(900));
+        Camera looking = looking_along(static_cast<View>(below(8)));
+        looking.projection = Projection::orthographic;
+        const Camera camera = framing_camera(box, looking, size);
+        const glm::dvec2 reach = parallel_reach(camera, box, size);
+        EXPECT_NEAR(std::max(reach.x, reach.y), 1.0 - kFrameMargin, kCameraRounding);
+        looking.pixels_per_voxel = 2.5;
+        EXPECT_EQ(framing_camera(box, looking, size).pixels_per_voxel, 2.5);
+    }
+}
+
+TEST(SceneCamera, sprites_are_as_large_as_the_scene) {
+    Scene scene;
+    scene.models.push_back({.size = {3, 4, 5}, .voxels = {{0, 0, 0, 0}, {2, 3, 4, 0}}});
+    scene.instances.push_back({.model = 0});
+    Camera looking = looking_along(View::front);
+    looking.projection = Projection::orthographic;
+    looking.pixels_per_voxel = 7.0;
+    EXPECT_EQ(sprite_size(scene, looking), glm::ivec2(21, 35));
+    looking.yaw_deg = 0.0;
+    EXPECT_EQ(sprite_size(scene, looking), glm::ivec2(28, 35));
+    looking.pixels_per_voxel = 4000.0;
+    scene.instances.push_back({.model = 0, .translation = {100, 0, 0}});
+    looking.yaw_deg = 90.0;
+    EXPECT_THROW((void)sprite_size(scene, looking), Error);
 }
 
 TEST(SceneCamera, default_view_shows_front_right_and_top) {

@@ -68,14 +68,16 @@ bool is_same(const gpu::MarchHit& a, const gpu::MarchHit& b) {
 
 // Marches every ray of the picture from the camera and from its beam's end. `moved` changes where that is.
 void compare_starts(const MarchWorld& world, gpu::FrameParams camera,
-                    const std::function<float(float)>& moved, Comparison& sum) {
+                    const std::function<float(float)>& moved, Comparison& sum,
+                    gpu::uint projection = gpu::kPerspective) {
     for (gpu::uint pixel = 0; pixel < camera.width * camera.height; ++pixel) {
         const gpu::uint x = pixel % camera.width;
         const gpu::uint y = pixel / camera.width;
-        const gpu::Beam beam = gpu::tile_beam(camera, x - x % gpu::kBeamPixels, y - y % gpu::kBeamPixels);
+        const gpu::Beam beam =
+            gpu::tile_beam(camera, projection, x - x % gpu::kBeamPixels, y - y % gpu::kBeamPixels);
         const float start = moved(gpu::beam_start(world, beam, world.chunks_size));
         const gpu::WorldEntry entry =
-            gpu::enter_world(gpu::camera_ray(camera, gpu::kSequenceWhite, x, y), world.size());
+            gpu::enter_world(gpu::camera_ray(camera, projection, gpu::kSequenceWhite, x, y), world.size());
         if (!entry.enters) continue;
         const gpu::MarchHit want = gpu::march(world, entry.ray, world.chunks_size);
         const gpu::MarchHit hit = gpu::march_from(world, entry.ray, world.chunks_size, start - entry.t);
@@ -136,6 +138,32 @@ TEST_P(BeamIn, start_changes_no_hit_of_a_sparse_world) {
     EXPECT_GT(sum.hits, 10000);
 }
 
+// The same axes for other projections: blocks of four pixels, unit axes for panoramas.
+gpu::FrameParams with_projection(gpu::FrameParams camera, gpu::uint projection) {
+    camera.camera_block = 4;
+    camera.camera_pixel = {3, 1};
+    camera.camera_angle = 1.2f;
+    if (projection != gpu::kOrthographic) {
+        camera.camera_right = glm::normalize(camera.camera_right);
+        camera.camera_up = glm::normalize(camera.camera_up);
+    }
+    return camera;
+}
+
+TEST_P(BeamIn, start_changes_no_hit_of_other_projections) {
+    const MarchWorld world = build_march_world(sparse_world(), GetParam());
+    for (const gpu::uint projection : {gpu::kOrthographic, gpu::kEquirectangular, gpu::kFisheye}) {
+        Comparison sum;
+        for (std::uint32_t seed = 0; seed < 8; ++seed) {
+            for (const gpu::FrameParams& camera : cameras_around(world.size(), seed)) {
+                compare_starts(world, with_projection(camera, projection), unmoved, sum, projection);
+                ASSERT_EQ(sum.differing, 0) << projection << " seed " << seed << " " << sum.first;
+            }
+        }
+        EXPECT_GT(sum.hits, 1000) << projection;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Traversals, BeamIn,
                          ::testing::ValuesIn(all_traversals().begin(), all_traversals().end()),
                          test::traversal_name);
@@ -159,6 +187,16 @@ TEST(Beam, saves_steps_where_boxes_cross_borders) {
     }
 }
 
+TEST(Beam, saves_steps_of_parallel_rays) {
+    const MarchWorld world = build_march_world(sparse_world(), Traversal::wide);
+    gpu::FrameParams camera = with_projection(view_from_above(), gpu::kOrthographic);
+    camera.camera_cell = {-20, -20, 100};
+    Comparison sum;
+    compare_starts(world, camera, unmoved, sum, gpu::kOrthographic);
+    EXPECT_GT(sum.hits, 1000);
+    EXPECT_GT(static_cast<double>(sum.steps_saved), 0.1 * static_cast<double>(sum.steps));
+}
+
 // Negative control of all that find no difference.
 TEST(Beam, late_starts_are_caught) {
     const MarchWorld world = build_march_world(sparse_world(), Traversal::wide);
@@ -176,7 +214,8 @@ TEST(Beam, ends_not_far_before_a_wall) {
     for (const Traversal traversal : {Traversal::naadf, Traversal::deep, Traversal::wide}) {
         const MarchWorld world = build_march_world(voxels, traversal);
         const gpu::FrameParams camera = camera_at({2.5, 32.5, 32.5}, {1, 0, 0}, 0.05f);
-        const float start = gpu::beam_start(world, gpu::tile_beam(camera, 16, 8), world.chunks_size);
+        const float start =
+            gpu::beam_start(world, gpu::tile_beam(camera, gpu::kPerspective, 16, 8), world.chunks_size);
         EXPECT_GT(start, 297.5f - 24.0f) << name_of(traversal);  // a chunk and a half
         EXPECT_LT(start, 297.5f);
     }
@@ -186,13 +225,16 @@ TEST(Beam, never_ends_in_an_empty_world_or_beside_one) {
     VoxelWorld voxels(glm::ivec3(0), glm::ivec3(3, 3, 3));
     const MarchWorld empty = build_march_world(voxels, Traversal::wide);
     const gpu::FrameParams inside = camera_at({20.5, 20.5, 20.5}, {0, 1, 0}, 0.3f);
-    EXPECT_EQ(gpu::beam_start(empty, gpu::tile_beam(inside, 8, 8), empty.chunks_size), gpu::kUnbounded);
+    EXPECT_EQ(gpu::beam_start(empty, gpu::tile_beam(inside, gpu::kPerspective, 8, 8), empty.chunks_size),
+              gpu::kUnbounded);
     voxels.set({24, 24, 24}, 0);
     const MarchWorld world = build_march_world(voxels, Traversal::wide);
     const gpu::FrameParams beside = camera_at({-500.5, 24.5, 24.5}, {0, 1, 0}, 0.3f);
-    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(beside, 8, 8), world.chunks_size), gpu::kUnbounded);
+    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(beside, gpu::kPerspective, 8, 8), world.chunks_size),
+              gpu::kUnbounded);
     const gpu::FrameParams towards = camera_at({-500.5, 24.5, 24.5}, {1, 0, 0}, 0.3f);
-    EXPECT_LT(gpu::beam_start(world, gpu::tile_beam(towards, 16, 8), world.chunks_size), 525.0f)
+    EXPECT_LT(gpu::beam_start(world, gpu::tile_beam(towards, gpu::kPerspective, 16, 8), world.chunks_size),
+              525.0f)
         << "negative control";
 }
 
@@ -201,11 +243,12 @@ TEST(Beam, starts_at_the_camera_inside_a_solid_or_when_it_is_too_wide) {
     voxels.set({20, 20, 20}, 0);
     const MarchWorld world = build_march_world(voxels, Traversal::wide);
     const gpu::FrameParams inside = camera_at({20.5, 20.5, 20.5}, {0, 1, 0}, 0.3f);
-    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(inside, 8, 8), world.chunks_size), 0.0f);
+    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(inside, gpu::kPerspective, 8, 8), world.chunks_size),
+              0.0f);
     gpu::FrameParams wide = camera_at({-20.5, 20.5, 20.5}, {-1, 0, 0}, 100.0f);
     wide.width = 4;
     wide.height = 4;
-    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(wide, 0, 0), world.chunks_size), 0.0f);
+    EXPECT_EQ(gpu::beam_start(world, gpu::tile_beam(wide, gpu::kPerspective, 0, 0), world.chunks_size), 0.0f);
 }
 
 }  // namespace

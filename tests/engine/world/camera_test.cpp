@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numbers>
 #include <optional>
 
 #include "support/march_oracle.h"
@@ -227,7 +228,7 @@ TEST(CameraRay, is_unit_starts_at_the_camera_and_passes_through_its_pixel) {
         const gpu::FrameParams frame = random_frame(random);
         const gpu::uint x = random.bits32() % frame.width;
         const gpu::uint y = random.bits32() % frame.height;
-        const gpu::Ray ray = gpu::camera_ray(frame, random.bits32() % 3, x, y);
+        const gpu::Ray ray = gpu::camera_ray(frame, gpu::kPerspective, random.bits32() % 3, x, y);
         ASSERT_EQ(ray.cell, frame.camera_cell);
         ASSERT_EQ(ray.fraction, frame.camera_fraction);
         ASSERT_NEAR(glm::length(glm::dvec3(ray.direction)), 1.0, kLengthError);
@@ -242,6 +243,105 @@ TEST(CameraRay, is_unit_starts_at_the_camera_and_passes_through_its_pixel) {
     }
 }
 
+// Unit axes that look along +x with z up.
+gpu::FrameParams panorama_frame() {
+    gpu::FrameParams frame{};
+    frame.camera_forward = {1, 0, 0};
+    frame.camera_right = {0, -1, 0};
+    frame.camera_up = {0, 0, 1};
+    frame.camera_angle = 1.5f;
+    frame.width = 64;
+    frame.height = 32;
+    return frame;
+}
+
+TEST(Panorama, equirectangular_pixels_have_the_azimuth_and_elevation_of_the_contract) {
+    const gpu::FrameParams frame = panorama_frame();
+    constexpr double kPi = std::numbers::pi;
+    for (int j = 0; j < 32; ++j) {
+        for (int i = 0; i < 64; ++i) {
+            const double azimuth = kPi - 2.0 * kPi * (i + 0.5) / 64.0;
+            const double elevation = kPi / 2.0 - kPi * (j + 0.5) / 32.0;
+            const glm::dvec3 want(std::cos(elevation) * std::cos(azimuth),
+                                  std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+            const glm::dvec3 got(gpu::panorama_direction(
+                frame, gpu::kEquirectangular, static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f));
+            ASSERT_LT(glm::length(got - want), kDirectionError) << i << " " << j;
+        }
+    }
+}
+
+TEST(Panorama, fisheye_angle_grows_in_proportion_to_the_distance_from_the_middle) {
+    const gpu::FrameParams frame = panorama_frame();
+    for (int j = 0; j <= 32; ++j) {
+        for (int i = 0; i <= 64; ++i) {
+            const glm::dvec2 from_middle((i - 32) / 16.0, (16 - j) / 16.0);
+            const double angle = std::min(1.5 * glm::length(from_middle), std::numbers::pi);
+            const glm::dvec3 got(
+                gpu::panorama_direction(frame, gpu::kFisheye, static_cast<float>(i), static_cast<float>(j)));
+            ASSERT_NEAR(std::atan2(std::hypot(got.y, got.z), got.x), angle, 1e-5) << i << " " << j;
+            // To the side of the image that the point is on: y is to the left.
+            ASSERT_GE(-got.y * from_middle.x + got.z * from_middle.y, -1e-6) << i << " " << j;
+        }
+    }
+}
+
+gpu::FrameParams parallel_frame(test::TestRandom& random, gpu::uint block, bool is_aligned) {
+    gpu::FrameParams frame{};
+    frame.camera_cell = {static_cast<int>(random.bits32() % 200) - 100,
+                         static_cast<int>(random.bits32() % 200) - 100,
+                         static_cast<int>(random.bits32() % 200) - 100};
+    frame.camera_block = block;
+    frame.camera_pixel = {random.bits32() % block, random.bits32() % block};
+    frame.width = 4096;
+    frame.height = 4096;
+    frame.seed = random.bits32();
+    const glm::dvec3 forward = is_aligned ? glm::dvec3(0, 1, 0) : random_unit(random);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, 1)));
+    frame.camera_forward = glm::vec3(forward);
+    frame.camera_right = glm::vec3(right);
+    frame.camera_up = glm::vec3(glm::cross(right, forward));
+    if (!is_aligned) frame.camera_fraction = {0.25f, 0.5f, 0.75f};
+    return frame;
+}
+
+// Two products and two sums of 48 bits, then one rounding of the fraction.
+constexpr double kStartError = 0x1p-23;
+
+TEST(ParallelRay, starts_where_its_pixel_is_and_points_forward) {
+    test::TestRandom random(36);
+    for (int i = 0; i < 20000; ++i) {
+        const gpu::uint block = 1 + random.bits32() % 9;
+        const gpu::FrameParams frame = parallel_frame(random, block, i % 2 == 0);
+        const gpu::uint x = random.bits32() % frame.width, y = random.bits32() % frame.height;
+        const gpu::Ray ray = gpu::orthographic_ray(frame, x, y, {0.375f, 0.875f});
+        const double across = (x + frame.camera_pixel.x + 0.375) / block;
+        const double down = (y + frame.camera_pixel.y + 0.875) / block;
+        const glm::dvec3 want = glm::dvec3(frame.camera_cell) + glm::dvec3(frame.camera_fraction) +
+                                across * glm::dvec3(frame.camera_right) - down * glm::dvec3(frame.camera_up);
+        const glm::dvec3 got = glm::dvec3(ray.cell) + glm::dvec3(ray.fraction);
+        // The part of a block is one rounded quotient, 2^-24 of it.
+        ASSERT_LT(glm::length(got - want), 3.0 * kStartError) << i;
+        ASSERT_EQ(ray.direction, frame.camera_forward);
+    }
+}
+
+// The ends of the pixel, which samples may be rounded to, included.
+TEST(ParallelRay, starts_in_the_cell_of_its_block_wherever_in_the_pixel_its_sample_is) {
+    test::TestRandom random(37);
+    for (int i = 0; i < 20000; ++i) {
+        const gpu::uint block = 1 + random.bits32() % 9;
+        const gpu::FrameParams frame = parallel_frame(random, block, true);
+        const gpu::uint x = random.bits32() % frame.width, y = random.bits32() % frame.height;
+        for (const float end : {0.0f, 0x1p-24f, 0.5f, 1.0f - 0x1p-24f, 1.0f}) {
+            const gpu::Ray ray = gpu::orthographic_ray(frame, x, y, {end, 1.0f - end});
+            ASSERT_EQ(ray.cell.x, frame.camera_cell.x + static_cast<int>((x + frame.camera_pixel.x) / block));
+            ASSERT_EQ(ray.cell.z,
+                      frame.camera_cell.z - 1 - static_cast<int>((y + frame.camera_pixel.y) / block));
+        }
+    }
+}
+
 TEST(CameraRay, samples_fill_the_pixel_evenly_in_every_sequence) {
     test::TestRandom random(35);
     for (const gpu::uint sequence : {gpu::kSequenceSobol, gpu::kSequenceHalton, gpu::kSequenceWhite}) {
@@ -249,8 +349,10 @@ TEST(CameraRay, samples_fill_the_pixel_evenly_in_every_sequence) {
         constexpr int kSamples = 4096;
         glm::dvec2 mean(0.0);
         for (frame.sample_index = 0; frame.sample_index < kSamples; ++frame.sample_index)
-            mean += pixel_of(frame, glm::dvec3(gpu::camera_ray(frame, sequence, 17, 5).direction)) -
-                    glm::dvec2(17, 5);
+            mean +=
+                pixel_of(frame,
+                         glm::dvec3(gpu::camera_ray(frame, gpu::kPerspective, sequence, 17, 5).direction)) -
+                glm::dvec2(17, 5);
         mean /= kSamples;
         // Five standard deviations of the mean of uniform numbers, white noise being the worst.
         const double bound = 5.0 * std::sqrt(1.0 / 12.0 / kSamples);

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "shared/limits.h"
+#include "shared/photon_area.h"
 #include "world/sphere_view.h"
 
 namespace voxilux {
@@ -181,6 +182,28 @@ TEST(SphereTreeControl, boxes_that_are_too_small_are_noticed) {
     for (gpu::SphereNode& node : nodes)
         if (node.sphere != gpu::kNoSphere) node.high -= 0.05f * (node.high - node.low);
     EXPECT_GT(mismatches(c, {nodes, c.spheres}), 10);
+}
+
+// What a sphere takes of discs that look at all spheres and do not find it near: nothing.
+TEST_P(SphereTree, spheres_that_take_of_a_disc_are_near) {
+    const TreeCase& c = GetParam();
+    const std::vector<gpu::SphereNode> nodes = build_sphere_tree(c.spheres);
+    Numbers numbers;
+    int taken = 0;
+    int missed = 0;
+    for (int disc = 0; disc < 1000; ++disc) {
+        const glm::vec3 point = numbers.point(c.edge);
+        const glm::vec3 normal = numbers.direction();
+        const auto radius = static_cast<float>(std::exp2(numbers.in(-6.0, 4.0)));
+        for (const gpu::SphereNode& node : nodes) {
+            if (node.sphere == gpu::kNoSphere) continue;
+            if (!(gpu::share_taken(c.spheres[node.sphere].shape, point, normal, radius) > 0.0f)) continue;
+            ++taken;
+            missed += gpu::is_node_near(node, point, radius) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(taken, 100);
+    EXPECT_EQ(missed, 0);
 }
 
 // The work of a ray grows like the logarithm: ten times as many spheres in ten times the space, with fewer

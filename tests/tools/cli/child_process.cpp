@@ -47,6 +47,10 @@ Pipe make_pipe() {
         const rlimit limit{surroundings.largest_file, surroundings.largest_file};
         ::setrlimit(RLIMIT_FSIZE, &limit);
     }
+    if (surroundings.address_space > 0) {
+        const rlimit limit{surroundings.address_space, surroundings.address_space};
+        ::setrlimit(RLIMIT_AS, &limit);
+    }
     std::vector<char*> words{const_cast<char*>(VX_BINARY)};
     for (const std::string& argument : arguments)
         words.push_back(const_cast<char*>(argument.c_str()));

@@ -17,7 +17,8 @@ struct Surroundings {
     std::filesystem::path output_file;               // where standard output goes; empty: a pipe that is read
     std::filesystem::path error_file;                // likewise of standard error
     std::vector<int> ignored_signals;
-    std::uint64_t largest_file = 0;  // bytes a written file may have, as on a full disk; 0: no limit
+    std::uint64_t largest_file = 0;   // bytes a written file may have, as on a full disk; 0: no limit
+    std::uint64_t address_space = 0;  // bytes, as of ulimit -v; 0: no limit
 };
 
 struct Ending {

@@ -131,9 +131,9 @@ TEST(ParseNames, every_name_is_taken_and_a_slip_gets_the_nearest) {
     EXPECT_EQ(parse_view("iso"), View::iso);
     EXPECT_EQ(refusal([] { (void)parse_sequence("hamilton"); }),
               "--sequence: there is no 'hamilton'; did you mean 'halton'?");
-    EXPECT_EQ(
-        refusal([] { (void)parse_view("3"); }),
-        "--camera: there is no '3'; known: 'three-quarter', 'front', 'back', 'left', 'right', 'top', 'iso'");
+    EXPECT_EQ(refusal([] { (void)parse_view("3"); }),
+              "--camera: there is no '3'; known: 'three-quarter', 'front', 'back', 'left', 'right', 'top', "
+              "'bottom', 'iso'");
 }
 
 TEST(ParseEffectSwitch, name_and_state_are_both_needed) {

@@ -137,30 +137,33 @@ TEST(Picture, colour_alone_is_written_when_asked_for) {
 // P seen through the matrices of the header, as OpenEXR applies them to row vectors, is Z in front of the
 // camera and in its own pixel: OpenEXR, "Standard attributes", worldToCamera and worldToNDC.
 TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
-    const ScratchFolder scratch;
-    EXPECT_EQ(run(small_mixed({"-o", scratch / "a.exr", "-D", "camera.position=[20, -60, 30]", "-D",
-                               "camera.look_at=[0, 0, 4]"}))
-                  .code,
-              0);
-    const Imf::InputFile file((scratch / "a.exr").c_str());
-    const Imath::M44f to_camera = Imf::worldToCamera(file.header());
-    const Imath::M44f to_ndc = Imf::worldToNDC(file.header());
-    const Image image = read_exr(scratch / "a.exr");
-    const auto value = [&](const char* name, std::size_t i) { return image.channels.at(name).pixels[i]; };
-    int hits = 0;
-    for (std::size_t i = 0; i < pixel_count(image); ++i) {
-        if (value("Z", i) > 1e6f) continue;
-        ++hits;
-        const Imath::V3f p(value("P.X", i), value("P.Y", i), value("P.Z", i));
-        const Imath::V3f seen = p * to_camera;
-        ASSERT_NEAR(-seen.z, value("Z", i), 1e-3f) << "pixel " << i;
-        const Imath::V3f ndc = p * to_ndc;
-        const float column = (ndc.x + 1.0f) / 2.0f * static_cast<float>(image.width);
-        const float row = (1.0f - ndc.y) / 2.0f * static_cast<float>(image.height);
-        ASSERT_NEAR(column, static_cast<float>(i % 48) + 0.5f, 0.501f) << "pixel " << i;
-        ASSERT_NEAR(row, static_cast<float>(i / 48) + 0.5f, 0.501f) << "pixel " << i;
+    for (const Words& camera :
+         {Words{"-D", "camera.position=[20, -60, 30]", "-D", "camera.look_at=[0, 0, 4]"},
+          Words{"-D", "camera.position=[20, -60, 30]", "-D", "camera.look_at=[0, 0, 4]", "-D",
+                "camera.pixels_per_voxel=0.7"},
+          Words{"--camera", "left", "--pixels-per-voxel", "1", "--size", "48x25"}}) {
+        const ScratchFolder scratch;
+        EXPECT_EQ(run(small_mixed(with({"-o", scratch / "a.exr"}, camera))).code, 0);
+        const Imf::InputFile file((scratch / "a.exr").c_str());
+        const Imath::M44f to_camera = Imf::worldToCamera(file.header());
+        const Imath::M44f to_ndc = Imf::worldToNDC(file.header());
+        const Image image = read_exr(scratch / "a.exr");
+        const auto value = [&](const char* name, std::size_t i) { return image.channels.at(name).pixels[i]; };
+        int hits = 0;
+        for (std::size_t i = 0; i < pixel_count(image); ++i) {
+            if (value("Z", i) > 1e6f) continue;
+            ++hits;
+            const Imath::V3f p(value("P.X", i), value("P.Y", i), value("P.Z", i));
+            const Imath::V3f seen = p * to_camera;
+            ASSERT_NEAR(-seen.z, value("Z", i), 1e-3f) << "pixel " << i;
+            const Imath::V3f ndc = p * to_ndc;
+            const float column = (ndc.x + 1.0f) / 2.0f * static_cast<float>(image.width);
+            const float row = (1.0f - ndc.y) / 2.0f * static_cast<float>(image.height);
+            ASSERT_NEAR(column, static_cast<float>(i % 48) + 0.5f, 0.501f) << "pixel " << i;
+            ASSERT_NEAR(row, static_cast<float>(i / 48) + 0.5f, 0.501f) << "pixel " << i;
+        }
+        EXPECT_GT(hits, 100);
     }
-    EXPECT_GT(hits, 100);
 }
 
 // Every channel of a crop is bit for bit that part of the whole picture, and the file says where it lies.

@@ -94,8 +94,9 @@ TEST(Merge, missing_part_is_named_and_partial_merges_what_is_there) {
     render_shards(scratch, 3, {"--reproducible"});
     const Ending refused = merge(scratch, {"p3.exr", "p1.exr"}, {"-o", "m.exr"});
     EXPECT_EQ(refused.code, 3);
-    EXPECT_EQ(refused.err,
-              "voxilux: the picture is not complete: shard 2/3 is missing; --partial merges what is there\n");
+    EXPECT_EQ(
+        refused.err,
+        "voxilux: the picture is not complete: samples 1,4 are missing; --partial merges what is there\n");
     EXPECT_FALSE(std::filesystem::exists(scratch / "m.exr"));
 
     const Ending partial =
@@ -119,8 +120,7 @@ TEST(Merge, what_does_not_belong_together_ends_with_3) {
         EXPECT_EQ(ending.out, "");
         return ending.err;
     };
-    EXPECT_EQ(refusal({"p1.exr", "p1.exr"}),
-              "voxilux: p1.exr: its samples of shard 1/2 are in p1.exr already\n");
+    EXPECT_EQ(refusal({"p1.exr", "p1.exr"}), "voxilux: p1.exr: its sample 0 is in p1.exr already\n");
     const Surroundings here{.folder = scratch.path()};
     EXPECT_EQ(run(mixed_of_7({"--shard", "2/2", "--ao-rays", "2", "-o", "rays.exr"}), here).code, 0);
     EXPECT_EQ(refusal({"p1.exr", "rays.exr"}),
@@ -134,14 +134,86 @@ TEST(Merge, what_does_not_belong_together_ends_with_3) {
     EXPECT_NE(refusal({"p1.exr", "none.exr"}).find("none.exr: cannot open"), std::string::npos);
 }
 
+// A render of `flags` in one go, and in parts that are merged as a list and as a tree. Techniques that find
+// light by paths and by photons take other ways through the engine than occlusion does.
+void expect_partitions_to_add_up(const Words& flags) {
+    const ScratchFolder scratch;
+    const Surroundings here{.folder = scratch.path()};
+    const Words render = with({"render", "--size", "24x16", "--reproducible", "-q"}, flags);
+    ASSERT_EQ(run(with(render, {"--spp", "9", "-o", "whole.exr"}), here).code, 0);
+    const Words ranges = {"0-1,6", "2-4x2", "3,5", "7-8"};
+    Words parts;
+    for (const std::string& range : ranges) {
+        parts.push_back("p" + range + ".exr");
+        ASSERT_EQ(run(with(render, {"--samples", range, "-o", parts.back()}), here).code, 0);
+    }
+    const Words end = {"--reproducible", "-q", "-o"};
+    ASSERT_EQ(run(with(with(with({"merge"}, parts), end), {"list.exr"}), here).code, 0);
+    EXPECT_TRUE(bytes_of(scratch / "list.exr") == bytes_of(scratch / "whole.exr"));
+    const Words group = {"merge", "--partial", parts[3], parts[0]};
+    ASSERT_EQ(run(with(with(group, end), {"group.exr"}), here).code, 0);
+    const Words tree = {"merge", parts[2], "group.exr", parts[1]};
+    ASSERT_EQ(run(with(with(tree, end), {"tree.exr"}), here).code, 0);
+    EXPECT_TRUE(bytes_of(scratch / "tree.exr") == bytes_of(scratch / "whole.exr"));
+}
+
+TEST(Samples, parts_of_paths_add_up_to_one_render) {
+    expect_partitions_to_add_up({scene_file("mixed")});
+}
+
+TEST(Samples, parts_of_occlusion_add_up_to_one_render) {
+    expect_partitions_to_add_up({scene_file("wall_corner"), "--ao", "brute"});
+}
+
+TEST(Samples, parts_of_photons_add_up_to_one_render) {
+    expect_partitions_to_add_up(
+        {scene_file("cornell"), "--photons", "2000", "--technique", "indirect=photons"});
+}
+
+// The number of samples is no part of a part: those of another command go on where the first one ended.
+TEST(Samples, more_samples_can_be_added_later) {
+    const ScratchFolder scratch;
+    const Surroundings here{.folder = scratch.path()};
+    const Words render = {"render", scene_file("one_voxel"), "--size", "16x9", "--reproducible", "-q"};
+    ASSERT_EQ(run(with(render, {"--spp", "6", "-o", "whole.exr"}), here).code, 0);
+    ASSERT_EQ(run(with(render, {"--spp", "4", "--samples", "0-3", "-o", "a.exr"}), here).code, 0);
+    ASSERT_EQ(run(with(render, {"--spp", "6", "--samples", "4-5", "-o", "b.exr"}), here).code, 0);
+    EXPECT_EQ(run({"merge", "a.exr", "-o", "four.exr"}, here).code, 0) << "all that it was asked for";
+    const Ending hole = run({"merge", "b.exr", "-o", "m.exr"}, here);
+    EXPECT_EQ(hole.code, 3);
+    EXPECT_NE(hole.err.find("samples 0-3 are missing"), std::string::npos) << hole.err;
+    ASSERT_EQ(run({"merge", "b.exr", "a.exr", "--reproducible", "-o", "m.exr"}, here).code, 0);
+    EXPECT_TRUE(bytes_of(scratch / "m.exr") == bytes_of(scratch / "whole.exr"));
+}
+
+TEST(Samples, finished_part_ends_the_command_at_once) {
+    const ScratchFolder scratch;
+    const Surroundings here{.folder = scratch.path()};
+    const Words part = {"render", scene_file("one_voxel"), "--size", "16x9", "--samples", "2-5", "-o",
+                        "p.exr"};
+    ASSERT_EQ(run(part, here).code, 0);
+    const std::string before = bytes_of(scratch / "p.exr");
+    const Ending again = run(with(part, {"--json", "-"}), here);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_EQ(again.err, "note: p.exr has these samples already\n");
+    EXPECT_EQ(Json::parse(again.out)["samples"], 4);
+    EXPECT_TRUE(bytes_of(scratch / "p.exr") == before) << "not written anew, with other times";
+    // Other samples, another scene or damage: it is rendered.
+    for (const Words& more : {Words{"--samples", "2-6"}, Words{"--seed", "5"}})
+        EXPECT_EQ(run(with(part, with(more, {"-q"})), here).code, 0);
+    EXPECT_FALSE(bytes_of(scratch / "p.exr") == before);
+    std::filesystem::resize_file(scratch / "p.exr", before.size() / 2);
+    EXPECT_EQ(run(with(part, {"--seed", "5"}), here).err, "");
+}
+
 TEST(Shard, plan_shows_its_share) {
     const Words whole = {"plan", scene_file("mixed"), "--spp", "16", "-o", "a.exr", "--json", "-"};
     Words third = whole;
     third.insert(third.end(), {"--shard", "2/3"});
     const Json all = Json::parse(run(whole).out);
     const Json own = Json::parse(run(third).out);
-    EXPECT_EQ(own["shard"], "2 of 3");
-    EXPECT_FALSE(all.contains("shard"));
+    EXPECT_EQ(own["sample_ranges"], "1-13x3");
+    EXPECT_FALSE(all.contains("sample_ranges"));
     EXPECT_EQ(all["rays"]["primary"].get<int>() / 16, own["rays"]["primary"].get<int>() / 5);
 }
 

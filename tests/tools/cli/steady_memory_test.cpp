@@ -45,7 +45,7 @@ TEST(SteadyMemoryNightly, of_every_structure) {
         EXPECT_LT(growth_mib({scene_file("first_light"), "--traversal", traversal}), kSteady) << traversal;
 }
 
-TEST(SteadyMemory, of_every_sequence) {
+TEST(SteadyMemoryNightly, of_every_sequence) {
     for (const char* sequence : {"sobol", "halton", "white"})
         EXPECT_LT(growth_mib({scene_file("turntable"), "--sequence", sequence}), kSteady) << sequence;
 }

@@ -160,6 +160,20 @@ TEST(Signals, user_signal_saves_a_checkpoint_and_goes_on) {
     EXPECT_EQ(child.finish().code, 130) << "it was still at work";
 }
 
+// What the end of the render takes is asked for before its first sample.
+TEST(HostMemory, that_a_picture_will_lack_is_said_before_the_work) {
+    const ScratchFolder scratch;
+    Words words = one_voxel("a.png", {"--progress", "json"});
+    std::ranges::replace(words, std::string("32x18"), std::string("8192x8192"));
+    const Ending ending = run(words, {.folder = scratch.path(), .address_space = std::uint64_t{4} << 30});
+    EXPECT_EQ(ending.code, 74) << ending.err;
+    EXPECT_NE(ending.err.find("ulimit -v"), std::string::npos) << ending.err;
+    EXPECT_EQ(ending.err.find("\"sample\""), std::string::npos) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), Words{});
+    EXPECT_EQ(
+        run(one_voxel("a.png"), {.folder = scratch.path(), .address_space = std::uint64_t{4} << 30}).code, 0);
+}
+
 TEST(Signals, that_were_ignored_before_stay_ignored) {
     const ScratchFolder scratch;
     ChildProcess child(endless({"--time-limit", "1s"}),

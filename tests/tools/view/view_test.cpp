@@ -1,54 +1,17 @@
 // Windows of a virtual display, driven by scripts: the same code as a person's input.
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <string_view>
+#include <span>
+#include <thread>
 
-#include "formats/image_file.h"
-#include "tools/cli/words.h"
+#include "base/file.h"
+
+#include "tools/view/view_script.h"
 
 namespace voxilux::test {
 namespace {
-
-#define SKIP_UNLESS_DISPLAY() \
-    if (std::string_view(VX_BINARY).empty()) GTEST_SKIP() << "no xvfb-run (Debian: apt install xvfb)"
-
-// The colours of an image.
-std::map<std::string, std::vector<float>> beauty_of(const std::filesystem::path& file) {
-    const Image image = read_image(file);
-    std::map<std::string, std::vector<float>> planes;
-    for (const char* name : {"R", "G", "B"})
-        planes[name] = image.channels.at(name).pixels;
-    return planes;
-}
-
-// What a script leaves in a folder; its report is report.json.
-Ending play(const ScratchFolder& scratch, const std::string& script, const Words& more = {}) {
-    write_text(scratch / "script.toml", script);
-    const Ending ending = run(with({"view", scene_file("first_light"), "--size", "160x90", "--spp", "3",
-                                    "--script", "script.toml", "--report", "report.json", "--validation"},
-                                   more),
-                              {.folder = scratch.path()});
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    return ending;
-}
-
-Json report_of(const ScratchFolder& scratch) {
-    return Json::parse(bytes_of(scratch / "report.json"));
-}
-
-std::string orbit(int frame, int columns) {
-    return "[[step]]\nframe = " + std::to_string(frame) + "\nkey = 'Tab'\n" +
-           "[[step]]\nframe = " + std::to_string(frame + 2) +
-           "\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [" + std::to_string(80 + columns) +
-           ", 45]\n[[step]]\nrelease = 'left'\n";
-}
-
-std::string film(int frame, const std::string& file) {
-    return "[[step]]\nframe = " + std::to_string(frame) + "\nsamples = 3\nscreenshot = '" + file + "'\n";
-}
 
 TEST(WindowFilm, at_rest_it_is_that_of_render) {
     SKIP_UNLESS_DISPLAY();
@@ -113,6 +76,60 @@ TEST(WindowDrop, broken_file_leaves_the_picture) {
     EXPECT_EQ(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
 }
 
+TEST(WindowCommand, copied_line_renders_the_same_film) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const Ending ending =
+        play(scratch, orbit(2, 25) + film(9, "film.exr") + held_key("Control", "c") + pause(11),
+             {"--seed", "5", "--effect", "sky=off", "-D", "sun.elevation=30"});
+    const std::size_t begin = ending.out.find("voxilux render ");
+    ASSERT_NE(begin, std::string::npos) << ending.out;
+    const std::string words = ending.out.substr(begin + 7, ending.out.find('\n', begin) - begin - 7);
+    const std::string line = "cd " + scratch.path().string() + " && " VX_PLAIN_BINARY + words + " -q";
+    ASSERT_EQ(std::system(line.c_str()), 0) << line;
+    EXPECT_EQ(beauty_of(scratch / "first_light.exr"), beauty_of(scratch / "film.exr")) << line;
+}
+
+TEST(WindowAnimation, frame_is_that_of_render) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_text(scratch / "script.toml", film(0, "first.exr") + key("Period") + key("Period") + key("Period") +
+                                            film(8, "fourth.exr") + key("Comma") + film(16, "third.exr") +
+                                            key("Space") + pause(30) + key("Space"));
+    const Words scene{scene_file("turntable"), "--size", "96x54", "--spp", "3"};
+    const Ending ending = run(
+        with(with({"view"}, scene), {"--script", "script.toml", "--report", "report.json", "--validation"}),
+        {.folder = scratch.path()});
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    for (const auto& [frame, file] : {std::pair{"1", "first.exr"}, {"4", "fourth.exr"}, {"3", "third.exr"}}) {
+        ASSERT_EQ(
+            run(with(with({"render"}, scene), {"--frame", frame, "-q", "-o", scratch / "render.exr"})).code,
+            0);
+        EXPECT_EQ(beauty_of(scratch / file), beauty_of(scratch / "render.exr")) << frame;
+    }
+    EXPECT_NE(beauty_of(scratch / "first.exr"), beauty_of(scratch / "fourth.exr"));
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowReload, file_that_somebody_writes_is_shown) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    std::filesystem::copy_file(scene_file("one_voxel"), scratch / "scene.toml");
+    write_text(
+        scratch / "script.toml",
+        film(0, "before.exr") + "[[step]]\nframe = 600\nscreenshot = 'late.png'\n" + film(601, "after.exr"));
+    ChildProcess child({"view", "scene.toml", "--size", "96x54", "--spp", "3", "--script", "script.toml",
+                        "--report", "report.json"},
+                       {.folder = scratch.path()});
+    while (!std::filesystem::exists(scratch / "before.exr"))
+        std::this_thread::yield();
+    const std::string other = bytes_of(scene_file("emitters"));
+    write_file_atomically(scratch.path() / "scene.toml", std::as_bytes(std::span(other)));
+    ASSERT_EQ(child.finish().code, 0);
+    EXPECT_EQ(report_of(scratch)["shown"]["message"], "loaded again");
+    EXPECT_NE(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
+}
+
 TEST(WindowFlags, frames_and_screenshot_need_no_script) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
@@ -121,7 +138,34 @@ TEST(WindowFlags, frames_and_screenshot_need_no_script) {
                               {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(report_of(scratch)["frames"].size(), 4u);
+    EXPECT_GT(report_of(scratch)["first_picture_ms"].get<double>(), 0.0);
     EXPECT_EQ(read_image(scratch / "a.png").width, 96);
+}
+
+TEST(WindowError, samples_end_when_the_target_is_claimed) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, "[[step]]\nframe = 100\nscreenshot = 'film.exr'\n", {"--error", "5%"});
+    const Json errors = report_of(scratch)["errors"];
+    ASSERT_GE(errors.size(), 2u);
+    EXPECT_LE(errors.back()["high"].get<double>(), 0.05);
+    EXPECT_GT(errors[errors.size() - 2]["high"].get<double>(), 0.05);
+    const auto samples = errors.back()["samples"].get<std::uint32_t>();
+    EXPECT_EQ(read_image(scratch / "film.exr").channels.at("sampleCount.Y").pixels[0], samples);
+    const Ending render = run({"render", scene_file("first_light"), "--size", "160x90", "--spp",
+                               std::to_string(samples), "-q", "-o", scratch / "render.exr"});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_EQ(beauty_of(scratch / "film.exr"), beauty_of(scratch / "render.exr"));
+}
+
+TEST(WindowError, samples_end_with_the_time) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch,
+         "[[step]]\nframe = 30\nscreenshot = 'early.exr'\n[[step]]\nframe = 40\n"
+         "screenshot = 'late.exr'\n",
+         {"--error", "0.01%", "--time-limit", "0.2s"});
+    EXPECT_EQ(beauty_of(scratch / "early.exr"), beauty_of(scratch / "late.exr"));
 }
 
 TEST(WindowFlags, bad_script_is_refused_with_its_line) {

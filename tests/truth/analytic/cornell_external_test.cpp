@@ -149,7 +149,7 @@ double farthest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-TEST(CornellExternal, errors_are_within_what_is_promised) {
+TEST(CornellExternalNightly, errors_are_within_what_is_promised) {
     SKIP_WITHOUT_SHARED_DATA();
     const Measure m = measure_render(cornell(1, 65536), 1);
     EXPECT_LE(m.relmse, 0.0028);

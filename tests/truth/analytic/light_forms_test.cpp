@@ -233,7 +233,7 @@ TruthPixel caustic_of(float ior, double distance, double spot) {
     return sum;
 }
 
-TEST(LightForms, ball_of_glass_gathers_the_sun_at_its_focus) {
+TEST(LightFormsNightly, ball_of_glass_gathers_the_sun_at_its_focus) {
     const Ball ball;
     EXPECT_NEAR(ball.landing(0.05, ball.n * ball.radius / (2.0 * (ball.n - 1.0))), 0.0, 1e-5);
     // Relative: 24 iterations with some hundred photons in the spot, and what is reflected inside the ball.
@@ -275,7 +275,7 @@ void expect_furnace(const Scene& scene, std::uint32_t iterations, double radianc
     EXPECT_LT(std::sqrt(pictures[1].pixels[0].variance_of_mean.x), 0.02 * radiance) << what;
 }
 
-TEST(LightForms, white_furnace_of_diffuse_walls) {
+TEST(LightFormsNightly, white_furnace_of_diffuse_walls) {
     expect_furnace(furnace(test::add_diffuse, {8, 8, 8}, 8), 64, 1.0, "a wall");
     // A path meets 37 walls on average, the longest over 500.
     expect_furnace(furnace(test::add_diffuse, {5, 5, 5}, 2), 96, 1.0, "4 voxels of 150");
@@ -298,7 +298,7 @@ TEST(LightForms, white_furnace_with_glass_and_mirrors_inside) {
 }
 
 // In glass of index n all radiance is n^2 times as much.
-TEST(LightForms, white_furnace_seen_from_inside_glass_is_n_squared_times_as_bright) {
+TEST(LightFormsNightly, white_furnace_seen_from_inside_glass_is_n_squared_times_as_bright) {
     Scene ball = furnace(test::add_diffuse, {8, 8, 8}, 8);
     ball.spheres.push_back({glm::dvec3(4.0, 2.0, 4.0), 1.5, test::add_glass(ball, 1.5f)});
     expect_furnace(ball, 96, 2.25, "ball");

@@ -162,7 +162,7 @@ TEST(SequenceErrorNightly, table_of_our_scenes) {
     }
 }
 
-TEST(SequenceErrorExternal, table_of_a_model) {
+TEST(SequenceErrorExternalNightly, table_of_a_model) {
     SKIP_WITHOUT_SHARED_DATA();
     Scene scene = load_scene(shared_data() / "data/vox/monu3.vox");
     scene.settings.ao.method = AoMethod::brute;  // the table is of occlusion

@@ -54,7 +54,7 @@ std::vector<glm::vec3> colours_of(const Scene& scene, std::array<std::uint32_t, 
     return colours;
 }
 
-TEST(Row24, workgroups_change_no_bit_of_light) {
+TEST(Row24Nightly, workgroups_change_no_bit_of_light) {
     for (const char* name : {"cornell", "glass_block"}) {
         const Scene scene = repository_scene(name, 40);
         const auto once = colours_of(scene, {8, 8});
@@ -189,7 +189,7 @@ TEST(Row28, emitter_and_ball_inside_glass_balls_of_one_material_agree_with_paths
 }
 
 // The same medium on both sides is no surface: what colour the ball's would take does not show.
-TEST(Row28, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
+TEST(Row28Nightly, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
     Scene block = voxel_room(32);
     const std::uint16_t glass = test::add_glass(block, 1.5f, 0.5f);
     test::add_box(block, {2, 3, 0}, {7, 7, 4}, glass);
@@ -350,7 +350,7 @@ TEST(Row34, dark_room_behind_an_edge_stays_exactly_black) {
         ASSERT_EQ(pixel.mean, glm::dvec3(0.0));
 }
 
-TEST(Row36, roulette_changes_no_mean) {
+TEST(Row36Nightly, roulette_changes_no_mean) {
     Scene scene = voxel_room(32);
     scene.settings.photons.roulette = false;
     scene.settings.photons.depth = 40;  // 0.7^40 is less than 1e-6

@@ -1,0 +1,121 @@
+// The projections of a camera beside perspective (camera.h): where their rays start and point.
+//
+// Orthographic: parallel rays. Pixels are counted in blocks that are as wide as camera_right is long, from a
+// point that blocks begin at. A camera that looks along an axis with a whole number of pixels per voxel has
+// blocks of one voxel, and then the cell that a ray starts in follows from whole numbers alone: no rounding
+// moves a ray across the border of a pixel.
+//
+// Panoramas: a longitude and latitude (equirectangular), or an angle from the view axis in proportion to the
+// distance from the middle of the image (fisheye, equidistant).
+#ifndef VX_PROJECTION_H
+#define VX_PROJECTION_H
+
+#include "gpu_types.h"
+#include "limits.h"
+#include "portable.h"
+#include "sampling.h"
+#include "two_float.h"
+
+VX_BEGIN
+
+// A number as its floor and the rest in [0, 1].
+struct PlaneCount {
+    int whole;
+    float rest;
+};
+
+VX_FN PlaneCount count_whole(TwoFloat number) {
+    PlaneCount count;
+    const float whole = floor(min(number.hi, kFarthestPlanes));
+    VX_PRECISE float rest = (number.hi - whole) + number.lo;
+    count.whole = int(whole) + (rest < 0.0f ? -1 : 0) + (rest >= 1.0f ? 1 : 0);
+    count.rest = clamp(rest < 0.0f ? rest + 1.0f : (rest >= 1.0f ? rest - 1.0f : rest), 0.0f, 1.0f);
+    return count;
+}
+
+// Of a point of the image along one of its axes: whole blocks, and the rest in blocks.
+VX_FN PlaneCount image_blocks(uint pixel, float point, uint block) {
+    PlaneCount count;
+    const uint whole = pixel / block;
+    const float rest = (float(pixel - whole * block) + point) / float(block);
+    count.whole = int(whole);
+    count.rest = clamp(rest, kPixelInset, 1.0f - kPixelInset);
+    return count;
+}
+
+// How far `blocks` blocks of length `step` reach.
+VX_FN TwoFloat blocks_along(PlaneCount blocks, float step) {
+    return tf_add(two_prod(float(blocks.whole), step), two_prod(blocks.rest, step));
+}
+
+// One coordinate of the start of an orthographic ray, from the cell of the camera.
+VX_FN PlaneCount orthographic_start(PlaneCount across, PlaneCount down, float right, float up,
+                                    float fraction) {
+    const TwoFloat offset = tf_add(blocks_along(across, right), blocks_along(down, -up));
+    return count_whole(tf_add(offset, two_float(fraction, 0.0f)));
+}
+
+// The ray at `point` of a pixel, [0,1]^2.
+VX_FN Ray orthographic_ray(FrameParams frame, uint x, uint y, vec2 point) {
+    const PlaneCount across = image_blocks(x + frame.camera_pixel.x, point.x, frame.camera_block);
+    const PlaneCount down = image_blocks(y + frame.camera_pixel.y, point.y, frame.camera_block);
+    const PlaneCount at_x =
+        orthographic_start(across, down, frame.camera_right.x, frame.camera_up.x, frame.camera_fraction.x);
+    const PlaneCount at_y =
+        orthographic_start(across, down, frame.camera_right.y, frame.camera_up.y, frame.camera_fraction.y);
+    const PlaneCount at_z =
+        orthographic_start(across, down, frame.camera_right.z, frame.camera_up.z, frame.camera_fraction.z);
+    Ray ray;
+    ray.cell = frame.camera_cell + ivec3(at_x.whole, at_y.whole, at_z.whole);
+    ray.fraction = vec3(at_x.rest, at_y.rest, at_z.rest);
+    ray.direction = frame.camera_forward;
+    ray.t_max = kUnbounded;
+    return ray;
+}
+
+// Unit direction through a point of the image, in pixels from its upper left corner. The middle of an
+// equirectangular image looks forward, columns turn clockwise seen from above, and rows go from the zenith to
+// the nadir. A fisheye ends at the direction backwards.
+VX_FN vec3 panorama_direction(FrameParams frame, uint projection, float x, float y) {
+    vec3 v;
+    if (projection == kEquirectangular) {
+        const float azimuth = kPi * (1.0f - 2.0f * x / float(frame.width));  // counter-clockwise
+        const float elevation = kPi * (0.5f - y / float(frame.height));
+        v = cos(elevation) * (cos(azimuth) * frame.camera_forward - sin(azimuth) * frame.camera_right) +
+            sin(elevation) * frame.camera_up;
+    } else {
+        const float right = (2.0f * x - float(frame.width)) / float(frame.height);
+        const float up = (float(frame.height) - 2.0f * y) / float(frame.height);
+        const float radius = sqrt(right * right + up * up);
+        const float angle = min(radius * frame.camera_angle, kPi);
+        const float scale = radius > 0.0f ? sin(angle) / radius : 0.0f;
+        v = cos(angle) * frame.camera_forward + scale * (right * frame.camera_right + up * frame.camera_up);
+    }
+    return v / sqrt(dot(v, v));
+}
+
+VX_FN Ray panorama_ray(FrameParams frame, uint projection, uint x, uint y, vec2 point) {
+    Ray ray;
+    ray.cell = frame.camera_cell;
+    ray.fraction = frame.camera_fraction;
+    ray.direction = panorama_direction(frame, projection, float(x) + point.x, float(y) + point.y);
+    ray.t_max = kUnbounded;
+    return ray;
+}
+
+// What the width of a pixel is in proportion to: the distance, but for parallel rays.
+VX_FN float pixel_growth(uint projection, float distance) {
+    return projection == kOrthographic ? 1.0f : distance;
+}
+
+// Width of a pixel at distance 1 (orthographic: at any), voxels. Of a panorama, of a pixel in its middle.
+VX_FN float pixel_width(FrameParams frame, uint projection) {
+    if (projection == kOrthographic) return length(frame.camera_up) / float(frame.camera_block);
+    if (projection == kEquirectangular) return kPi / float(frame.height);
+    if (projection == kFisheye) return 2.0f * frame.camera_angle / float(frame.height);
+    return 2.0f * length(frame.camera_up) / float(frame.height);
+}
+
+VX_END
+
+#endif

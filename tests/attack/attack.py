@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+"""Attacks voxilux as its surroundings might, and counts where it breaks a promise of docs/trust.md.
+
+    attack.py --voxilux build/release/voxilux                     five minutes, divided among the attacks
+    attack.py --voxilux build/release/voxilux --only kills --seconds 600
+    attack.py --voxilux build/release/voxilux --table docs/trust.md   puts the figures into that document
+
+Every try follows from --seed and its number, so a broken promise can be played again. The exit code is 1 where a
+promise was broken, and each is a line on standard error.
+"""
+
+import argparse
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from typing import Callable
+
+TOP = pathlib.Path(__file__).resolve().parent.parent.parent
+SCENE = TOP / "scenes" / "one_voxel.toml"
+BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+PATIENCE = 120.0  # seconds, after which a run counts as hanging
+MOST_BYTES = 4 << 30  # of address space, for files that were made to hurt
+DONE, WRONG, REFUSED, LATE, INTERNAL, CANNOT_WRITE, NO_MEMORY, INTERRUPTED = 0, 2, 3, 4, 70, 73, 74, 130
+NO_DEVICE = 69
+
+
+@dataclass
+class Ending:
+    code: int  # negative: the signal that ended it
+    seconds: float
+    err: str
+
+
+@dataclass
+class Attack:
+    """A kind of try, what it may end with, and how it went."""
+
+    name: str
+    promise: str
+    trial: Callable[["Bench", random.Random], str | None]
+    tries: int = 0
+    broken: list[str] = field(default_factory=list)
+
+
+class Bench:
+    """A folder for one try, and the program in it."""
+
+    def __init__(self, binary: pathlib.Path, folder: pathlib.Path, caches: pathlib.Path):
+        self.binary = binary
+        self.folder = folder
+        self.environment = os.environ | {"XDG_CACHE_HOME": str(caches), "XDG_STATE_HOME": str(caches / "state")}
+
+    def start(self, words: list, limits: dict | None = None, **streams) -> subprocess.Popen:
+        def set_limits():
+            for kind, bytes_ in (limits or {}).items():
+                resource.setrlimit(kind, (bytes_, bytes_))
+
+        streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE} | streams
+        return subprocess.Popen([self.binary, *words], cwd=self.folder, env=self.environment,
+                                preexec_fn=set_limits, **streams)
+
+    def finish(self, child: subprocess.Popen, since: float) -> Ending:
+        try:
+            _, err = child.communicate(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.communicate()
+            return Ending(-signal.SIGALRM, time.monotonic() - since, "it hangs")
+        return Ending(child.returncode, time.monotonic() - since, (err or b"").decode(errors="replace"))
+
+    def run(self, words: list, limits: dict | None = None, **streams) -> Ending:
+        since = time.monotonic()
+        return self.finish(self.start(words, limits, **streams), since)
+
+    def names(self) -> list[str]:
+        return sorted(os.fsdecode(name) for name in os.listdir(os.fsencode(self.folder)))
+
+
+def render(output, *more) -> list:
+    return ["render", SCENE, "--size", "64x36", "--reproducible", "-o", output, *more]
+
+
+def unexpected(ending: Ending, allowed: tuple) -> str | None:
+    if ending.code in allowed:
+        return None
+    return f"ended with {ending.code}: {ending.err.strip()[-200:]}"
+
+
+def is_picture(file: pathlib.Path) -> bool:
+    """Whether a file begins as an EXR or a PNG does and is not cut short."""
+    data = file.read_bytes()
+    return data.startswith(b"\x76\x2f\x31\x01") or (data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82"))
+
+
+# ---- the attacks -------------------------------------------------------------------------------------------------
+
+
+def kill_and_resume(bench: Bench, rng: random.Random) -> str | None:
+    samples = ["--spp", "3000", "--checkpoint", "0.05"]
+    child = bench.start(render("a.exr", *samples))
+    time.sleep(rng.uniform(0.1, 1.5))
+    child.kill()
+    child.communicate()
+    if problem := unexpected(bench.run(render("a.exr", *samples, "--resume")), (DONE,)):
+        return problem
+    if bench.names() != ["a.exr"]:
+        return f"left {bench.names()}"
+    if problem := unexpected(bench.run(render("b.exr", *samples)), (DONE,)):
+        return problem
+    same = (bench.folder / "a.exr").read_bytes() == (bench.folder / "b.exr").read_bytes()
+    return None if same else "the resumed picture is another one"
+
+
+def stop_by_signal(bench: Bench, rng: random.Random) -> str | None:
+    which = rng.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1))
+    since = time.monotonic()
+    child = bench.start(render("a.exr", "--spp", "1000000", "--time-limit", "4s"))
+    time.sleep(rng.uniform(0.0, 2.0))
+    child.send_signal(which)
+    ending = bench.finish(child, since)
+    if ending.code == -which:  # before the program takes signals
+        return None if bench.names() == [] else f"left {bench.names()}"
+    if problem := unexpected(ending, (DONE, LATE, INTERRUPTED)):
+        return problem
+    wrote = "a.exr" in bench.names()
+    if not wrote and ending.code != INTERRUPTED:
+        return f"{which.name}: no picture"
+    return None if not wrote or is_picture(bench.folder / "a.exr") else f"{which.name}: the picture is cut short"
+
+
+def limit_time(bench: Bench, rng: random.Random) -> str | None:
+    limit = rng.uniform(0.1, 4.0)
+    ending = bench.run(render("a.exr", "--spp", "1000000", "--time-limit", f"{limit:.3f}s"))
+    if problem := unexpected(ending, (DONE, LATE)):
+        return problem
+    late = ending.seconds - limit
+    if late > max(2.0, 0.05 * limit):
+        return f"{late:.1f} s after a limit of {limit:.1f} s"
+    return None if is_picture(bench.folder / "a.exr") else "the picture is cut short"
+
+
+def limit_memory(bench: Bench, rng: random.Random) -> str | None:
+    size = rng.choice(("64x36", "512x512", "2048x2048"))
+    bytes_ = int(rng.uniform(0.2, 3.0) * 2**30)
+    words = ["render", SCENE, "--size", size, "--spp", "1", "-o", "a.exr"]
+    ending = bench.run(words, {resource.RLIMIT_AS: bytes_})
+    if problem := unexpected(ending, (DONE, NO_MEMORY, NO_DEVICE)):
+        return f"{size} in {bytes_ >> 20} MiB {problem}"
+    wanted = ["a.exr"] if ending.code == DONE else []
+    return None if bench.names() == wanted else f"left {bench.names()}"
+
+
+def fill_disk(bench: Bench, rng: random.Random) -> str | None:
+    most = int(2 ** rng.uniform(0.0, 18.0))
+    name = rng.choice(("a.exr", "a.png"))
+    ending = bench.run(render(name, "--spp", "2"), {resource.RLIMIT_FSIZE: most})
+    if problem := unexpected(ending, (DONE, CANNOT_WRITE)):
+        return f"{most} bytes: {problem}"
+    wanted = [name] if ending.code == DONE else []
+    return None if bench.names() == wanted else f"left {bench.names()}"
+
+
+def close_streams(bench: Bench, rng: random.Random) -> str | None:
+    with open("/dev/full", "wb") as full:
+        streams = rng.choice(({"stderr": full}, {"stdout": full}, {"stdout": full, "stderr": full}))
+        ending = bench.run(render("a.png", "--spp", "2", *rng.choice(([], ["-v"], ["--progress", "json"]))), **streams)
+    if problem := unexpected(ending, (DONE, CANNOT_WRITE)):
+        return problem
+    return None if is_picture(bench.folder / "a.png") else "the picture is lost"
+
+
+def odd_name(rng: random.Random) -> bytes:
+    allowed = [b for b in range(1, 256) if b not in b"/"]
+    return bytes(rng.choice(allowed) for _ in range(rng.randint(1, 251))) + b".exr"
+
+
+def name_oddly(bench: Bench, rng: random.Random) -> str | None:
+    name = odd_name(rng)
+    ending = bench.run(render(b"./" + name, "--spp", "2"))
+    if problem := unexpected(ending, (DONE, WRONG, CANNOT_WRITE)):
+        return f"{name!r}: {problem}"
+    if any(ord(c) < 32 and c not in "\n" for c in ending.err):
+        return f"{name!r}: control characters reach the terminal"
+    wanted = [os.fsdecode(name)] if ending.code == DONE else []
+    return None if bench.names() == wanted else f"{name!r}: left {bench.names()}"
+
+
+def tiny_vox() -> bytes:
+    def chunk(kind: bytes, content: bytes, children: bytes = b"") -> bytes:
+        return kind + struct.pack("<II", len(content), len(children)) + content + children
+
+    voxels = bytes(b for x in range(3) for y in range(3) for z in range(2) for b in (x, y, z, 1 + x))
+    size = chunk(b"SIZE", struct.pack("<3I", 3, 3, 2))
+    xyzi = chunk(b"XYZI", struct.pack("<I", len(voxels) // 4) + voxels)
+    return b"VOX " + struct.pack("<I", 150) + chunk(b"MAIN", b"", size + xyzi + chunk(b"RGBA", bytes(range(256)) * 4))
+
+
+OBJ = b"mtllib a.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 4\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1 4/1\nf -1 -2 -3\n"
+GLTF = (b'{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[2,1,1]}],'
+        b'"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,'
+        b'"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],'
+        b'"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,'
+        b'"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}')
+
+
+def mutated(data: bytes, rng: random.Random) -> bytes:
+    """Some bytes changed, a part cut out, doubled or moved, or the end cut off."""
+    out = bytearray(data)
+    for _ in range(rng.choice((1, 1, 2, 8, 64))):
+        at, end = sorted(rng.randrange(len(out) + 1) for _ in range(2))
+        kind = rng.randrange(6)
+        if kind == 0 and out:
+            out[at % len(out)] = rng.randrange(256)
+        elif kind == 1 and len(out) >= 4:
+            word = rng.choice((0, 1, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0xFFFFFFFE, rng.getrandbits(32)))
+            struct.pack_into("<I", out, at % (len(out) - 3), word)
+        elif kind == 2:
+            del out[at:min(end, at + 64)]
+        elif kind == 3:
+            out[at:at] = out[at:min(end, at + 64)] * rng.choice((1, 2, 50))
+        elif kind == 4:
+            out[at:at] = rng.choice((b"nan", b"1e999", b"-1", b"[[", b"\x00", b"\xff\xfe", b"99999999999"))
+        else:
+            del out[max(at, 8):]
+    return bytes(out)
+
+
+def feed_file(bench: Bench, rng: random.Random) -> str | None:
+    seeds = {"a.vox": tiny_vox(), "a.toml": SCENE.read_bytes(), "a.obj": OBJ, "a.gltf": GLTF}
+    for picture in ("seed.exr", "seed.png"):
+        file = bench.folder.parent / picture
+        seeds[picture.replace("seed", "a")] = file.read_bytes()
+    name = rng.choice(sorted(seeds))
+    (bench.folder / name).write_bytes(mutated(seeds[name], rng))
+    ending = bench.run(command_for(name, rng), {resource.RLIMIT_AS: MOST_BYTES})
+    if problem := unexpected(ending, (DONE, REFUSED, NO_MEMORY, WRONG, CANNOT_WRITE)):
+        keep = bench.folder.parent / f"broken_{rng.getrandbits(32):08x}_{name}"
+        shutil.copy(bench.folder / name, keep)
+        return f"{keep}: {problem}"
+    return None if ending.seconds < 20.0 else f"{name}: {ending.seconds:.0f} s"
+
+
+def command_for(name: str, rng: random.Random) -> list:
+    if name.endswith((".exr", ".png")):
+        return ["compare", name, name] if rng.random() < 0.7 else ["merge", name, "-o", "b.exr"]
+    if name.endswith((".obj", ".gltf")):
+        return ["voxelize", name, "-o", "b.vox", "--resolution", "8"]
+    return [rng.choice(("info", "plan")), name] if name.endswith(".vox") else ["plan", name]
+
+
+def attacks() -> list[Attack]:
+    return [
+        Attack("kills", "a render that is killed at any moment goes on with --resume to the bytes of one that was not, "
+               "and nothing is left beside the picture", kill_and_resume),
+        Attack("signals", "INT, TERM and HUP leave a whole picture of what is done; USR1 stops nothing",
+               stop_by_signal),
+        Attack("time", "--time-limit holds to 2 s or 5 %, with a whole picture", limit_time),
+        Attack("memory", "under any limit of the address space: the picture, or exit code 74 or 69 and no file",
+               limit_memory),
+        Attack("disk", "where the file system takes no more: exit code 73 and no file, or the whole one", fill_disk),
+        Attack("streams", "messages that nobody can read cost no picture", close_streams),
+        Attack("names", "any bytes are a name; none of them commands the terminal", name_oddly),
+        Attack("files", "whatever a file holds: an exit code that says so, 4 GiB and 20 s at most", feed_file),
+    ]
+
+
+# ---- running them ------------------------------------------------------------------------------------------------
+
+
+def play(attack: Attack, number: int, seed: int, binary: pathlib.Path, shared: pathlib.Path) -> None:
+    folder = shared / f"{attack.name}_{number}"
+    folder.mkdir()
+    bench = Bench(binary, folder, shared / "caches")
+    problem = attack.trial(bench, random.Random(f"{seed} {attack.name} {number}"))
+    attack.tries += 1
+    if problem:
+        attack.broken.append(problem)
+        print(f"{attack.name} {number}: {problem}", file=sys.stderr, flush=True)
+    shutil.rmtree(os.fsencode(folder))
+
+
+def play_for(seconds: float, attack: Attack, seed: int, binary: pathlib.Path, shared: pathlib.Path) -> None:
+    end = time.monotonic() + seconds
+    number = 0
+    while number == 0 or time.monotonic() < end:
+        play(attack, number, seed, binary, shared)
+        number += 1
+
+
+def make_seeds(binary: pathlib.Path, shared: pathlib.Path) -> None:
+    bench = Bench(binary, shared, shared / "caches")
+    words = ["render", SCENE, "--size", "16x9", "--spp", "2", "-q", "-o", "seed.exr", "-o", "seed.png"]
+    if problem := unexpected(bench.run([*words, "--shard", "1/1"]), (DONE,)):
+        sys.exit(f"the seeds cannot be made: {problem}")
+
+
+def table(played: list[Attack]) -> str:
+    rows = ["| attack | what is promised | tries | broken |", "|---|---|---|---|"]
+    rows += [f"| {a.name} | {a.promise} | {a.tries} | {len(a.broken)} |" for a in played]
+    return "\n".join(rows)
+
+
+def put_table(document: pathlib.Path, text: str) -> None:
+    before, _, rest = document.read_text().partition(BEGIN)
+    _, _, after = rest.partition(END)
+    document.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}")
+
+
+def main() -> int:
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--voxilux", type=pathlib.Path, required=True)
+    options.add_argument("--seconds", type=float, default=300.0, help="for all attacks together")
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--only", help="names of attacks, with commas between them")
+    options.add_argument("--table", type=pathlib.Path, help="the document that the figures go into")
+    given = options.parse_args()
+    known = {attack.name: attack for attack in attacks()}
+    names = given.only.split(",") if given.only else list(known)
+    for name in names:
+        if name not in known:
+            options.error(f"there is no attack {name!r}, but {', '.join(known)}")
+    chosen = [known[name] for name in names]
+    with tempfile.TemporaryDirectory(prefix="voxilux_attack_") as folder:
+        shared = pathlib.Path(folder)
+        make_seeds(given.voxilux.resolve(), shared)
+        for attack in chosen:
+            play_for(given.seconds / len(chosen), attack, given.seed, given.voxilux.resolve(), shared)
+    print(table(chosen))
+    if given.table:
+        put_table(given.table, table(chosen))
+    return 1 if any(a.broken for a in chosen) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,139 @@
+// What a display shows of a film, against the film on the host.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "film/film.h"
+#include "renderer/renderer.h"
+#include "shared/false_colour.h"
+#include "shared/tone_curve.h"
+#include "support/device_fixture.h"
+#include "support/light_scenes.h"
+#include "support/test_scenes.h"
+
+namespace voxilux::test {
+namespace {
+
+// Two boxes under sun and sky.
+Scene display_scene(glm::ivec2 size) {
+    Scene scene = white_scene();
+    scene.settings = {.size = size, .spp = 4};
+    scene.settings.ao.method = AoMethod::brute;
+    add_box(scene, {-8, -8, -1}, {8, 8, 0}, add_diffuse(scene, 0.5f));
+    add_box(scene, {-8, 2, 0}, {3, 4, 9});
+    scene.sun.on = true;
+    scene.sun.irradiance = glm::vec3(2.0f, 1.0f, 0.5f);
+    scene.camera = camera_towards({20, -40, 25}, {5, 0, 0});
+    return scene;
+}
+
+constexpr DisplayLook kLook{.exposure = 0.5f};
+
+std::vector<std::uint32_t> displayed(Renderer& renderer, const DisplayLook& look) {
+    const DisplayBuffer display = renderer.display(look);
+    Recording recording;
+    recording.declare({.name = display.buffer,
+                       .size_bytes = sizeof(std::uint32_t) * static_cast<std::uint64_t>(display.size.x) *
+                                     static_cast<std::uint64_t>(display.size.y),
+                       .persistent = true});
+    recording.readback(display.buffer);
+    return values_of<std::uint32_t>(renderer.executor().run(recording), display.buffer);
+}
+
+int code_of(std::uint32_t codes, std::size_t component) {
+    return static_cast<int>(codes >> (8 * component) & 0xFFu);
+}
+
+// Codes that differ from those of the film by more than the rounding of one.
+std::size_t codes_off(const std::vector<std::uint32_t>& shown, const FilmSums& film,
+                      const DisplayLook& look) {
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < 3 * shown.size(); ++i) {
+        const std::size_t row = i / 3 / static_cast<std::size_t>(film.width);
+        const std::int64_t sum = film.sums.at("beauty_a")[i] + film.sums.at("beauty_b")[i];
+        const float exposed = film_mean(sum, film.even[row] + film.odd[row]) * look.exposure;
+        const float code = 255.0f * gpu::encode_srgb(gpu::filmic_curve(exposed));
+        const std::size_t component = look.is_bgr ? 2 - i % 3 : i % 3;
+        if (std::abs(static_cast<float>(code_of(shown[i / 3], component)) - code) > 1.0f) ++off;
+    }
+    return off;
+}
+
+void take_samples(Renderer& renderer, std::uint32_t samples) {
+    while (renderer.film().position().samples < samples)
+        (void)renderer.step(0.0);
+}
+
+TEST(Display, shows_the_mean_of_the_samples_that_each_row_has) {
+    Renderer renderer(test_device(), {.poison_transients = true});
+    renderer.prepare(display_scene({39, 24}), {});
+    EXPECT_EQ(displayed(renderer, kLook), std::vector<std::uint32_t>(39 * 24, 0xFF000000u)) << "no sample";
+    take_samples(renderer, 2);
+    (void)renderer.step(0.0);
+    const FilmSums film = renderer.read_film();
+    ASSERT_NE(film.even.front() + film.odd.front(), film.even.back() + film.odd.back());
+    EXPECT_EQ(codes_off(displayed(renderer, kLook), film, kLook), 0u);
+    const DisplayLook bgr{.exposure = 2.0f, .is_bgr = true};
+    EXPECT_EQ(codes_off(displayed(renderer, bgr), film, bgr), 0u);
+    EXPECT_NE(codes_off(displayed(renderer, bgr), film, kLook), 0u) << "the negative control";
+}
+
+TEST(Display, joins_film_tiles) {
+    Scene scene = display_scene({1023, 1100});
+    Renderer renderer(test_device(), {});
+    renderer.prepare(scene, {});
+    ASSERT_EQ(renderer.plan().film_tile_count, 2u);
+    while (renderer.film().position().samples < 1)
+        (void)renderer.step_tile();
+    EXPECT_EQ(codes_off(displayed(renderer, kLook), renderer.read_film(), kLook), 0u);
+}
+
+// The false colour of a channel at each pixel, and what the film has there.
+TEST(Display, shows_numbers_between_their_ends_as_false_colours) {
+    Renderer renderer(test_device(), {.poison_transients = true});
+    renderer.prepare(display_scene({39, 24}), {.effects = {.wants_aov = true}});
+    take_samples(renderer, 4);
+    const Image image = picture_of(renderer.read_film());
+    for (const auto& [channel, name, low, high] :
+         {std::tuple{DisplayChannel::depth, "Z", 20.0f, 60.0f}, {DisplayChannel::sun, "sun.Y", 0.0f, 1.0f}}) {
+        ASSERT_TRUE(has_channel(renderer.plan(), channel));
+        const auto shown =
+            displayed(renderer, {.channel = channel, .low = glm::vec3(low), .high = glm::vec3(high)});
+        std::set<std::uint32_t> colours;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            const gpu::vec3 expected =
+                gpu::false_colour((image.channels.at(name).pixels[i] - low) / (high - low));
+            for (std::size_t c = 0; c < 3; ++c)
+                EXPECT_NEAR(code_of(shown[i], c), 255.0f * expected[static_cast<int>(c)], 1.0f)
+                    << name << " " << i;
+            colours.insert(shown[i]);
+        }
+        EXPECT_GT(colours.size(), 2u) << name;
+    }
+}
+
+TEST(Display, shows_the_reference_and_the_difference_from_the_divider_on) {
+    Renderer renderer(test_device(), {.poison_transients = true});
+    renderer.prepare(display_scene({39, 24}), {});
+    take_samples(renderer, 2);
+    std::vector<float> reference(3 * 39 * 24);
+    for (std::size_t i = 0; i < reference.size(); ++i)
+        reference[i] = static_cast<float>(i % 7) * 0.1f;
+    renderer.set_reference(reference);
+    const FilmSums film = renderer.read_film();
+    for (const DisplayComparison comparison : {DisplayComparison::reference, DisplayComparison::difference}) {
+        const auto shown = displayed(renderer, {.comparison = comparison, .divider = 11});
+        for (std::size_t i = 0; i < reference.size(); ++i) {
+            const float mean = film_mean(film.sums.at("beauty_a")[i] + film.sums.at("beauty_b")[i], 2);
+            float value =
+                comparison == DisplayComparison::reference ? reference[i] : std::abs(mean - reference[i]);
+            if (i / 3 % 39 < 11) value = mean;
+            EXPECT_NEAR(code_of(shown[i / 3], i % 3), 255.0f * gpu::encode_srgb(gpu::filmic_curve(value)),
+                        1.0f);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace voxilux::test

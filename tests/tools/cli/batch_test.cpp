@@ -1,0 +1,243 @@
+// Several inputs and cameras in one call, turntables, sheets, transparent pictures and sprites, as a user
+// renders them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/colour.h"
+#include "formats/exr.h"
+#include "formats/png.h"
+#include "support/scratch_folder.h"
+#include "support/vox_builder.h"
+#include "tools/cli/child_process.h"
+#include "tools/cli/words.h"
+
+namespace voxilux::test {
+namespace {
+
+const Words kSmall = {"--size", "24x16", "--spp", "2"};
+
+// A .vox file of 3x4x5 voxels with settings and one used camera.
+void write_model(const std::filesystem::path& file, const vox_builder::Pairs& background = {}) {
+    using namespace vox_builder;
+    std::string chunks = chiral_model(3, 4, 5) + record("rCAM", 0, {{"_radius", "0"}, {"_mode", "pers"}}) +
+                         record("rCAM", 2, {{"_angle", "20 30 0"}, {"_radius", "16"}, {"_focus", "0 0 1"}});
+    if (!background.empty()) chunks += chunk("rOBJ", dict(background));
+    const std::vector<std::byte> bytes = vox_builder::file(chunks);
+    write_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+long lines_of(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+}
+
+TEST(Batch, renders_every_input_from_every_camera_with_one_line_each) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    write_model(scratch / "b.vox");
+    const Ending ending = run(with({"render", "a.vox", "b.vox", "--camera", "front", "--camera", "iso",
+                                    "--camera", "2", "-o", "{name}_{camera}.png"},
+                                   kSmall),
+                              {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    EXPECT_EQ(ending.err, "");
+    EXPECT_EQ(lines_of(ending.out), 6) << ending.out;
+    EXPECT_EQ(names_in(scratch.path()), (Words{"a.vox", "a_2.png", "a_front.png", "a_iso.png", "b.vox",
+                                               "b_2.png", "b_front.png", "b_iso.png"}));
+    EXPECT_EQ(bytes_of(scratch / "a_iso.png"), bytes_of(scratch / "b_iso.png"));
+    EXPECT_NE(bytes_of(scratch / "a_iso.png"), bytes_of(scratch / "a_2.png"));
+    const Ending alone = run(with({"render", "b.vox", "--camera", "2", "-q", "-o", "alone.png"}, kSmall),
+                             {.folder = scratch.path()});
+    EXPECT_EQ(alone.code, 0) << alone.err;
+    EXPECT_EQ(bytes_of(scratch / "alone.png"), bytes_of(scratch / "b_2.png"))
+        << "a picture of a batch is the one that a render of its own gives";
+}
+
+TEST(Batch, goes_on_after_a_file_that_cannot_be_rendered) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    write_text(scratch / "bad.vox", "VOX nonsense");
+    write_model(scratch / "c.vox");
+    const Ending ending =
+        run(with({"render", "a.vox", "bad.vox", "no.toml", "c.vox", "--json", "r.json"}, kSmall),
+            {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 3) << ending.err;
+    EXPECT_EQ(lines_of(ending.err), 2) << ending.err;
+    EXPECT_NE(ending.err.find("voxilux: bad.vox: "), std::string::npos) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), (Words{"a.png", "a.vox", "bad.vox", "c.png", "c.vox", "r.json"}));
+    EXPECT_EQ(Json::parse(bytes_of(scratch / "r.json")).size(), 2u);
+}
+
+TEST(Batch, refuses_two_pictures_of_one_name) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    const Surroundings here{.folder = scratch.path()};
+    const Ending ending =
+        run({"render", "a.vox", "--camera", "front", "--camera", "top", "-o", "x.png"}, here);
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.err.find("two pictures would be written to x.png; put {name} or {camera} into -o"),
+              std::string::npos)
+        << ending.err;
+    EXPECT_EQ(run({"render", "a.vox", "a.vox"}, here).code, 2);
+    EXPECT_EQ(run({"plan", "a.vox", "--camera", "front", "--camera", "top"}, here).code, 2);
+    const Ending unknown = run({"render", "a.vox", "--camera", "7", "-o", "x.png"}, here);
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_NE(unknown.err.find("there is no '7'"), std::string::npos) << unknown.err;
+    EXPECT_NE(unknown.err.find("of the file 2"), std::string::npos) << unknown.err;
+}
+
+TEST(Batch, sheet_holds_all_pictures_in_rows) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    const Ending ending = run(with({"render", "a.vox", "--camera", "front", "--camera", "left", "--camera",
+                                    "top", "--sheet", "sheet.png", "-q"},
+                                   kSmall),
+                              {.folder = scratch.path()});
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    const Image sheet = read_png(scratch / "sheet.png");
+    EXPECT_EQ(sheet.width, 48);
+    EXPECT_EQ(sheet.height, 32);
+    const Image left = read_png(scratch / "a_left.png");
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 24; ++x)
+            ASSERT_EQ(sheet.channels.at("G").pixels[static_cast<std::size_t>(y * 48 + 24 + x)],
+                      left.channels.at("G").pixels[static_cast<std::size_t>(y * 24 + x)]);
+}
+
+TEST(Turntable, turns_camera_model_or_light) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    for (const char* what : {"camera", "model", "light"}) {
+        const std::string file = std::string(what) + ".png";
+        const Ending ending =
+            run(with({"render", "a.vox", "--turntable", "4", "--turn", what, "-q", "-o", file}, kSmall),
+                {.folder = scratch.path()});
+        EXPECT_EQ(ending.code, 0) << ending.err;
+    }
+    const auto picture = [&](const std::string& name) { return bytes_of(scratch / (name + ".png")); };
+    EXPECT_EQ(picture("camera.0001"), picture("model.0001"));
+    EXPECT_EQ(picture("camera.0001"), picture("light.0001"));
+    EXPECT_NE(picture("camera.0002"), picture("light.0002"));
+    EXPECT_NE(picture("light.0001"), picture("light.0002"));
+    EXPECT_NE(picture("camera.0002"), picture("model.0002"));
+    EXPECT_EQ(names_in(scratch.path()).size(), 13u);
+}
+
+// A turn of the model by a quarter is the file turned by a quarter.
+TEST(Turntable, model_turns_before_a_camera_and_a_sun_that_stay) {
+    const ScratchFolder scratch;
+    const auto scene = [](const char* rotate) {
+        return std::string(
+                   "[camera]\npreset = \"front\"\nprojection = \"orthographic\"\npixels_per_voxel = 4\n"
+                   "[render]\nsize = [32, 24]\nspp = 64\n[[model]]\nfile = \"a.vox\"\n") +
+               rotate;
+    };
+    write_model(scratch / "a.vox");
+    write_text(scratch / "rest.toml", scene(""));
+    write_text(scratch / "turned.toml", scene("rotate = [\"z90\"]\n"));
+    const Surroundings here{.folder = scratch.path()};
+    const Ending turn =
+        run({"render", "rest.toml", "--turntable", "4", "--turn", "model", "-q", "-o", "m.exr"}, here);
+    EXPECT_EQ(turn.code, 0) << turn.err;
+    EXPECT_EQ(run({"render", "turned.toml", "-q", "-o", "t.exr"}, here).code, 0);
+    const auto mean = [&](const char* file) {
+        const std::vector<float>& pixels = read_exr(scratch / file).channels.at("R").pixels;
+        double sum = 0.0;
+        for (const float value : pixels)
+            sum += static_cast<double>(value);
+        return sum / static_cast<double>(pixels.size());
+    };
+    EXPECT_NEAR(mean("m.0002.exr") / mean("t.exr"), 1.0, 0.01);
+    EXPECT_GT(std::abs(mean("m.0003.exr") / mean("t.exr") - 1.0), 0.02) << "negative control";
+}
+
+TEST(Transparent, alpha_without_a_number_asks_for_it) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    const Surroundings here{.folder = scratch.path()};
+    EXPECT_EQ(
+        run(with({"render", "--alpha", "a.vox", "-q", "-o", "a.png", "-o", "a.exr"}, kSmall), here).code, 0);
+    EXPECT_EQ(run(with({"render", "a.vox", "-q", "--alpha", "0.5", "-o", "b.png"}, kSmall), here).code, 0);
+    const Image image = read_png(scratch / "a.png");
+    ASSERT_TRUE(image.channels.contains("A"));
+    EXPECT_EQ(image.channels.at("A").pixels[0], 0.0f);
+    EXPECT_EQ(image.channels.at("A").pixels[8 * 24 + 12], 1.0f);
+    EXPECT_TRUE(read_exr(scratch / "a.exr").channels.contains("A"));
+    EXPECT_FALSE(read_png(scratch / "b.png").channels.contains("A"));
+}
+
+TEST(Transparent, background_of_a_flag_a_scene_or_a_file_is_exact) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox", {{"_type", "_setting"}, {"_bg_a", "1"}});
+    const Surroundings here{.folder = scratch.path()};
+    const auto corner = [&](const Words& more) {
+        EXPECT_EQ(run(with(with({"render", "a.vox", "-q", "-o", "x.png"}, kSmall), more), here).code, 0);
+        const Image image = read_png(scratch / "x.png");
+        std::vector<int> codes;
+        for (const auto& [name, channel] : image.channels)
+            codes.push_back(name == "A" ? static_cast<int>(channel.pixels[0]) : srgb_code(channel.pixels[0]));
+        return codes;
+    };
+    EXPECT_EQ(corner({}), (std::vector<int>{0, 0, 0, 0})) << "A B G R: the file is transparent";
+    EXPECT_EQ(corner({"--background", "#20a1fe"}), (std::vector<int>{0xfe, 0xa1, 0x20})) << "B G R";
+    EXPECT_EQ(corner({"-D", "background.color=#ff0007"}), (std::vector<int>{7, 0, 255}));
+    EXPECT_EQ(corner({"-D", "background.shown=sky"}), corner({"--ignore-file-settings"}));
+    EXPECT_EQ(corner({"--background", "sky", "-D", "background.color=#ff0007"}),
+              corner({"--ignore-file-settings"}));
+    EXPECT_EQ(run({"render", "a.vox", "--background", "red"}, here).code, 2);
+}
+
+TEST(Sprite, is_as_large_as_the_model) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    const Surroundings here{.folder = scratch.path()};
+    const Ending ending = run({"render", "a.vox", "--camera", "front", "--pixels-per-voxel", "4", "--spp",
+                               "2", "-q", "-o", "a.png"},
+                              here);
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    const Image sprite = read_png(scratch / "a.png");
+    EXPECT_LE(sprite.width, 12);
+    EXPECT_EQ(sprite.width % 4, 0);
+    EXPECT_EQ(sprite.height % 4, 0);
+    EXPECT_EQ(run({"render", "a.vox", "--pixels-per-voxel", "4", "--projection", "fisheye"}, here).code, 2);
+    EXPECT_EQ(run({"render", "a.vox", "--pixels-per-voxel", "0"}, here).code, 2);
+}
+
+TEST(Parts, of_a_picture_with_a_background_add_up_to_the_whole) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox");
+    const Surroundings here{.folder = scratch.path()};
+    const Words picture =
+        with({"render", "a.vox", "-q", "--reproducible", "--background", "#203040"}, kSmall);
+    EXPECT_EQ(run(with(picture, {"-o", "whole.exr", "-o", "whole.png"}), here).code, 0);
+    for (const char* shard : {"1/2", "2/2"})
+        EXPECT_EQ(
+            run(with(picture, {"--shard", shard, "-o", std::string("p") + shard[0] + ".exr"}), here).code, 0);
+    const Ending merged =
+        run({"merge", "p1.exr", "p2.exr", "-q", "--reproducible", "-o", "m.exr", "-o", "m.png"}, here);
+    EXPECT_EQ(merged.code, 0) << merged.err;
+    EXPECT_EQ(bytes_of(scratch / "m.png"), bytes_of(scratch / "whole.png"));
+    for (const char* name : {"R", "G", "B"})
+        EXPECT_EQ(read_exr(scratch / "m.exr").channels.at(name).pixels,
+                  read_exr(scratch / "whole.exr").channels.at(name).pixels);
+}
+
+TEST(Info, lists_settings_and_cameras_of_a_file) {
+    const ScratchFolder scratch;
+    write_model(scratch / "a.vox", {{"_type", "_fog_uni"}, {"_d", "0.9"}});
+    const Json facts = json_of({"info", scratch / "a.vox", "--json", "-"});
+    EXPECT_EQ(facts["cameras"], 2);
+    ASSERT_EQ(facts["saved_cameras"].size(), 1u);
+    EXPECT_EQ(facts["saved_cameras"][0]["name"], "2");
+    ASSERT_EQ(facts["settings"].size(), 1u);
+    EXPECT_EQ(facts["settings"][0], (Json{{"_type", "_fog_uni"}, {"_d", "0.9"}}));
+    ASSERT_EQ(facts["warnings"].size(), 1u) << facts["warnings"];
+    EXPECT_EQ(facts["warnings"][0], "fog is not shown");
+    const Ending plan = run({"plan", scratch / "a.vox"});
+    EXPECT_NE(plan.out.find("fog is not shown"), std::string::npos) << plan.out;
+}
+
+}  // namespace
+}  // namespace voxilux::test

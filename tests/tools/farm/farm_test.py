@@ -1,0 +1,107 @@
+"""voxilux farm with Dask on the loopback: bytes equal to those of one render, whatever happens to the workers."""
+
+import json
+import os
+import shutil
+import signal
+import unittest
+
+from cluster import Cluster, bench_of_arguments, can_hide_folders, kill, workers_of
+
+BENCH = bench_of_arguments()
+SMALL = ["--size", "48x27", "--spp", "24"]
+LONG = ["--size", "320x180", "--spp", "48"]  # some seconds
+
+
+class Farm(unittest.TestCase):
+    def test_picture_has_the_bytes_of_one_render(self):
+        whole = BENCH.render("mixed", "whole.exr", *SMALL, "-o", BENCH.top / "whole.png", "--exposure", "1")
+        out, err = BENCH.farm("mixed", "f.exr", "-o", BENCH.top / "f.png", "--exposure", "1", *SMALL, "--workers", "2",
+                              "--json", "-", "--progress", "json")
+        self.assertEqual((BENCH.top / "f.exr").read_bytes(), whole)
+        self.assertEqual((BENCH.top / "f.png").read_bytes(), (BENCH.top / "whole.png").read_bytes())
+        self.assertFalse((BENCH.top / "f.exr.farm").exists())
+        report = json.loads(out)
+        self.assertLessEqual({"samples", "parts", "retries", "workers", "wall_s", "cpu_s", "error", "output"},
+                             set(report))
+        self.assertEqual((report["samples"], report["retries"], report["workers"]), (24, 0, 2))
+        self.assertGreater(report["parts"], 1)
+        progress = [json.loads(line) for line in err.splitlines()]
+        self.assertTrue(all({"done", "samples", "elapsed_s", "remaining_s"} <= set(row) for row in progress))
+
+    def test_frames_have_the_bytes_of_their_renders(self):
+        BENCH.farm("turntable", "t.exr", *SMALL[:2], "--spp", "4", "--frames", "1-5", "--workers", "2", "-q")
+        for frame in (1, 4, 5):
+            alone = BENCH.render("turntable", "one.exr", *SMALL[:2], "--spp", "4", "--frame", str(frame))
+            self.assertEqual((BENCH.top / f"t.000{frame}.exr").read_bytes(), alone)
+
+    def test_killed_workers_and_a_killed_job_lose_nothing(self):
+        whole = BENCH.render("mixed", "whole.exr", *LONG)
+        child = BENCH.start("mixed", "k.exr", *LONG, "--workers", "2", "-q")
+        BENCH.wait_for_parts(child, "k.exr", 1)
+        kill(workers_of(child.pid)[0])
+        BENCH.wait_for_parts(child, "k.exr", 3)
+        kill(child.pid)
+        child.communicate()
+        done = BENCH.journal("k.exr")
+        self.assertGreater(done, 0, "or this tests nothing")
+        self.assertFalse((BENCH.top / "k.exr").exists())
+        _, err = BENCH.farm("mixed", "k.exr", *LONG, "-q", code=2)
+        self.assertIn("--resume goes on with it", err)
+        BENCH.farm("mixed", "k.exr", *LONG, "--workers", "2", "-q", "--resume")
+        self.assertEqual((BENCH.top / "k.exr").read_bytes(), whole)
+
+    def test_interrupted_job_leaves_a_picture_and_goes_on(self):
+        whole = BENCH.render("mixed", "whole.exr", *LONG)
+        child = BENCH.start("mixed", "i.exr", *LONG, "--workers", "2", "--json", "-")
+        BENCH.wait_for_parts(child, "i.exr", 2)
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate()
+        self.assertEqual(child.returncode, 130, err)
+        self.assertRegex(err, r"voxilux: interrupted; missing: samples [\d,-]+; --resume goes on\n$")
+        samples = json.loads(out)["samples"]
+        self.assertTrue(0 < samples < 48, samples)
+        self.assertEqual(json.loads(BENCH.info("i.exr"))["attributes"]["voxilux.report"]["samples"], samples)
+        BENCH.farm("mixed", "i.exr", *LONG, "--workers", "2", "-q", "--resume")
+        self.assertEqual((BENCH.top / "i.exr").read_bytes(), whole)
+
+    @unittest.skipUnless(can_hide_folders(), "only root can hide a folder from a worker")
+    def test_worker_without_the_folder_gets_the_scene_and_sends_its_parts(self):
+        whole = BENCH.render("mixed", "whole.exr", *SMALL)
+        with Cluster(BENCH.top) as cluster:
+            cluster.add_worker(is_apart=True)
+            BENCH.farm("mixed", "r.exr", *SMALL, "--scheduler", cluster.address, "-q")
+        self.assertEqual((BENCH.top / "r.exr").read_bytes(), whole)
+
+    def test_worker_of_another_build_is_not_used(self):
+        other = BENCH.top / "other"
+        shutil.copy(BENCH.binary, other)
+        with open(other, "ab") as binary:
+            binary.write(b"another")
+        with Cluster(BENCH.top) as cluster:
+            cluster.add_worker()
+            _, err = BENCH.farm("mixed", "o.exr", *SMALL, "--scheduler", cluster.address, "--worker-binary", other,
+                                code=75)
+            self.assertIn("is not used: ", err)
+            self.assertIn("is another build", err)
+            self.assertIn("missing: samples 0-23; --resume goes on", err)
+
+    def test_error_is_reached_by_the_merged_picture(self):
+        out, _ = BENCH.farm("mixed", "e.exr", "--size", "96x54", "--error", "3%", "--workers", "2", "--json", "-")
+        report = json.loads(out)
+        self.assertLessEqual(report["error"]["high"], 0.03)
+        whole = BENCH.render("mixed", "whole.exr", "--size", "96x54", "--spp", str(report["samples"]))
+        self.assertEqual((BENCH.top / "e.exr").read_bytes(), whole)
+
+    def test_what_no_worker_can_do_ends_the_job_at_once(self):
+        _, err = BENCH.farm("mixed", "n.exr", "--effect", "nothing=on", code=2)
+        self.assertIn("there is no effect", err)
+        (BENCH.top / "full").mkdir()
+        os.symlink("/dev/full", BENCH.top / "full/journal.jsonl")
+        (BENCH.top / "full").rename(BENCH.top / "d.exr.farm")
+        _, err = BENCH.farm("mixed", "d.exr", *SMALL, "--workers", "1", code=73)
+        self.assertIn("No space left on device; missing: samples 0-23; --resume goes on", err)
+
+
+if __name__ == "__main__":
+    unittest.main()

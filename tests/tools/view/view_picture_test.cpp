@@ -1,0 +1,175 @@
+// What the window shows of a film, against the film itself.
+
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "shared/false_colour.h"
+#include "shared/tone_curve.h"
+#include "tools/view/view_script.h"
+
+namespace voxilux::test {
+namespace {
+
+using Codes = std::array<double, 3>;
+
+// How many pixels of a window are not what `expected` says, by more than the rounding of a code and of the
+// halves of an EXR, which is below two codes even where the filmic curve is steepest.
+int wrong_pixels(const std::filesystem::path& file, const std::function<Codes(std::size_t)>& expected) {
+    constexpr double kCode = 2.1 / 255.0;
+    const auto shown = beauty_of(file);
+    int wrong = 0;
+    for (std::size_t i = 0; i < shown.at("R").size(); ++i) {
+        const Codes codes = expected(i);
+        const Codes seen{gpu::encode_srgb(shown.at("R")[i]), gpu::encode_srgb(shown.at("G")[i]),
+                         gpu::encode_srgb(shown.at("B")[i])};
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!(std::abs(seen[c] - codes[c]) <= kCode)) {
+                ++wrong;
+                break;
+            }
+    }
+    return wrong;
+}
+
+using Planes = std::map<std::string, std::vector<float>>;
+
+double filmic_code(float radiance) {
+    return gpu::encode_srgb(gpu::filmic_curve(std::max(radiance, 0.0f)));
+}
+
+std::function<Codes(std::size_t)> filmic(const Planes& planes) {
+    return [&](std::size_t i) {
+        return Codes{filmic_code(planes.at("R")[i]), filmic_code(planes.at("G")[i]),
+                     filmic_code(planes.at("B")[i])};
+    };
+}
+
+Codes codes_of(gpu::vec3 colour) {
+    return {colour.x, colour.y, colour.z};
+}
+
+// A rendered EXR of the scene with its AOVs.
+Image rendered_image(const ScratchFolder& scratch) {
+    const Ending render = run({"render", scene_file("first_light"), "--size", "160x90", "--spp", "3", "-q",
+                               "-o", scratch / "render.exr"});
+    EXPECT_EQ(render.code, 0) << render.err;
+    return read_image(scratch / "render.exr");
+}
+
+TEST(WindowPicture, shows_codes_of_the_film_with_exposure_and_curve) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, key("Tab") + film(0, "filmic.png") + key("t") + key("Plus") + pause(9) +
+                      film(10, "plain.png") + film(11, "film.exr"));
+    const auto planes = beauty_of(scratch / "film.exr");
+    EXPECT_EQ(wrong_pixels(scratch / "filmic.png", filmic(planes)), 0);
+    const float half_stop = std::exp2(0.5f);
+    const auto plain = [&](std::size_t i) {
+        Codes codes;
+        for (std::size_t c = 0; c < 3; ++c)
+            codes[c] = gpu::encode_srgb(std::min(half_stop * planes.at(std::string(1, "RGB"[c]))[i], 1.0f));
+        return codes;
+    };
+    EXPECT_EQ(wrong_pixels(scratch / "plain.png", plain), 0);
+    EXPECT_GT(wrong_pixels(scratch / "filmic.png", plain), 1000) << "the curve shows";
+}
+
+TEST(WindowPicture, shows_every_channel_as_the_film_has_it) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    std::string script = key("Tab");
+    int frame = 0;
+    for (const char* name : {"albedo", "normal", "position", "depth", "ao", "sun", "error"}) {
+        script += key("c") + film(frame + 2, std::string(name) + ".png");
+        frame += 2;
+    }
+    play(scratch, script);
+    const Image image = rendered_image(scratch);
+    const auto value = [&](const char* name, std::size_t i) { return image.channels.at(name).pixels[i]; };
+    EXPECT_EQ(wrong_pixels(scratch / "albedo.png",
+                           [&](std::size_t i) {
+                               return Codes{gpu::encode_srgb(value("albedo.R", i)),
+                                            gpu::encode_srgb(value("albedo.G", i)),
+                                            gpu::encode_srgb(value("albedo.B", i))};
+                           }),
+              0);
+    EXPECT_EQ(wrong_pixels(scratch / "normal.png",
+                           [&](std::size_t i) {
+                               return Codes{0.5 + 0.5 * value("N.X", i), 0.5 + 0.5 * value("N.Y", i),
+                                            0.5 + 0.5 * value("N.Z", i)};
+                           }),
+              0);
+    EXPECT_EQ(wrong_pixels(scratch / "sun.png",
+                           [&](std::size_t i) { return codes_of(gpu::false_colour(value("sun.Y", i))); }),
+              0);
+    EXPECT_EQ(wrong_pixels(scratch / "error.png",
+                           [&](std::size_t i) {
+                               const float error = std::max(value("error.Y", i), 1e-20f);
+                               return codes_of(gpu::false_colour((std::log10(error) + 3.0f) / 3.0f));
+                           }),
+              0);
+    EXPECT_EQ(report_of(scratch)["shown"]["channel"], "error");
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+}
+
+TEST(WindowPicture, reads_out_what_the_film_has_under_the_pointer) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play(scratch, "[[step]]\nmove = [80, 60]\n" + film(0, "film.exr") + pause(9) +
+                      "[[step]]\nmove = [80, 60]\n" + film(12, "window.png"));
+    const Image image = read_image(scratch / "film.exr");
+    const Json pixel = report_of(scratch)["shown"]["pixel"];
+    const std::size_t at = 60 * 160 + 80;
+    EXPECT_EQ(pixel["place"], Json({80, 60}));
+    EXPECT_EQ(pixel["samples"], 3);
+    const float radiance = image.channels.at("G").pixels[at];
+    EXPECT_NEAR(pixel["radiance"][1].get<float>(), radiance, radiance * 0x1p-11f) << "the EXR has halves";
+    EXPECT_FLOAT_EQ(pixel["error"].get<float>(), image.channels.at("error.Y").pixels[at]);
+    const Image aovs = rendered_image(scratch);
+    const std::array<const char*, 3> names{"P.X", "P.Y", "P.Z"};
+    const std::array<const char*, 3> normals{"N.X", "N.Y", "N.Z"};
+    for (std::size_t c = 0; c < 3; ++c) {
+        // The first sample's place in the pixel is another one: half a voxel of room at this distance.
+        const double inside =
+            aovs.channels.at(names[c]).pixels[at] - 0.5 * aovs.channels.at(normals[c]).pixels[at];
+        EXPECT_NEAR(pixel["voxel"][c].get<double>() + 0.5, inside, 1.0);
+    }
+}
+
+TEST(WindowWipe, shows_the_reference_beyond_the_divider) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    ASSERT_EQ(run({"render", scene_file("first_light"), "--size", "160x90", "--spp", "1", "--seed", "9", "-q",
+                   "-o", scratch / "reference.exr"})
+                  .code,
+              0);
+    play(scratch, key("Tab") + film(0, "film.exr") + "[[step]]\ndrop = 'reference.exr'\n" + pause(9) +
+                      "[[step]]\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [40, 45]\n" +
+                      "[[step]]\nrelease = 'left'\n" + pause(12) + film(13, "wipe.png") + key("x") +
+                      pause(16) + film(17, "difference.png"));
+    const auto film = beauty_of(scratch / "film.exr"), reference = beauty_of(scratch / "reference.exr");
+    // The divider itself is a line of one pixel between two columns.
+    const auto is_line = [](std::size_t i) { return i % 160 == 39 || i % 160 == 40; };
+    const auto left = filmic(film), right = filmic(reference);
+    int lines = 0;
+    const auto wipe = [&](std::size_t i) { return i % 160 < 40 ? left(i) : right(i); };
+    const int wrong = wrong_pixels(scratch / "wipe.png", wipe);
+    for (std::size_t i = 0; i < 160 * 90; ++i)
+        lines += is_line(i) ? 1 : 0;
+    EXPECT_LE(wrong, lines / 2);
+    EXPECT_GT(wrong_pixels(scratch / "wipe.png", left), lines) << "the reference shows";
+    const auto difference = [&](std::size_t i) {
+        if (i % 160 < 40) return left(i);
+        Codes codes;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::string name(1, "RGB"[c]);
+            codes[c] = filmic_code(std::abs(film.at(name)[i] - reference.at(name)[i]));
+        }
+        return codes;
+    };
+    EXPECT_LE(wrong_pixels(scratch / "difference.png", difference), lines / 2);
+}
+
+}  // namespace
+}  // namespace voxilux::test

@@ -1,0 +1,132 @@
+// Images with a background against the same scene before its sky: what the scene covers must be the same,
+// sample by sample.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/colour.h"
+#include "film/tonemap.h"
+#include "support/frame_fixture.h"
+#include "support/test_scenes.h"
+
+namespace voxilux {
+namespace {
+
+// The film rounds each sample to 2^-24, and means to floats; the beauty is stored as such.
+constexpr float kRounding = 1e-6f;
+
+// Blocks, a ball and a glass ball before a coloured sky, so small that many pixels are at edges.
+Scene blocks(bool has_glass) {
+    Scene scene = test::white_scene();
+    scene.materials[0].albedo = glm::vec3(0.5f, 0.7f, 0.2f);
+    scene.materials.push_back(
+        {.albedo = glm::vec3(0.9f), .surface = Surface::glass, .roughness = 0.0f, .transmission = 1.0f});
+    test::add_box(scene, {-4, -4, 0}, {4, 4, 2});
+    test::add_box(scene, {-3, 1, 2}, {-1, 3, 7});
+    scene.spheres.push_back({{2.5, -1.0, 3.5}, 1.5, has_glass ? 1u : 0u});
+    scene.sky.radiance = glm::vec3(0.3f, 0.6f, 1.1f);
+    scene.sun.on = true;
+    scene.camera = test::camera_towards({9, -13, 8}, {0, 0, 2}, 50.0);
+    scene.settings.size = {48, 36};
+    scene.settings.spp = 8;
+    return scene;
+}
+
+Image render(Scene scene, Backdrop shown) {
+    scene.background = {shown, glm::vec3(0.2f, 0.05f, 0.6f)};
+    return test::render_validated(scene, {.plan = {.effects = {.wants_aov = true}}}).image;
+}
+
+const std::vector<float>& plane(const Image& image, const char* name) {
+    return image.channels.at(name).pixels;
+}
+
+TEST(Background, alpha_is_the_share_of_samples_that_meet_the_scene) {
+    Scene scene = blocks(false);
+    scene.materials[0].albedo = glm::vec3(1.0f);
+    const Image image = render(scene, Backdrop::transparent);
+    int edges = 0;
+    for (std::size_t i = 0; i < pixel_count(image); ++i) {
+        const float alpha = plane(image, "A")[i];
+        EXPECT_NEAR(alpha, plane(image, "albedo.R")[i], kRounding) << i;
+        EXPECT_EQ(alpha, std::round(8.0f * alpha) / 8.0f) << i;
+        edges += alpha > 0.0f && alpha < 1.0f ? 1 : 0;
+    }
+    EXPECT_GT(edges, 50);
+    EXPECT_FALSE(render(scene, Backdrop::sky).channels.contains("A"));
+}
+
+// Premultiplied: what is left is the sky's.
+TEST(Background, scene_and_sky_add_up_to_the_image_with_its_sky) {
+    for (const bool has_glass : {false, true}) {
+        const Scene scene = blocks(has_glass);
+        const Image whole = render(scene, Backdrop::sky);
+        const Image cut = render(scene, Backdrop::transparent);
+        int differing = 0;
+        for (int c = 0; c < 3; ++c) {
+            const char* const name = c == 0 ? "R" : (c == 1 ? "G" : "B");
+            for (std::size_t i = 0; i < pixel_count(whole); ++i) {
+                const float alpha = plane(cut, "A")[i];
+                const float sum = plane(cut, name)[i] + (1.0f - alpha) * scene.sky.radiance[c];
+                ASSERT_NEAR(sum, plane(whole, name)[i], 4.0f * kRounding) << i << " glass " << has_glass;
+                differing += plane(cut, name)[i] != plane(whole, name)[i] ? 1 : 0;
+            }
+        }
+        EXPECT_GT(differing, 100) << "negative control";
+    }
+}
+
+// Glass covers what is behind it, whatever it shows.
+TEST(Background, glass_is_opaque) {
+    Scene scene = blocks(true);
+    scene.spheres[0] = {{0, 0, 0}, 3.0, 1u};
+    scene.models.clear();
+    scene.instances.clear();
+    scene.camera = test::camera_towards({0.1, -2.5, 0.1}, {0, 9, 0}, 40.0);  // inside
+    for (const float alpha : plane(render(scene, Backdrop::transparent), "A"))
+        EXPECT_EQ(alpha, 1.0f);
+}
+
+std::uint8_t code(float decoded) {
+    return srgb_code(decoded);
+}
+
+TEST(Background, alpha_over_any_colour_is_the_render_over_that_colour_within_one_code) {
+    const Image cut = render(blocks(true), Backdrop::transparent);
+    const DisplayImage straight = to_display(cut);
+    for (const glm::ivec3 colour : {glm::ivec3(0), {255, 255, 255}, {255, 0, 12}, {7, 99, 201}}) {
+        ToneMapOptions options;
+        options.background.emplace();
+        for (int c = 0; c < 3; ++c)
+            (*options.background)[c] = linear_from_srgb(static_cast<std::uint8_t>(colour[c]));
+        const DisplayImage laid = to_display(cut, options);
+        EXPECT_FALSE(laid.image.channels.contains("A"));
+        for (std::size_t i = 0; i < pixel_count(cut); ++i) {
+            // As a browser does it: 8-bit codes and an 8-bit alpha.
+            const double alpha = std::round(255.0f * plane(straight.image, "A")[i]) / 255.0;
+            for (int c = 0; c < 3; ++c) {
+                const char* const name = c == 0 ? "R" : (c == 1 ? "G" : "B");
+                const double over = alpha * code(plane(straight.image, name)[i]) + (1.0 - alpha) * colour[c];
+                ASSERT_LE(std::abs(std::round(over) - code(plane(laid.image, name)[i])), 1.0) << i << name;
+            }
+        }
+    }
+}
+
+TEST(Background, what_nothing_covers_has_exactly_the_code_of_the_colour) {
+    Image image = make_image(2, 1, std::vector<std::string>{"R", "G", "B", "A"});
+    image.channels["A"].pixels = {0.0f, 1.0f};
+    image.channels["R"].pixels = {0.0f, 0.25f};
+    for (int i = 0; i < 256; ++i) {
+        const float linear = linear_from_srgb(static_cast<std::uint8_t>(i));
+        ToneMapOptions options;
+        options.background = glm::vec3(linear);
+        const Image shown = to_display(image, options).image;
+        ASSERT_EQ(code(plane(shown, "G")[0]), i);
+        ASSERT_EQ(code(plane(shown, "R")[1]), code(tone_map(0.25f, ToneMap::filmic)));
+    }
+}
+
+}  // namespace
+}  // namespace voxilux

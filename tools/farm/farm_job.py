@@ -1,0 +1,169 @@
+"""The folder of a job: what it is of, and which parts of it are done by whom. Nothing in it is ever half there: files
+appear under their names when they are whole, and the journal grows by lines, of which a torn last one is ignored."""
+
+import dataclasses
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import sys
+import tomllib
+
+from farm_ranges import Ranges, difference, overlaps, union
+
+
+class Stop(Exception):
+    """The job cannot go on: the exit code, and one line that says why."""
+
+    def __init__(self, code: int, line: str):
+        super().__init__(line)
+        self.code = code
+
+
+@dataclasses.dataclass
+class Part:
+    """Some samples of a frame, or a whole frame (no ranges), in a file of the job's folder."""
+    frame: int
+    ranges: Ranges
+    file: str
+    worker: str = ""
+    wall_s: float = 0.0
+    cpu_s: float = 0.0
+    sha256: str = ""
+    of: list[str] = dataclasses.field(default_factory=list)  # the files that were merged into it
+    count: int = 1  # parts that workers have rendered
+
+
+def sha256_of(file: pathlib.Path) -> str:
+    with open(file, "rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def write_atomically(file: pathlib.Path, data: bytes) -> None:
+    temporary = file.with_name(f".{file.name}.{os.getpid()}")
+    with open(temporary, "wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+    os.replace(temporary, file)
+
+
+def strings_in(value: object) -> list[str]:
+    """All texts in what a scene file says."""
+    if isinstance(value, str):
+        return [value]
+    if isinstance(value, dict):
+        value = list(value.values())
+    return [text for item in value for text in strings_in(item)] if isinstance(value, list) else []
+
+
+def files_of_scene(scene: pathlib.Path, overrides: list[str]) -> dict[str, pathlib.Path]:
+    """The scene file and those that it names, by their paths in a folder of their own. Files with an absolute path stay
+    where they are: every worker needs them there."""
+    named = [text.partition("=")[2].strip(' "') for text in overrides]
+    if scene.suffix.lower() == ".toml":
+        named += strings_in(tomllib.loads(scene.read_text("utf-8")))
+    files = [scene] + [scene.parent / name for name in named
+                       if name and not os.path.isabs(name) and (scene.parent / name).is_file()]
+    root = os.path.commonpath([os.path.dirname(os.path.normpath(file)) for file in files])
+    return {os.path.relpath(os.path.normpath(file), root): file for file in files}
+
+
+class Job:
+    """The folder, its manifest, and the parts that are done."""
+
+    def __init__(self, folder: pathlib.Path, manifest: dict):
+        self.folder = folder
+        self.manifest = manifest
+        self.parts: dict[str, Part] = {}
+        self.retries = 0
+
+    def start(self, files: dict[str, pathlib.Path], resumes: bool) -> None:
+        """Makes the folder, or goes on with one of the same job."""
+        is_there = (self.folder / "manifest.json").exists()
+        if is_there and not resumes:
+            raise Stop(2, f"{self.folder} is there: --resume goes on with it, and without it the job starts anew")
+        self.manifest["files"] = {name: sha256_of(file) for name, file in sorted(files.items())}
+        if is_there:
+            self.check(json.loads((self.folder / "manifest.json").read_text()))
+            self.read_journal()
+        (self.folder / "parts").mkdir(parents=True, exist_ok=True)
+        for name, file in files.items():
+            copy = self.folder / "scene" / name
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)
+        write_atomically(self.folder / "manifest.json", json.dumps(self.manifest, indent=1).encode())
+
+    def check(self, before: dict) -> None:
+        for key in ("build", "scene", "files", "words", "frames"):
+            if before.get(key) != self.manifest.get(key):
+                raise Stop(3, f"{self.folder}: cannot go on: its {key} is {before.get(key)} and not "
+                              f"{self.manifest.get(key)}")
+
+    def read_journal(self) -> None:
+        try:
+            lines = (self.folder / "journal.jsonl").read_text().split("\n")
+        except FileNotFoundError:
+            return
+        for line in lines[:-1]:
+            row = json.loads(line)
+            if "dropped" in row:
+                self.parts.pop(row["dropped"], None)
+                continue
+            part = Part(**{**row, "ranges": [tuple(one) for one in row["ranges"]]})
+            self.keep(part)
+        for name in [name for name in self.parts if not (self.folder / name).exists()]:
+            del self.parts[name]
+
+    def keep(self, part: Part) -> None:
+        for file in part.of:
+            self.parts.pop(file, None)
+        self.parts[part.file] = part
+
+    def write_line(self, row: dict) -> None:
+        with open(self.folder / "journal.jsonl", "ab") as journal:
+            journal.write(json.dumps(row).encode() + b"\n")
+            journal.flush()
+            os.fsync(journal.fileno())
+
+    def add(self, part: Part) -> bool:
+        """False for a part of which other files have samples already: a late one, which must be equal where it has the
+        same samples."""
+        known = self.parts.get(part.file)
+        if known is not None and known.sha256 and part.sha256 and known.sha256 != part.sha256:
+            raise Stop(70, f"{part.worker} and {known.worker} rendered {part.file} differently")
+        if not part.of and self.has_some(part):
+            return False
+        self.write_line(dataclasses.asdict(part))
+        self.keep(part)
+        for file in part.of:
+            (self.folder / file).unlink(missing_ok=True)
+        return True
+
+    def has_some(self, part: Part) -> bool:
+        mine = self.of_frame(part.frame)
+        return any(not other.ranges or overlaps(part.ranges, other.ranges) for other in mine)
+
+    def drop(self, file: str) -> Part | None:
+        """Forgets a part whose file turned out to be damaged."""
+        part = self.parts.pop(file, None)
+        if part is not None:
+            self.write_line({"dropped": file})
+        return part
+
+    def of_frame(self, frame: int) -> list[Part]:
+        return [part for part in self.parts.values() if part.frame == frame]
+
+    def samples(self, frame: int) -> Ranges:
+        done: Ranges = []
+        for part in self.of_frame(frame):
+            done = union(done, part.ranges)
+        return done
+
+    def missing(self, frame: int, spp: int) -> Ranges:
+        return difference([(0, spp)], self.samples(frame))
+
+
+def say(line: str) -> None:
+    print(f"voxilux: {line}", file=sys.stderr, flush=True)

@@ -1,0 +1,125 @@
+"""From parts to pictures: merges run one after the other, beside the loop that hands out tasks."""
+
+import concurrent.futures
+import json
+import math
+import pathlib
+import subprocess
+import time
+
+from farm_job import Job, Part, Stop
+from farm_ranges import Ranges, size, text, union
+
+MAX_PARTS = 32  # of a frame, before they are merged into one
+PREVIEW_S = 30.0  # from one preview to the next, and
+PREVIEW_PAUSES = 20.0  # times as long as a merge takes
+ROUND_MARGIN = 1.05  # more samples than the error law says
+MIN_ROUND = 1.1  # times as many samples as before
+
+
+def next_round(samples: int, error: float | None, target: float, most: int) -> int:
+    """Samples after which the error is expected to be below the target: noise falls as samples^-0.5."""
+    factor = 2.0 if error is None else max(MIN_ROUND, ROUND_MARGIN * (error / target) ** 2)
+    return min(most, math.ceil(samples * factor))
+
+
+def run_merge(options: dict, files: list[pathlib.Path], outputs: list[str], partial: bool) -> dict:
+    """{report} of the sum, or {code, line} of the failure."""
+    words = [options["binary"], "merge", *map(str, files), "--reproducible", "-q", "--json", "-",
+             *options["tone_words"]]
+    for output in outputs:
+        words += ["-o", output]
+    words += ["--partial"] if partial else []
+    words += ["--allow-mixed-devices"] if options["allow_mixed_devices"] else []
+    begin = time.monotonic()
+    done = subprocess.run(words, capture_output=True, text=True, check=False, start_new_session=True)
+    if done.returncode != 0:
+        return {"code": done.returncode, "line": done.stderr.strip().split("\n")[-1].removeprefix("voxilux: ")}
+    return {"report": json.loads(done.stdout), "seconds": time.monotonic() - begin}
+
+
+class Picture:
+    """A frame whose samples are dealt out."""
+
+    def __init__(self, frame: int, outputs: list[str], end: int):
+        self.frame, self.outputs = frame, outputs
+        self.end = end  # samples of this round
+        self.rounds = 1
+        self.is_written = False
+        self.error: dict | None = None
+        self.samples = 0
+
+
+class Merger:
+    """Merges in the background. `finished()` gives what came of them."""
+
+    def __init__(self, options: dict, job: Job):
+        self.options, self.job = options, job
+        self.pool = concurrent.futures.ThreadPoolExecutor(1)
+        self.running: tuple | None = None
+        self.last_s, self.took_s = time.monotonic(), 0.0
+
+    def start(self, picture: Picture, parts: list[Part], outputs: list[str], partial: bool) -> None:
+        files = [self.job.folder / part.file for part in parts]
+        future = self.pool.submit(run_merge, self.options, files, outputs, partial)
+        self.running = (picture, parts, outputs, partial, future)
+
+    def write(self, picture: Picture) -> None:
+        """The picture of all that is there."""
+        self.start(picture, self.job.of_frame(picture.frame), picture.outputs, False)
+
+    def compact(self, picture: Picture) -> None:
+        """One part of all that are there, and a preview."""
+        parts = sorted(self.job.of_frame(picture.frame), key=lambda part: part.ranges)
+        name = f"parts/f{picture.frame:06d}.m{len(parts)}.{time.time_ns():x}.exr"
+        outputs = [str(self.job.folder / name), str(self.job.folder / "preview.png")]
+        self.start(picture, parts, outputs, True)
+
+    def wants_compaction(self, picture: Picture) -> bool:
+        count = len(self.job.of_frame(picture.frame))
+        pause_s = max(PREVIEW_S, PREVIEW_PAUSES * self.took_s)
+        return count >= MAX_PARTS or (count > 1 and time.monotonic() - self.last_s > pause_s)
+
+    def finished(self) -> tuple | None:
+        """(picture, was partial, report), once; nothing while a merge runs. Parts that turn out to be damaged are
+        dropped: then the report is what they held."""
+        if self.running is None or not self.running[-1].done():
+            return None
+        picture, parts, outputs, partial, future = self.running
+        self.running = None
+        result = future.result()
+        if "code" in result:
+            return picture, partial, self.drop_damaged(parts, result)
+        self.last_s, self.took_s = time.monotonic(), result["seconds"]
+        if partial:
+            ranges = union([one for part in parts for one in part.ranges], [])
+            self.job.add(Part(picture.frame, ranges, str(pathlib.Path(outputs[0]).relative_to(
+                self.job.folder)), "merge", sum(part.wall_s for part in parts), sum(part.cpu_s for part in parts),
+                of=[part.file for part in parts], count=sum(part.count for part in parts)))
+        return picture, partial, result["report"]
+
+    def drop_damaged(self, parts: list[Part], failure: dict) -> Ranges:
+        """A refused part names its file."""
+        for part in parts:
+            if failure["code"] == 3 and failure["line"].startswith(f"{self.job.folder / part.file}: "):
+                self.job.drop(part.file)
+                self.job.retries += 1
+                return part.ranges
+        raise Stop(failure["code"], failure["line"])
+
+
+def missing_line(job: Job, pictures: list[Picture]) -> str:
+    """Which samples a job lacks that did not come to its end."""
+    rows = []
+    for picture in pictures:
+        missing = job.missing(picture.frame, picture.end)
+        if missing and not picture.is_written:
+            rows.append(f"samples {text(missing)} of frame {picture.frame}" if len(pictures) > 1
+                        else f"samples {text(missing)}")
+    if len(rows) > 3:
+        rows = [*rows[:3], f"those of {len(rows) - 3} frames more"]
+    return ", ".join(rows) if rows else "nothing"
+
+
+def samples_of(job: Job, picture: Picture) -> int:
+    return size(job.samples(picture.frame))

@@ -1,0 +1,149 @@
+"""Who renders what next. Work lies in lanes of whole numbers: the samples of a frame, or the frames of a film. A task
+is a range of a lane. Nothing here knows of Dask, renders or clocks: times are told."""
+
+import dataclasses
+import itertools
+import math
+import statistics
+
+from farm_ranges import Ranges, difference, size, union
+
+TASK_S = 40.0  # what a task should take: long against the start of a render, short against what a death loses
+MIN_TASK_S = 10.0
+LAST_SHARE = 0.75  # of what is left for each worker, its next task near the end: those after it are smaller
+FIRST_SHARE = 32  # of the work of each worker, its first task, which measures its speed
+STRAGGLER = 1.5  # times as long as expected, and
+STRAGGLER_S = 2.0  # so much longer: another worker gets the same task
+HUNG = 8.0  # times as long as expected, and
+HUNG_S = 120.0  # so much longer: the render is ended
+MAX_TRIES = 5
+
+
+@dataclasses.dataclass
+class Task:
+    lane: int
+    first: int
+    end: int
+    number: int = 0
+    tries: int = 0
+    runs: dict[str, float] = dataclasses.field(default_factory=dict)  # when it began, by worker
+
+    def units(self) -> int:
+        return self.end - self.first
+
+
+@dataclasses.dataclass
+class Speed:
+    """Units per second of a worker."""
+    units_per_s: float = 0.0
+    units: int = 0
+    busy_s: float = 0.0
+
+    def add(self, units: int, seconds: float) -> None:
+        self.units += units
+        self.busy_s += seconds
+        now = units / max(seconds, 1e-3)
+        self.units_per_s = now if self.units_per_s == 0.0 else 0.5 * (self.units_per_s + now)
+
+
+class Work:
+    """Ranges that nobody works on yet, and tasks that run."""
+
+    def __init__(self) -> None:
+        self.lanes: dict[int, Ranges] = {}
+        self.again: list[Task] = []
+        self.running: dict[int, Task] = {}
+        self.speeds: dict[str, Speed] = {}
+        self.numbers = itertools.count()
+
+    def add(self, lane: int, ranges: Ranges) -> None:
+        self.lanes[lane] = union(self.lanes.get(lane, []), ranges)
+        if not self.lanes[lane]:
+            del self.lanes[lane]
+
+    def left(self) -> int:
+        """Units that nobody works on."""
+        return sum(size(ranges) for ranges in self.lanes.values()) + sum(task.units() for task in self.again)
+
+    def is_idle(self, lane: int) -> bool:
+        return lane not in self.lanes and all(task.lane != lane for task in [*self.again, *self.running.values()])
+
+    def speed(self, worker: str) -> float:
+        """What was measured, or the median of the others, or 0."""
+        own = self.speeds.get(worker, Speed()).units_per_s
+        known = [speed.units_per_s for speed in self.speeds.values() if speed.units_per_s > 0.0]
+        return own or (statistics.median(known) if known else 0.0)
+
+    def size_for(self, worker: str, workers: int) -> int:
+        """Units of the next task: TASK_S of them, fewer at the end, so that all workers end together."""
+        left = self.left()
+        speed = self.speed(worker)
+        if speed == 0.0:
+            return max(1, left // (workers * FIRST_SHARE))
+        fair = max(math.ceil(LAST_SHARE * left / workers), math.ceil(speed * MIN_TASK_S))
+        return max(1, min(fair, int(speed * TASK_S)))
+
+    def next_task(self, worker: str, workers: int, now_s: float) -> Task | None:
+        """A task that failed elsewhere, a new one, or one that another worker is late with."""
+        task = self.failed_elsewhere(worker) or self.new_task(worker, workers) or self.straggler(worker, now_s)
+        if task is None:
+            return None
+        task.runs[worker] = now_s
+        self.running[task.number] = task
+        return task
+
+    def failed_elsewhere(self, worker: str) -> Task | None:
+        return self.again.pop(0) if self.again else None
+
+    def new_task(self, worker: str, workers: int) -> Task | None:
+        if not self.lanes:
+            return None
+        lane = min(self.lanes)
+        first, end = self.lanes[lane][0]
+        end = min(end, first + self.size_for(worker, workers))
+        self.lanes[lane] = difference(self.lanes[lane], [(first, end)])
+        if not self.lanes[lane]:
+            del self.lanes[lane]
+        return Task(lane, first, end, next(self.numbers))
+
+    def expected_s(self, task: Task, worker: str) -> float | None:
+        speed = self.speed(worker)
+        return task.units() / speed if speed > 0.0 else None
+
+    def straggler(self, worker: str, now_s: float) -> Task | None:
+        late = []
+        for task in self.running.values():
+            runs = list(task.runs.items())
+            if len(runs) != 1 or runs[0][0] == worker:
+                continue
+            expected_s = self.expected_s(task, runs[0][0])
+            elapsed_s = now_s - runs[0][1]
+            if expected_s is not None and elapsed_s > STRAGGLER * expected_s + STRAGGLER_S:
+                late.append((elapsed_s / expected_s, task))
+        return max(late, key=lambda row: row[0])[1] if late else None
+
+    def patience_s(self, task: Task, worker: str) -> float:
+        """After which a render that does not end is taken for hung."""
+        expected_s = self.expected_s(task, worker)
+        return HUNG_S + HUNG * expected_s if expected_s is not None else 24 * 3600.0
+
+    def end(self, task: Task, worker: str, units: int, seconds: float) -> bool:
+        """It is done by this worker; False when another was faster."""
+        self.speeds.setdefault(worker, Speed()).add(units, seconds)
+        return self.running.pop(task.number, None) is not None
+
+    def fail(self, task: Task, worker: str) -> None:
+        """This worker will not do it: another one does, or works on it already."""
+        task.runs.pop(worker, None)
+        if task.number not in self.running or task.runs:
+            return
+        del self.running[task.number]
+        task.tries += 1
+        self.again.append(task)
+
+    def remaining_s(self, workers: list[str]) -> float | None:
+        """At the speeds so far, what is running counted as half done."""
+        speed = sum(self.speed(worker) for worker in workers)
+        if speed == 0.0:
+            return None
+        return (self.left() + 0.5 * sum(task.units() for task in self.running.values())) / speed

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "renderer/edit_history.h"
+#include "world/pick_voxel.h"
+
+namespace voxilux {
+
+struct ViewState;
+
+// What the left button does.
+enum class Tool : std::uint8_t { view, place, remove, paint, fill, pick };
+inline constexpr std::array<std::string_view, 6> kToolNames{"view",  "place", "remove",
+                                                            "paint", "fill",  "pick"};
+
+inline constexpr int kMaxBrush = 32;
+
+struct EditState {
+    Tool tool = Tool::view;
+    int brush = 1;  // voxels along the edge of a cube
+    std::uint32_t material = 0;
+    std::optional<PickedVoxel> target;     // under the pointer
+    std::optional<glm::ivec3> fill_begin;  // the cell where a box begins
+    EditHistory history;
+    std::uint64_t edits = 0;  // that were made, taken back or made again
+};
+
+// The cells that the tool would change at its target.
+[[nodiscard]] std::optional<Box> tool_box(const EditState& edit);
+
+// The left button goes down, the pointer moves while it is down, it goes up. With the tool `view`: nothing.
+void begin_stroke(ViewState& state);
+void move_stroke(ViewState& state);
+void end_stroke(ViewState& state);
+
+// Makes edits that can be taken back. What cannot be done becomes the state's message.
+void make_edits(std::span<const BoxEdit> edits, ViewState& state);
+void undo_edit(ViewState& state);
+void redo_edit(ViewState& state);
+
+// Finds what is under the pointer, in a window of so many pixels.
+void aim(glm::ivec2 window, ViewState& state);
+
+// Writes the scene's .vox file with the edits.
+void save_edits(const std::filesystem::path& file, ViewState& state);
+
+}  // namespace voxilux

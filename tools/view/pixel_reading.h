@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "film/film_sums.h"
+
+namespace voxilux {
+
+// What a film knows of one pixel.
+struct PixelReading {
+    glm::ivec2 pixel{0};
+    glm::vec3 radiance{0.0f};  // the mean
+    float error = 0.0f;        // standard error of its luminance
+    std::uint32_t samples = 0;
+    std::optional<glm::vec3> channel;  // the mean of the plane `channel_name`; one number three times
+};
+
+}  // namespace voxilux

@@ -1,0 +1,72 @@
+#include "view/view_report.h"
+
+#include <utility>
+
+#include "view/picture_look.h"
+#include "write_json.h"
+
+namespace voxilux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What the film claimed after how many samples and seconds of taking them.
+Json errors_json(const LiveErrors& errors) {
+    Json json = Json::array();
+    for (const LiveError& point : errors.points())
+        json.push_back({{"samples", point.samples},
+                        {"seconds", point.seconds},
+                        {"error", point.error},
+                        {"high", point.high}});
+    return json;
+}
+
+// What the readout says; null where there is none.
+Json json_of(const ViewState& state) {
+    Json json;
+    if (const auto& target = state.edit.target)
+        json["voxel"] = {target->cell.x, target->cell.y, target->cell.z};
+    if (const auto& target = state.edit.target) json["material"] = target->material;
+    if (const auto& reading = state.reading) {
+        json["place"] = {reading->pixel.x, reading->pixel.y};
+        json["radiance"] = {reading->radiance.x, reading->radiance.y, reading->radiance.z};
+        json["error"] = reading->error;
+        json["samples"] = reading->samples;
+    }
+    return json;
+}
+
+}  // namespace
+
+void ViewReport::add_frame(double seconds, double show_s) {
+    frames_.push_back({{"ms", 1000.0 * seconds},
+                       {"step_ms", 1000.0 * std::exchange(step_s_, 0.0)},
+                       {"show_ms", 1000.0 * show_s},
+                       {"samples", last_.samples},
+                       {"width", last_.size.x},
+                       {"height", last_.size.y}});
+}
+
+void ViewReport::write(const std::string& file, const ViewState& state, glm::ivec2 window,
+                       const std::vector<std::string>& messages) const {
+    const Camera& camera = state.view.camera;
+    write_json(file, {{"first_picture_ms", 1000.0 * first_s_},
+                      {"frames", frames_},
+                      {"shown",
+                       {{"input", state.input.string()},
+                        {"window", {window.x, window.y}},
+                        {"camera",
+                         {{"position", {camera.position.x, camera.position.y, camera.position.z}},
+                          {"yaw", camera.yaw_deg},
+                          {"pitch", camera.pitch_deg},
+                          {"fov_y", camera.fov_y_deg}}},
+                        {"channel", name_of(state.look.channel)},
+                        {"pixel", json_of(state)},
+                        {"edits", state.edit.edits},
+                        {"undo", state.edit.history.undo_count()},
+                        {"message", state.message}}},
+                      {"errors", errors_json(state.picture.errors())},
+                      {"messages", messages}});
+}
+
+}  // namespace voxilux
