@@ -117,6 +117,15 @@ struct RenderPlan {
     [[nodiscard]] bool sends_caustics_on() const {
         return is_by_photons(Effect::caustics) && is_by_paths(Effect::indirect);
     }
+    // Whether paths take the light of emitters that their first rays meet, in place of a ray of direct light.
+    [[nodiscard]] bool paths_share_direct() const {
+        return has(Effect::direct) && is_by_paths(Effect::indirect) && !settings.paths.plain;
+    }
+    // Whether paths need the normal of the visible point: to weigh what they meet first, or to aim at the
+    // sun.
+    [[nodiscard]] bool paths_keep_normals() const {
+        return paths_share_direct() || (paths_find_sun_caustics && has(Effect::sun));
+    }
     // Invocations that trace the paths of so many rows.
     [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {
         const std::uint64_t pixels = std::uint64_t{rows} * static_cast<std::uint64_t>(settings.size.x);

@@ -2,7 +2,10 @@
 #ifndef VX_PATH_START_GLSL
 #define VX_PATH_START_GLSL
 
+#include "lib/constants.glsl"
 #include "shared/gpu_types.h"
+
+VX_SPECIALIZED(uint, keeps_normals, 0u);
 
 layout(rgba32ui) uniform uimageBuffer Starts;
 
@@ -11,6 +14,7 @@ void put_path_start(uint i, PathStart start) {
     imageStore(Starts, first, uvec4(start.cell, start.stream));
     imageStore(Starts, first + 1, uvec4(floatBitsToUint(start.fraction), start.own));
     imageStore(Starts, first + 2, uvec4(floatBitsToUint(start.direction), start.medium));
+    if (keeps_normals != 0u) imageStore(Starts, first + 3, uvec4(floatBitsToUint(start.normal), 0u));
 }
 
 PathStart path_start(uint i) {
@@ -25,6 +29,8 @@ PathStart path_start(uint i) {
     start.own = fraction.w;
     start.direction = uintBitsToFloat(direction.xyz);
     start.medium = direction.w;
+    start.normal = vec3(0.0, 0.0, 1.0);
+    if (keeps_normals != 0u) start.normal = uintBitsToFloat(imageLoad(Starts, first + 3).xyz);
     return start;
 }
 

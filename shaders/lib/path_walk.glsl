@@ -3,10 +3,11 @@
 // (Veach and Guibas 1995).
 // Include lib/path.glsl and lib/lights.glsl first.
 //
-// Each way of light is found once. Straight to the visible point: from the sky by the path; from sun and emitters by
-// sun.trace and direct.trace, so the path leaves them out. From sun and emitters by mirrors and glass to a diffuse
-// surface, the visible point or a later one: by the path where it finds those (finds_sun_caustics,
-// finds_emitter_caustics), else by photons. All other light: by the path.
+// Each way of light is found once. Straight to the visible point: from the sky by the path; from the sun by sun.trace;
+// from emitters by direct.trace, which aims at them, and by the path's first ray, which meets them (shares_direct), or
+// else by direct.trace alone. From sun and emitters by mirrors and glass to a diffuse surface, the visible point or a
+// later one: by the path where it finds those (finds_sun_caustics, finds_emitter_caustics), else by photons. All other
+// light: by the path.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
@@ -21,6 +22,7 @@ VX_SPECIALIZED(uint, has_specular, 0u);
 VX_SPECIALIZED(uint, finds_sun_caustics, 0u);
 VX_SPECIALIZED(uint, finds_emitter_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
+VX_SPECIALIZED(uint, shares_direct, 0u);  // direct.trace leaves what the first ray meets to the path
 VX_SPECIALIZED(uint, min_surfaces, 4u);   // after the visible point, that roulette leaves alone
 
 const uint kRayNone = 0u;  // no path is under way
@@ -101,6 +103,8 @@ Walk first_walk(PathStart start, vec3 light) {
     walk.ray.own = start.own;
     walk.vertex = walk.ray;
     walk.vertex.medium = start.medium;
+    walk.normal = start.normal;
+    walk.pdf = max(dot(start.normal, start.direction), 0.0) * kInversePi;
     walk.ahead = walk.ray.direction;
     walk.stream = start.stream;
     walk.throughput = vec3(is_path ? 1.0 : 0.0);
@@ -158,7 +162,7 @@ void set_direction(inout Walk walk, vec3 direction) {
 // Of the light of sun and emitters that the path's own ray meets: 0 where others find it, 1 where nothing else does.
 float share_of_path(Walk walk, float emitter_pdf, uint finds_caustics) {
     if (!walk.is_straight) return float(finds_caustics);
-    if (walk.vertices == 1u) return 0.0;
+    if (walk.vertices == 1u && shares_direct == 0u) return 0.0;
     return aims_at_emitters != 0u ? balance_weight(walk.pdf, emitter_pdf) : 1.0;
 }
 

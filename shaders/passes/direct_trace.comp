@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // Light that reaches each hit straight from an emitter: the mean of the emitters' radiance over the cosine-weighted hemisphere,
-// irradiance / pi. One ray goes to an emitter drawn by power, one where a diffuse surface would send it; the balance
-// heuristic weighs them. Source: Veach and Guibas 1995.
+// irradiance / pi. One ray goes to an emitter drawn by power, one where a diffuse surface would send it, unless paths do
+// that; the balance heuristic weighs them. Source: Veach and Guibas 1995.
 
 #include "lib/address.glsl"
 
@@ -20,13 +20,15 @@ layout(scalar) writeonly buffer Direct {
     vec3 direct[];
 };
 
+VX_SPECIALIZED(uint, rays, 2u);  // 1: others follow the second one
+
 void main() {
     init_scene();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = load_hit(pixel.index);
     vec3 light = vec3(0.0);
-    uint rays = 0u;
+    uint traced_rays = 0u;
     if (is_surface(hit) && hit.face != kFaceInside) {
         SampleKey key = pixel_key(pixel);
         vec3 normal = surface_normal(hit);
@@ -35,12 +37,12 @@ void main() {
         vec2 u_surface = draw_2d(key, kPairSurface);
         uint bits = unit_bits(draw_1d(key, 2u * kPairEmitter));
         LightSample aim = aim_at_emitter(origin, bits, sample_1d(kSequenceWhite, key, 2u * kPairEmitter + 1u), u_emitter);
-        for (uint i = 0u; i < 2u; ++i) {
+        for (uint i = 0u; i < rays; ++i) {
             vec3 direction = i == 0u ? aim.direction : cosine_about(normal, u_surface);
             float cosine = dot(normal, direction);
             bool traced = cosine > 0.0 && (i == 1u || aim.pdf > 0.0);
             if (!traced) continue;
-            ++rays;
+            ++traced_rays;
             Hit met = next_hit(path_from(hit, direction)).hit;
             if (!is_surface(met) || (i == 0u && !is_on_emitter(met, aim.emitter))) continue;
             vec3 emission = material_emission(met.material);
@@ -51,6 +53,6 @@ void main() {
             light += emission * (weight * (i == 0u ? surface_pdf / aim.pdf : 1.0));
         }
     }
-    count(kWorkPathSegments, rays);
+    count(kWorkPathSegments, traced_rays);
     direct[pixel.index] = light;
 }

@@ -34,12 +34,14 @@ void main() {
     start.cell = ivec3(-1);
     start.fraction = vec3(0.5);
     start.direction = vec3(0.0);
+    start.normal = vec3(0.0, 0.0, 1.0);
     start.own = kNoSphere;
     start.medium = kNoMedium;
     start.stream = pixel_stream(pixel);
     if (is_surface(hit) && hit.face != kFaceInside) {
         vec2 u = draw_2d(pixel_key(pixel), kPairPath);
-        Ray ray = ray_from(hit, cosine_about(surface_normal(hit), u), kUnbounded);
+        start.normal = surface_normal(hit);
+        Ray ray = ray_from(hit, cosine_about(start.normal, u), kUnbounded);
         start.cell = ray.cell;
         start.fraction = ray.fraction;
         start.direction = ray.direction;

@@ -25,9 +25,6 @@
 VX_SPECIALIZED(uint, direct_stride, 0u);
 VX_SPECIALIZED(uint, has_rounds, 0u);  // paths go on from States
 
-layout(scalar) readonly buffer Hits {
-    Hit hits[];
-};
 layout(r32ui) readonly uniform uimageBuffer Direct;
 layout(scalar) writeonly buffer Light {
     vec3 light[];
@@ -73,10 +70,7 @@ void main() {
         if (walk.kind == kRayNone) {
             if (next_id >= end) break;
             walk = first_walk(path_start(next_id), direct_light(next_id));
-            if (has_glints && is_surface(hits[next_id])) {
-                walk.normal = surface_normal(hits[next_id]);
-                leave(walk, kRayNone);
-            }
+            if (has_glints && walk.throughput.x > 0.0) leave(walk, kRayNone);
             next_id += push.lanes;
         }
         PathHit found = next_hit(walk.ray);

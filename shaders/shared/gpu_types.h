@@ -158,8 +158,10 @@ struct PathStart {
     uint own;  // the sphere that it starts on, or kNoSphere
     vec3 direction;
     uint medium;  // material of the glass voxel that the visible point is in, or kNoMedium
+    vec3 normal;  // unit, on the side that was hit; only where the plan needs it
+    uint pad_0;   // four texels of four words
 };
-VX_CONST(uint, kPathStartTexels, 3u);
+VX_CONST(uint, kPathStartTexels, 4u);
 
 // A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
 struct PathState {

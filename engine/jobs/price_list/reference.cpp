@@ -115,10 +115,11 @@ ReferenceNoise Reference::noise() const {
     return {.square = square, .low = square * spread * spread, .high = square / (spread * spread)};
 }
 
-RenderSettings reference_settings(const Configuration& base, bool has_photons) {
+RenderSettings reference_settings(const Configuration& base, const RenderPlan& plan) {
     RenderSettings settings = base.settings;
-    settings.ao.method = AoMethod::brute;
-    if (!has_photons) return settings;
+    // Elsewhere, naming a way of finding occlusion would put occlusion in the place of paths.
+    if (plan.has(Effect::ao)) settings.ao.method = AoMethod::brute;
+    if (!plan.photons.runs()) return settings;
     PhotonSettings& photons = settings.photons;
     photons.classic = false;
     photons.scatter = false;
@@ -133,7 +134,8 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     Measured first = measure_once(
         session, {.configuration = job.base, .frame = job.frame, .seed = kSeeds[0], .samples = 1});
     const bool has_photons = first.outcome.plan.photons.runs();
-    Configuration configuration{.settings = reference_settings(job.base, has_photons), .request = request};
+    Configuration configuration{.settings = reference_settings(job.base, first.outcome.plan),
+                                .request = request};
     if (has_photons)
         configuration.settings.photons.count =
             max_photons(session, job, configuration, first.outcome.plan.photons.count());

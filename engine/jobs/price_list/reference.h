@@ -36,7 +36,7 @@ struct ReferenceJob {
 // it has at least half of the samples that would be taken now.
 [[nodiscard]] Reference make_reference(RenderSession& session, const ReferenceJob& job);
 
-// The settings of a reference of a scene that is rendered as `base` says.
-[[nodiscard]] RenderSettings reference_settings(const Configuration& base, bool has_photons);
+// The settings of a reference of a scene that is rendered as `base` says, which `plan` is of.
+[[nodiscard]] RenderSettings reference_settings(const Configuration& base, const RenderPlan& plan);
 
 }  // namespace voxilux

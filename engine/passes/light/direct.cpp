@@ -16,6 +16,7 @@ Plane record_direct_trace(const RenderPlan& plan, const DispatchTile& tile, cons
                                                        {"LightTable", light_table_buffer(plan, recording)},
                                                        {"Hits", hits.buffer},
                                                        {"Direct", direct.buffer}});
+    dispatch.constants.push_back({"rays", plan.paths_share_direct() ? 1u : 2u});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return direct;

@@ -21,11 +21,12 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
     // Where paths aim at images of the sun from visible points in glass.
     const bool finds_media = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
     dispatch.constants.push_back({"finds_media", finds_media ? 1u : 0u});
+    dispatch.constants.push_back({"keeps_normals", plan.paths_keep_normals() ? 1u : 0u});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
 
-Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hits, const Plane& direct,
+Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& direct,
                     const std::string& starts, const std::string& light, Recording& recording) {
     const bool has_emitters = plan.has(Effect::emission) && plan.world.lights.count != 0;
     const std::string states =
@@ -40,8 +41,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
     const auto emitter_buffer = [&](std::string (*buffer)(const RenderPlan&, Recording&)) {
         return has_emitters ? buffer(plan, recording) : placeholder_buffer(recording);
     };
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Hits", hits.buffer},
-                                                       {"Lights", emitter_buffer(lights_buffer)},
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"Starts", starts},
                                                        {"Direct", direct.buffer},
@@ -59,6 +59,8 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& hi
          {"finds_sun_caustics", plan.paths_find_sun_caustics ? 1u : 0u},
          {"finds_emitter_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
          {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
+         {"shares_direct", plan.paths_share_direct() ? 1u : 0u},
+         {"keeps_normals", plan.paths_keep_normals() ? 1u : 0u},
          {"direct_stride", direct.stride},
          {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
@@ -73,7 +75,7 @@ Plane record_paths(const RenderPlan& plan, const DispatchTile& tile, const Plane
     const Plane light{declare_plane<gpu::vec3>(plan, "path.light", recording)};
     record_path_start(plan, tile, hits, starts, recording);
     const std::uint32_t lanes = plan.path_lanes(tile.row_count);
-    const Dispatch dispatch = path_trace(plan, lanes, hits, direct, starts, light.buffer, recording);
+    const Dispatch dispatch = path_trace(plan, lanes, direct, starts, light.buffer, recording);
     if (plan.paths.rounds > 1) recording.clear("path.states");
     for (std::uint32_t round = 1; round <= plan.paths.rounds; ++round) {
         Dispatch trace = dispatch;

@@ -40,13 +40,6 @@ const std::vector<Layout>& layouts() {
     static const std::vector<Layout> rows = {
         VX_LAYOUT(Hit, VX_MEMBER(Hit, cell), VX_MEMBER(Hit, face), VX_MEMBER(Hit, fraction),
                   VX_MEMBER(Hit, t), VX_MEMBER(Hit, material), VX_MEMBER(Hit, sphere)),
-        VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, mirror),
-                  VX_MEMBER(SurfaceMaterial, emission), VX_MEMBER(SurfaceMaterial, glass),
-                  VX_MEMBER(SurfaceMaterial, ior), VX_MEMBER(SurfaceMaterial, pad_0),
-                  VX_MEMBER(SurfaceMaterial, pad_1), VX_MEMBER(SurfaceMaterial, pad_2)),
-        VX_LAYOUT(LightRecord, VX_MEMBER(LightRecord, cell), VX_MEMBER(LightRecord, what)),
-        VX_LAYOUT(AliasEntry, VX_MEMBER(AliasEntry, keep), VX_MEMBER(AliasEntry, other),
-                  VX_MEMBER(AliasEntry, pdf)),
         VX_LAYOUT(Sphere, VX_MEMBER(Sphere, anchor), VX_MEMBER(Sphere, curvature), VX_MEMBER(Sphere, normal)),
         VX_LAYOUT(SphereRecord, VX_MEMBER(SphereRecord, shape), VX_MEMBER(SphereRecord, material)),
         VX_LAYOUT(SphereNode, VX_MEMBER(SphereNode, low), VX_MEMBER(SphereNode, next),
@@ -160,6 +153,42 @@ StructInfo first_in_shaders(const std::string& name) {
     for (const NamedProgram& program : programs())
         if (const StructInfo* type = program.info.find_struct(name)) return *type;
     return {};
+}
+
+// What shaders read texel by texel, by the place of a member: lib/materials.glsl, lib/lights.glsl,
+// lib/path_start.glsl.
+TEST(StructLayout, members_of_texels_are_where_shaders_look_for_them) {
+    const std::vector<Layout> wanted = {
+        {"SurfaceMaterial",
+         48,
+         {{"albedo", 0}, {"mirror", 12}, {"emission", 16}, {"glass", 28}, {"ior", 32}}},
+        {"LightRecord", 16, {{"cell", 0}, {"what", 12}}},
+        {"AliasEntry", 12, {{"keep", 0}, {"other", 4}, {"pdf", 8}}},
+        {"PathStart",
+         64,
+         {{"cell", 0},
+          {"stream", 12},
+          {"fraction", 16},
+          {"own", 28},
+          {"direction", 32},
+          {"medium", 44},
+          {"normal", 48}}}};
+    const std::vector<Layout> rows = {
+        VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, mirror),
+                  VX_MEMBER(SurfaceMaterial, emission), VX_MEMBER(SurfaceMaterial, glass),
+                  VX_MEMBER(SurfaceMaterial, ior)),
+        VX_LAYOUT(LightRecord, VX_MEMBER(LightRecord, cell), VX_MEMBER(LightRecord, what)),
+        VX_LAYOUT(AliasEntry, VX_MEMBER(AliasEntry, keep), VX_MEMBER(AliasEntry, other),
+                  VX_MEMBER(AliasEntry, pdf)),
+        VX_LAYOUT(PathStart, VX_MEMBER(PathStart, cell), VX_MEMBER(PathStart, stream),
+                  VX_MEMBER(PathStart, fraction), VX_MEMBER(PathStart, own), VX_MEMBER(PathStart, direction),
+                  VX_MEMBER(PathStart, medium), VX_MEMBER(PathStart, normal))};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].size_bytes, wanted[i].size_bytes) << wanted[i].name;
+        for (std::size_t m = 0; m < wanted[i].members.size(); ++m)
+            EXPECT_EQ(rows[i].members[m].offset, wanted[i].members[m].offset)
+                << wanted[i].name << ' ' << wanted[i].members[m].name;
+    }
 }
 
 TEST(StructLayout, every_struct_has_the_same_offsets_in_cpp_and_in_every_shader) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "jobs/price_list/price_list.h"
+#include "jobs/price_list/reference.h"
 #include "scene/technique_choice.h"
 
 namespace voxilux {
@@ -82,6 +83,14 @@ TEST(Parameters, change_one_setting_and_share_the_default) {
     }
     EXPECT_EQ(design.configurations.size(),
               1u + 2u + 5u + 1u + 4u + 3u);  // base, sequences, worlds, hash, cells, rays
+}
+
+// Whoever names a way of finding occlusion asks for it in the place of paths.
+TEST(Reference, names_a_way_of_occlusion_only_where_the_plan_has_occlusion) {
+    const RenderPlan by_paths = plan_with({Effect::voxels, Effect::sky, Effect::indirect});
+    EXPECT_EQ(reference_settings({}, by_paths), RenderSettings{});
+    const RenderPlan by_occlusion = plan_with({Effect::voxels, Effect::sky, Effect::ao});
+    EXPECT_EQ(reference_settings({}, by_occlusion).ao.method, AoMethod::brute);
 }
 
 Level level_of(std::uint32_t samples, double time_s, double error) {
