@@ -98,7 +98,9 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
         facts.has_glass |= shares.glass > 0.0f;
         facts.has_metal |= shares.mirror > 0.0f;
         if (shares.mirror + shares.glass < 1.0f)
-            facts.max_albedo = std::max(facts.max_albedo, double{std::max({material.albedo.x, material.albedo.y, material.albedo.z})});
+            facts.max_albedo =
+                std::max(facts.max_albedo,
+                         double{std::max({material.albedo.x, material.albedo.y, material.albedo.z})});
         simplifications.add(material);
     }
     facts.simplified = simplifications.sentences();
