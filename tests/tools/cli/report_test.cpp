@@ -89,7 +89,7 @@ TEST(Report, plan_promises_what_the_render_does) {
     EXPECT_EQ(keys_of(plan),
               (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
                                      "memory", "forecast", "rays", "notes", "traversal", "occlusion",
-                                     "photons", "techniques"}));
+                                     "photons", "techniques", "end_bytes"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
     EXPECT_EQ(keys_of(plan["occlusion"]), (std::set<std::string>{"method", "reason", "slots"}));
