@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"unknown_flag_with_value", one_voxel_with({"--spq=3"}),
                 "no flag --spq; did you mean '--spp'?"},
         Refused{"no_input", {"render", "-o", "a.png"}, "INPUT is required"},
-        Refused{"two_inputs", one_voxel_with({"b.vox"}), "'b.vox' is one argument too many"},
+        Refused{"two_inputs", {"plan", scene_file("one_voxel"), "b.vox"}, "the plan is of one INPUT"},
         Refused{"size_without_value", one_voxel_with({"--size"}), "--size"},
         Refused{"size_not_a_size", one_voxel_with({"--size", "640"}), "--size: '640' is not WIDTHxHEIGHT"},
         Refused{"size_of_nothing", one_voxel_with({"--size", "0x9"}), "--size: '0x9' is not WIDTHxHEIGHT"},
