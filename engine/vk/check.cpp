@@ -36,6 +36,8 @@ std::string_view result_name(VkResult result) {
             return "VK_ERROR_TOO_MANY_OBJECTS";
         case VK_ERROR_OUT_OF_POOL_MEMORY:
             return "VK_ERROR_OUT_OF_POOL_MEMORY";
+        case VK_ERROR_UNKNOWN:
+            return "VK_ERROR_UNKNOWN";
         case VK_ERROR_INVALID_SHADER_NV:
             return "VK_ERROR_INVALID_SHADER_NV";
         default:
@@ -61,6 +63,9 @@ void vk_check(VkResult result, std::string_view what) {
         case VK_ERROR_INITIALIZATION_FAILED:
         case VK_ERROR_INCOMPATIBLE_DRIVER:
             throw Error(ExitCode::no_device, fmt::format("the Vulkan driver does not start: {}", cause));
+        case VK_ERROR_UNKNOWN:  // lavapipe's answer where it has no memory for its threads
+            throw Error(ExitCode::no_device,
+                        fmt::format("the Vulkan driver fails and does not say why: {}", cause));
         default:
             throw InternalError(fmt::format("internal error: {}", cause));
     }

@@ -10,8 +10,8 @@ namespace voxilux {
 [[nodiscard]] std::string_view result_name(VkResult result);
 
 // Throws what a failed call deserves: Error(device_lost), Error(out_of_memory), Error(no_device) for a driver
-// that cannot start, else InternalError. `what` says the call and its object: "create buffer 'ao.cells' (4096
-// bytes)".
+// that cannot start or does not say why, else InternalError. `what` says the call and its object: "create
+// buffer 'ao.cells' (4096 bytes)".
 void vk_check(VkResult result, std::string_view what);
 
 }  // namespace voxilux

@@ -56,6 +56,7 @@ TEST(ExitMessage, failed_vulkan_calls_map_to_their_codes) {
     EXPECT_EQ(code_of(VK_ERROR_OUT_OF_HOST_MEMORY), 74);
     EXPECT_EQ(code_of(VK_ERROR_INCOMPATIBLE_DRIVER), 69);
     EXPECT_EQ(code_of(VK_ERROR_INITIALIZATION_FAILED), 69);
+    EXPECT_EQ(code_of(VK_ERROR_UNKNOWN), 69);
     EXPECT_EQ(code_of(VK_ERROR_FORMAT_NOT_SUPPORTED), 70);
 }
 
