@@ -19,6 +19,18 @@ double radians(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
+// `local`: relative to the world.
+void check_place(const char* what, const Camera& camera, glm::dvec3 local) {
+    for (int a = 0; a < 3; ++a) {
+        if (!(std::abs(local[a]) < kFarthestCamera)) {
+            throw Error(
+                ExitCode::input_refused,
+                fmt::format("{} ({}, {}, {}) is over {} voxels from the scene", what, camera.position.x,
+                            camera.position.y, camera.position.z, kFarthestCamera));
+        }
+    }
+}
+
 // The corner of an image on the pixel grid as a corner of voxels and the pixels from there to the image's.
 glm::uvec2 split_corner(glm::dvec3& corner, const glm::dmat3& basis, double pixels_per_voxel) {
     glm::uvec2 pixel(0);
@@ -40,7 +52,10 @@ void place_image(gpu::FrameParams& params, const Camera& camera, glm::dvec3 loca
     const glm::dmat3 basis = camera_basis(camera);
     const double scale = camera.pixels_per_voxel;
     VX_ASSERT(scale > 0.0);
-    glm::dvec3 corner = local + (size.y * basis[1] - size.x * basis[0]) / (2.0 * scale);
+    const glm::dvec3 half = (size.y * basis[1] - size.x * basis[0]) / (2.0 * scale);
+    for (const double side : {-1.0, 1.0})
+        check_place("a corner of the image of the camera at", camera, local + side * half);
+    glm::dvec3 corner = local + half;
     const bool has_grid = has_pixel_grid(camera);
     if (has_grid) params.camera_pixel = split_corner(corner, basis, scale);
     params.camera_block = has_grid ? static_cast<gpu::uint>(scale) : 1u;
@@ -54,14 +69,7 @@ void place_image(gpu::FrameParams& params, const Camera& camera, glm::dvec3 loca
 void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 origin, glm::ivec2 size) {
     const glm::dvec3 local = camera.position - glm::dvec3(origin);
     const glm::dvec3 cell = glm::floor(local);
-    for (int a = 0; a < 3; ++a) {
-        if (!(std::abs(local[a]) < kFarthestCamera)) {
-            throw Error(
-                ExitCode::input_refused,
-                fmt::format("camera position ({}, {}, {}) is over {} voxels from the scene",
-                            camera.position.x, camera.position.y, camera.position.z, kFarthestCamera));
-        }
-    }
+    check_place("camera position", camera, local);
     params.camera_cell = glm::ivec3(cell);
     params.camera_fraction = glm::vec3(local - cell);
     const glm::dmat3 basis = camera_basis(camera);

@@ -71,7 +71,11 @@ VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
     const float lower =
         max(distance(beam.axis, pinhole_direction(frame, projection, left, top + edge)),
             distance(beam.axis, pinhole_direction(frame, projection, left + edge, top + edge)));
-    beam.spread = max(upper, lower) * kBeamMargin + kBeamError;
+    float widest = max(upper, lower);
+    // Where the angle ends at pi, an edge may bulge beyond the corners. An equidistant map stretches nothing,
+    // so the angle of half a tile's diagonal bounds all of it.
+    if (projection == kFisheye) widest = 1.41421356f * edge * frame.camera_angle / float(frame.height);
+    beam.spread = widest * kBeamMargin + kBeamError;
     beam.pad = vec3(kBeamPad);
     return beam;
 }

@@ -168,6 +168,36 @@ INSTANTIATE_TEST_SUITE_P(Traversals, BeamIn,
                          ::testing::ValuesIn(all_traversals().begin(), all_traversals().end()),
                          test::traversal_name);
 
+// Rays of the tile whose upper left pixel is (x, y) that its beam does not hold.
+int rays_outside(const gpu::FrameParams& camera, gpu::uint projection, gpu::uint x, gpu::uint y) {
+    const gpu::Beam beam = gpu::tile_beam(camera, projection, x, y);
+    int outside = 0;
+    for (gpu::uint i = 0; i <= 2 * gpu::kBeamPixels; ++i)
+        for (gpu::uint j = 0; j <= 2 * gpu::kBeamPixels; ++j) {
+            const float column = static_cast<float>(x) + 0.5f * static_cast<float>(i);
+            const float row = static_cast<float>(y) + 0.5f * static_cast<float>(j);
+            const glm::vec3 ray = gpu::panorama_direction(camera, projection, column, row);
+            outside += glm::length(ray - beam.axis) > beam.spread ? 1 : 0;
+        }
+    return outside;
+}
+
+TEST(Beam, holds_every_ray_of_panoramas_of_any_angle) {
+    for (const gpu::uint projection : {gpu::kEquirectangular, gpu::kFisheye})
+        for (const float degrees : {20.0f, 180.0f, 250.0f, 300.0f, 360.0f}) {
+            gpu::FrameParams camera =
+                with_projection(camera_at({2.5, 2.5, 2.5}, {1, 0, 0}, 0.4f), projection);
+            camera.width = 320;
+            camera.height = 180;
+            camera.camera_angle = glm::radians(degrees / 2.0f);
+            int outside = 0;
+            for (gpu::uint y = 0; y < camera.height; y += gpu::kBeamPixels)
+                for (gpu::uint x = 0; x < camera.width; x += gpu::kBeamPixels)
+                    outside += rays_outside(camera, projection, x, y);
+            EXPECT_EQ(outside, 0) << projection << ", " << degrees;
+        }
+}
+
 // A picture from above the sparse world, fine enough for its tiles to be narrow.
 gpu::FrameParams view_from_above() {
     gpu::FrameParams camera = camera_at({4.2, 5.1, 60.3}, glm::normalize(glm::vec3(1, 0.8f, -0.8f)), 0.4f);
