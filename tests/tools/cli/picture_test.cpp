@@ -134,6 +134,17 @@ TEST(Picture, colour_alone_is_written_when_asked_for) {
     EXPECT_EQ(read_exr(scratch / "a.exr").channels.size(), 5u) << "R, G, B, sampleCount.Y, error.Y";
 }
 
+// Its corners would lie farther away than coordinates of 32 bits reach.
+TEST(Picture, image_too_large_for_coordinates_is_refused) {
+    const ScratchFolder scratch;
+    const Ending ending =
+        run(small_mixed({"-o", scratch / "a.exr", "--camera", "front", "-D", "camera.projection=orthographic",
+                         "-D", "camera.pixels_per_voxel=1e-7"}));
+    EXPECT_EQ(ending.code, 3);
+    EXPECT_NE(ending.err.find("a corner of the image of the camera at"), std::string::npos) << ending.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
+}
+
 // P seen through the matrices of the header, as OpenEXR applies them to row vectors, is Z in front of the
 // camera and in its own pixel: OpenEXR, "Standard attributes", worldToCamera and worldToNDC.
 TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
