@@ -30,19 +30,19 @@ const QualityPreset& quality_named(std::string_view name) {
 }
 
 std::vector<std::string> overrides_of(const QualityPreset& preset) {
-    return {fmt::format("render.spp={}", preset.sky.samples),
+    return {fmt::format("render.spp={}", preset.plain.samples),
             fmt::format("render.ao_rays={}", preset.ao_rays)};
 }
 
 std::string quality_help() {
     std::string text = fmt::format(
         "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
-        "medians of {} scenes under the sky and {} with emitters, on\n{}:",
-        kSkyScenes, kEmitterScenes, kPricedOn);
+        "medians of {} plain scenes and {} in which photons run, on\n{}:",
+        kPlainScenes, kPhotonScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {
         text += fmt::format("\n{:<9}", preset.name);
-        const std::pair<const char*, QualityPrice> kinds[] = {{"sky", preset.sky},
-                                                              {"emitters", preset.emitters}};
+        const std::pair<const char*, QualityPrice> kinds[] = {{"plain", preset.plain},
+                                                              {"photons", preset.photons}};
         for (const auto& [kind, price] : kinds)
             text += fmt::format("  {} {:>4} samples, {:>3.2g} %, {:>4g} s per megapixel", kind, price.samples,
                                 100.0 * price.error, price.seconds_per_megapixel);

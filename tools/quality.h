@@ -19,8 +19,8 @@ struct QualityPrice {
 struct QualityPreset {
     std::string_view name;
     std::uint32_t ao_rays = 0;  // per sample
-    QualityPrice sky;           // of scenes without photons
-    QualityPrice emitters;      // of scenes with photons, whose samples are iterations
+    QualityPrice plain;         // of scenes without photons
+    QualityPrice photons;       // of scenes with photons, whose samples are iterations
 };
 
 // The preset of a name. Throws Error(usage) that lists the names.

@@ -77,21 +77,21 @@ void add_sampling_flags(Flags& flags, SceneOptions& options) {
         "sample sequence: sobol, halton or white");
 }
 
-bool has_light_between_surfaces(const Scene& scene, const SceneOptions& options) {
+bool sends_photons(const Scene& scene, const SceneOptions& options) {
     RenderSettings settings = scene.settings;
     choose_techniques(options.techniques, settings);
-    const EffectStates effects =
-        decide_effects(measure_scene(scene), with_techniques(options.request.effects, settings));
-    const auto is_on = [&](Effect effect) { return effects[static_cast<std::size_t>(effect)].on; };
-    return is_on(Effect::caustics) || is_on(Effect::indirect);
+    const SceneFacts facts = measure_scene(scene);
+    const EffectStates effects = decide_effects(facts, with_techniques(options.request.effects, settings));
+    return std::ranges::any_of(choose_techniques(effects, {}, settings, facts.has_specular_spheres),
+                               [](const ChosenTechnique& chosen) { return chosen.technique->by_photons; });
 }
 
-// Samples of the preset in a scene with light between surfaces, unless an override says how many.
+// Samples of the preset in a scene with photons, unless an override says how many.
 void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
     if (options.quality == nullptr) return;
     const auto sets_samples = [](const std::string& text) { return text.starts_with("render.spp="); };
-    if (std::ranges::none_of(options.overrides, sets_samples) && has_light_between_surfaces(scene, options))
-        scene.settings.spp = options.quality->emitters.samples;
+    if (std::ranges::none_of(options.overrides, sets_samples) && sends_photons(scene, options))
+        scene.settings.spp = options.quality->photons.samples;
 }
 
 void add_projection_flags(Flags& flags, SceneOptions& options) {
@@ -120,7 +120,7 @@ Camera saved_camera(const Scene& scene, const std::string& name) {
     Camera camera = saved->camera;
     if (camera.projection == Projection::orthographic) {
         if (saved->height == 0.0) return framing_camera(scene, camera);
-        camera.pixels_per_voxel = scene.settings.size.y / saved->height;
+        camera.pixels_per_voxel = std::min(scene.settings.size.y / saved->height, kMaxPixelsPerVoxel);
     }
     return camera;
 }

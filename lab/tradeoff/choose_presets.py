@@ -7,7 +7,7 @@ The rule. Occlusion rays stay at their default, unless another number reaches an
 an error e in time t is worth e^2 t, since noise falls with the root of time, and the geometric mean over the scenes
 decides, each at the most samples that were measured of both. Photons follow the size of the picture. Then each preset
 takes the least power of two of samples per pixel, two or more, at which the median error over the scenes is at most its
-target, apart for scenes with emitters, which need photons, and without. The targets of the former are larger: the same
+target, apart for scenes in which photons run and for plain ones. The targets of the former are larger: the same
 error would take them hundreds of times as long. The price is the median error and the median time there.
 """
 
@@ -20,8 +20,8 @@ import sys
 from prices import Curve, Malformed, read_prices, scenes_of
 
 REFUSED = 3
-TARGETS = {"draft": {"sky": 0.05, "emitters": 0.20}, "normal": {"sky": 0.03, "emitters": 0.07},
-           "fine": {"sky": 0.01, "emitters": 0.03}, "reference": {"sky": 0.003, "emitters": 0.01}}
+TARGETS = {"draft": {"plain": 0.05, "photons": 0.20}, "normal": {"plain": 0.03, "photons": 0.07},
+           "fine": {"plain": 0.01, "photons": 0.03}, "reference": {"plain": 0.003, "photons": 0.01}}
 WORTHWHILE = 0.9  # of the time for an error, below which another value than the default is taken
 FEWEST_LOG2, MOST_LOG2 = 1, 20  # of samples: one has no estimate of its error; film sums are exact up to the most
 KNOB, DEFAULT_RAYS = "ao_rays", 1
@@ -72,8 +72,8 @@ class Kind:
 def kinds_of(rows):
     """The scenes without photons and those with them."""
     scenes = scenes_of(rows)
-    kinds = {"sky": [own for own in scenes.values() if not own[0]["photons"]],
-             "emitters": [own for own in scenes.values() if own[0]["photons"]]}
+    kinds = {"plain": [own for own in scenes.values() if not own[0]["photons"]],
+             "photons": [own for own in scenes.values() if own[0]["photons"]]}
     missing = [kind for kind, found in kinds.items() if not found]
     if missing:
         raise Malformed(f"no scene of the kind '{missing[0]}' was measured: presets need both, with photons and without")
@@ -101,9 +101,9 @@ def header_text(about, rows, presets):
         lines += [f"    {{.name = \"{preset['name']}\",", f"     .ao_rays = {preset['ao_rays']},"]
         lines += [f"     .{kind} = {{.samples = {preset[kind]['samples']}, .error = {two_digits(preset[kind]['error'])}, "
                   f".seconds_per_megapixel = {two_digits(preset[kind]['seconds_per_megapixel'])}}}"
-                  f"{',' if kind == 'sky' else '},'}" for kind in kinds]
-    lines += ["}};", f"constexpr int kSkyScenes = {len(kinds['sky'])};",
-              f"constexpr int kEmitterScenes = {len(kinds['emitters'])};",
+                  f"{',' if kind == 'plain' else '},'}" for kind in kinds]
+    lines += ["}};", f"constexpr int kPlainScenes = {len(kinds['plain'])};",
+              f"constexpr int kPhotonScenes = {len(kinds['photons'])};",
               f"constexpr std::string_view kPricedOn = \"{about['machine']}\";", ""]
     return "\n".join(lines)
 

@@ -25,12 +25,12 @@ PRICES, PRESETS = HERE / "prices.csv", TOP / "tools" / "quality_presets.inc"
 BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
 SKY, LAMPS = ("256x192", "90s"), ("96x72", "120s")  # size of the picture, and time for all runs of a scene
 SCENES = {"first_light": SKY, "night": SKY, "overcast": SKY, "slit": SKY, "spheres": SKY, "mixed": SKY,
-          "emitters": LAMPS, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
+          "emitters": SKY, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
 MOST_SAMPLES = 256  # asked of each scene; the time decides how many are measured
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
 MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given
 COLOURS = ("#0072b2", "#c25400", "#00805e", "#b3508a", "#8a6100", "#2a8fd0", "#6a4fb3", "#5c5c5c")
-KINDS = {"sky": "black", "emitters": "#8a2b2b"}  # of scenes, and the colour of their presets
+KINDS = {"plain": "black", "photons": "#8a2b2b"}  # of scenes, and the colour of their presets
 MARKS = "osD^vP*Xdh<>"
 
 
@@ -68,8 +68,8 @@ def table_text(about, rows):
         slope = curve.slopes["error"] / curve.slopes["time_s"]
         lines.append("| " + " | ".join([f"`{scene}`", f"{own[0]['width']} x {own[0]['height']}",
                                         *(cell(curve, error) for error in ERRORS), f"time^{slope:.2f}"]) + " |")
-    lines += ["", "| `--quality` | occlusion rays | samples under the sky | error | s per megapixel | samples with emitters | error | "
-              "s per megapixel |", "|---|" + "--:|" * 7]
+    kinds = "".join(f"samples {kind} photons | error | s per megapixel | " for kind in ("without", "with"))
+    lines += ["", f"| `--quality` | occlusion rays | {kinds.rstrip()}", "|---|" + "--:|" * 7]
     for preset in choose_presets.choose(rows):
         cells = [f"`{preset['name']}`", str(preset["ao_rays"])]
         for kind in KINDS:
@@ -93,7 +93,7 @@ def with_table(readme, table):
 
 
 def draw(about, rows, file):
-    """Error against seconds per megapixel, a line for each scene, dashed with emitters; rings where the presets are."""
+    """Error against seconds per megapixel, a line for each scene, dashed with photons; rings where the presets are."""
     import matplotlib
     matplotlib.use("agg")
     from matplotlib.figure import Figure
@@ -114,7 +114,9 @@ def draw(about, rows, file):
             axes.annotate(preset["name"], place, xytext=(10, 8), textcoords="offset points", weight="bold", color=edge,
                           zorder=6, bbox={"fc": "white", "ec": "none", "alpha": 0.8, "pad": 1})
     axes.set(xscale="log", yscale="log", xlabel="time to take the samples (seconds per megapixel)",
-             ylabel="error: root of relMSE (%)", title="Error against time: lines are scenes with default settings (dashed: with emitters), rings are the medians of the "
+             ylabel="error: root of relMSE (%)",
+             title="Error against time: lines are scenes with default settings (dashed: with photons), rings are the "
+             "medians of the "
              f"presets\n{about['machine']}; {about['device']}")
     axes.title.set_fontsize(9)
     for axis in (axes.xaxis, axes.yaxis):

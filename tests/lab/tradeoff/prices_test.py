@@ -48,20 +48,20 @@ class Presets(unittest.TestCase):
         131 for 7 %, 711 for 3 %, 6400 for 1 %."""
         found = choose_presets.choose(ALL)
         self.assertEqual([one["name"] for one in found], list(choose_presets.TARGETS))
-        self.assertEqual([one["sky"]["samples"] for one in found], [64, 256, 2048, 32768])
-        self.assertEqual([one["emitters"]["samples"] for one in found], [16, 256, 1024, 8192])
-        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
-        self.assertAlmostEqual(found[3]["sky"]["error"], 0.4 / 32768**0.5)
+        self.assertEqual([one["plain"]["samples"] for one in found], [64, 256, 2048, 32768])
+        self.assertEqual([one["photons"]["samples"] for one in found], [16, 256, 1024, 8192])
+        self.assertAlmostEqual(found[0]["plain"]["error"], 0.05)
+        self.assertAlmostEqual(found[3]["plain"]["error"], 0.4 / 32768**0.5)
 
     def test_price_is_the_median_time_of_a_megapixel(self):
         found = choose_presets.choose(ALL)[0]
-        self.assertAlmostEqual(found["sky"]["seconds_per_megapixel"], 0.1 * 64 / 0.5)
-        self.assertAlmostEqual(found["emitters"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
+        self.assertAlmostEqual(found["plain"]["seconds_per_megapixel"], 0.1 * 64 / 0.5)
+        self.assertAlmostEqual(found["photons"]["seconds_per_megapixel"], 0.5 * 16 / 0.5)
 
     def test_what_is_not_measured_is_told(self):
         found = choose_presets.choose(ALL)
-        self.assertEqual([one["sky"]["is_measured"] for one in found], [True, False, False, False])
-        self.assertEqual([one["emitters"]["is_measured"] for one in found], [True, False, False, False])
+        self.assertEqual([one["plain"]["is_measured"] for one in found], [True, False, False, False])
+        self.assertEqual([one["photons"]["is_measured"] for one in found], [True, False, False, False])
 
     def rays(self, name, error, time):
         """A scene whose error and time change by these factors with 4 rays."""
@@ -73,10 +73,10 @@ class Presets(unittest.TestCase):
     def test_rays_that_are_worth_it_are_taken_with_their_own_price(self):
         found = choose_presets.choose(self.rays("a", 0.5, 1.25) + LAMP)
         self.assertTrue(all(one["ao_rays"] == 4 for one in found))
-        self.assertEqual(found[0]["sky"]["samples"], 16)
-        self.assertAlmostEqual(found[0]["sky"]["error"], 0.05)
-        self.assertAlmostEqual(found[0]["sky"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
-        self.assertEqual(found[0]["emitters"], choose_presets.choose(ALL)[0]["emitters"])
+        self.assertEqual(found[0]["plain"]["samples"], 16)
+        self.assertAlmostEqual(found[0]["plain"]["error"], 0.05)
+        self.assertAlmostEqual(found[0]["plain"]["seconds_per_megapixel"], 1.25 * 0.1 * 16 / 0.5)
+        self.assertEqual(found[0]["photons"], choose_presets.choose(ALL)[0]["photons"])
 
     def test_rays_that_gain_less_than_a_tenth_are_not(self):
         self.assertTrue(all(one["ao_rays"] == 1 for one in choose_presets.choose(self.rays("a", 1.0, 0.95) + LAMP)))
@@ -88,14 +88,14 @@ class Presets(unittest.TestCase):
     def test_scene_without_occlusion_keeps_its_own_curve(self):
         rows = self.rays("a", 0.5, 1.25) + scene_rows("b", 0.4) + scene_rows("c", 0.4) + LAMP
         found = choose_presets.choose(rows)
-        self.assertEqual((found[0]["ao_rays"], found[0]["sky"]["samples"]), (4, 64))
+        self.assertEqual((found[0]["ao_rays"], found[0]["plain"]["samples"]), (4, 64))
 
     def test_one_sample_is_too_few_to_know_its_error(self):
         rows = scene_rows("a", 0.01) + LAMP
-        self.assertEqual(choose_presets.choose(rows)[0]["sky"]["samples"], 2)
+        self.assertEqual(choose_presets.choose(rows)[0]["plain"]["samples"], 2)
 
     def test_both_kinds_of_scenes_are_needed(self):
-        for rows, kind in ((THREE, "emitters"), (LAMP, "sky")):
+        for rows, kind in ((THREE, "photons"), (LAMP, "plain")):
             with self.assertRaisesRegex(prices.Malformed, f"no scene of the kind '{kind}'"):
                 choose_presets.choose(rows)
 

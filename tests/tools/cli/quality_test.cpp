@@ -68,7 +68,7 @@ TEST(Quality, help_names_every_price_and_the_machine) {
         for (std::string word; words >> word;)
             help += word + " ";
     }
-    const Pattern price("draft sky [0-9]+ samples, [0-9.]+ %, [0-9.]+ s per megapixel emitters [0-9]+");
+    const Pattern price("draft plain [0-9]+ samples, [0-9.]+ %, [0-9.]+ s per megapixel photons [0-9]+");
     EXPECT_FALSE(price.find(help).empty()) << help;
     EXPECT_NE(help.find("medians of "), std::string::npos);
 }
