@@ -2,6 +2,8 @@
 #ifndef VX_FILM_COVER_GLSL
 #define VX_FILM_COVER_GLSL
 
+#include "shared/tone_curve.h"
+
 VX_SPECIALIZED(uint, catches_shadows, 0u);  // the ground, which shows nothing else
 
 // Before a background: camera rays that meet nothing show nothing, and a ground that only catches shadows is black and
@@ -13,7 +15,9 @@ vec4 cover(uint at, Group group, inout vec3 color[kGroupPixels]) {
     for (uint k = 0u; k < kGroupPixels; ++k) {
         bool is_met = group.inside[k] && is_surface(hits[k]);
         bool is_ground = catches_shadows != 0u && is_met && hits[k].material == frame.ground_material;
-        float lacks = 1.0 - dot(color[k], vec3(0.2126, 0.7152, 0.0722)) / frame.ground_luminance;
+        // Without light there is no shadow.
+        float lacks =
+            frame.ground_luminance > 0.0 ? 1.0 - luminance_of(color[k]) / frame.ground_luminance : 0.0;
         coverage[k] = is_ground ? lacks : (is_met ? 1.0 : 0.0);
         color[k] = is_met && !is_ground ? color[k] : vec3(0.0);
     }

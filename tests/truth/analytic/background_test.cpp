@@ -174,5 +174,31 @@ TEST(Background, what_nothing_covers_has_exactly_the_code_of_the_colour) {
     }
 }
 
+// A dark world with a lamp, and a black ground under the sky: what catches shadows cannot lack light.
+TEST(Background, ground_that_catches_shadows_where_there_is_no_light_is_not_there) {
+    for (const bool is_black : {false, true}) {
+        Scene scene = test::white_scene();
+        if (!is_black) {
+            scene.materials[0] = {
+                .albedo = glm::vec3(0.0f), .emission = glm::vec3(3.0f), .surface = Surface::emit};
+            scene.sky.radiance = glm::vec3(0.0f);
+        }
+        test::add_box(scene, {0, 0, 3}, {4, 4, 4});
+        scene.ground = {
+            .on = true, .albedo = glm::vec3(is_black ? 0.0f : 0.4f), .shadow_only = true, .height = 0.0};
+        scene.camera = test::camera_down({2.0, 2.0, 200.0}, 3.0);
+        scene.camera->projection = Projection::orthographic;
+        scene.camera->pixels_per_voxel = 4.0;
+        scene.settings.size = {48, 32};
+        const Image image = render(scene, Backdrop::transparent);
+        int slab = 0;
+        for (const float alpha : plane(image, "A")) {
+            ASSERT_TRUE(alpha == 0.0f || alpha == 1.0f) << alpha << ", black: " << is_black;
+            slab += alpha == 1.0f ? 1 : 0;
+        }
+        EXPECT_EQ(slab, 16 * 16);
+    }
+}
+
 }  // namespace
 }  // namespace voxilux

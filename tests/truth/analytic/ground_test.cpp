@@ -30,6 +30,23 @@ glm::dvec3 position_of(const test::FrameFixture& fixture, const gpu::Hit& hit) {
     return glm::dvec3(fixture.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
 }
 
+// How far the hits of two scenes lie apart at most, voxels.
+double farthest(const Scene& a, const Scene& b) {
+    test::FrameFixture of_a(a), of_b(b);
+    const std::vector<gpu::Hit> in_a = of_a.render(0).hits, in_b = of_b.render(0).hits;
+    double most = 0.0;
+    for (std::size_t i = 0; i < in_a.size(); ++i)
+        most = std::max(most, glm::length(position_of(of_a, in_a[i]) - position_of(of_b, in_b[i])));
+    return most;
+}
+
+TEST(Ground, negative_control_sees_a_ground_that_is_a_thousandth_too_high) {
+    Scene high = pillars(true);
+    EXPECT_LT(farthest(high, pillars(false)), 1e-4);
+    high.ground.height = 1e-3;
+    EXPECT_GT(farthest(high, pillars(false)), 1e-4);
+}
+
 TEST(Ground, is_hit_where_a_floor_of_voxels_is_and_lit_as_one) {
     test::FrameFixture ground(pillars(true));
     const test::FramePlanes on_ground = ground.render(0);
@@ -59,6 +76,18 @@ double mean_beauty(const Scene& scene) {
     for (const float value : image.channels.at("G").pixels)
         sum += static_cast<double>(value);
     return sum / static_cast<double>(pixel_count(image));
+}
+
+TEST(Ground, negative_control_sees_a_ground_of_another_albedo) {
+    double means[2];
+    for (const float albedo : {0.6f, 0.55f}) {
+        Scene scene = pillars(true);
+        scene.ground.albedo = glm::vec3(albedo);
+        scene.settings.size = {48, 36};
+        scene.settings.spp = 8;
+        means[albedo < 0.6f ? 1 : 0] = mean_beauty(scene);
+    }
+    EXPECT_GT(std::abs(means[1] / means[0] - 1.0), 0.01);
 }
 
 // By paths, by occlusion, and by photons of the emitter: each finds the ground as it finds voxels.

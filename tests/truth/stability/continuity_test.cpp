@@ -176,6 +176,25 @@ TEST(Continuity, d6_scene_moved_by_whole_voxels_keeps_every_bit) {
     }
 }
 
+TEST(Continuity, d6_moved_scene_keeps_every_bit_in_every_projection_and_on_a_ground) {
+    for (const Projection projection : {Projection::perspective, Projection::orthographic,
+                                        Projection::equirectangular, Projection::fisheye}) {
+        Scene scene = courtyard();
+        scene.ground = {.on = true, .albedo = glm::vec3(0.4f), .height = -1.0};
+        scene.camera->projection = projection;
+        scene.camera->pixels_per_voxel = 1.7;
+        const FramePlanes here = test::render_first_sample(scene);
+        for (const glm::ivec3 by : {glm::ivec3(1, -3, 7), glm::ivec3(-4096, 20000, 1023)}) {
+            Scene there = moved(scene, by);
+            there.ground.height = *scene.ground.height + by.z;
+            EXPECT_EQ(differences(here, test::render_first_sample(there)), 0u)
+                << static_cast<int>(projection);
+        }
+        EXPECT_GT(differences(here, test::render_first_sample(moved(scene, {0, 0, 7}))), 0u)
+            << "the negative control: the ground stays";
+    }
+}
+
 // A signed permutation of the axes that leaves z, applied to all that has a place or a direction.
 Scene turned(const Scene& scene, const Rotation& rotation) {
     const auto point = [&](glm::dvec3 p) {
