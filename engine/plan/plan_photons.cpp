@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/lobe_weights.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
 
@@ -88,12 +87,6 @@ LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec
         const glm::dvec3 far = glm::abs(sphere.centre - glm::dvec3(origin)) + sphere.radius;
         facts.extent = std::max({facts.extent, far.x, far.y, far.z});
     }
-    for (const Material& material : scene.materials) {
-        const LobeWeights shares = lobe_weights(material);
-        if (shares.mirror + shares.glass >= 1.0f) continue;
-        const float albedo = std::max({material.albedo.x, material.albedo.y, material.albedo.z});
-        facts.max_albedo = std::max(facts.max_albedo, static_cast<double>(albedo));
-    }
     return facts;
 }
 
@@ -105,7 +98,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     const double sun = needs.has_sun ? sun_power.x + sun_power.y + sun_power.z : 0.0;
     const double emitters = needs.has_emitters ? needs.lights.power : 0.0;
     if (!(sun + emitters > 0.0)) return plan;
-    const double met = stored_per_photon(needs.lights.max_albedo, settings, needs.keeps_indirect);
+    const double met = stored_per_photon(needs.max_albedo, settings, needs.keeps_indirect);
     const double room = static_cast<double>(limits.max_binding_bytes) / sizeof(gpu::StoredPhoton);
     const std::uint32_t wanted = wanted_photons(settings, needs.pixels, room / met);
     plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + emitters))));

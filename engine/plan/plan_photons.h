@@ -16,8 +16,7 @@ struct LightFacts {
     double power = 0.0;         // brightness of radiance times etendue, summed
     glm::dvec3 max_power{0.0};  // most that all photons together would carry if each were as the strongest
     SunDisc sun_disc;
-    double extent = 0.0;      // largest magnitude of a coordinate that a photon can meet, local to the world
-    double max_albedo = 0.0;  // of a diffuse material
+    double extent = 0.0;  // largest magnitude of a coordinate that a photon can meet, local to the world
 
     bool operator==(const LightFacts&) const = default;
 };
@@ -53,6 +52,7 @@ struct PhotonNeeds {
     bool keeps_indirect = false;
     glm::vec3 sun_irradiance{0.0f};
     std::uint64_t pixels = 0;
+    double max_albedo = 0.0;     // of a diffuse material that is used
     double sphere_visits = 0.0;  // of a ray that looks for spheres
     bool has_voxels = false;
     std::uint64_t store_bytes = 0;  // that the photons of a run may take

@@ -219,6 +219,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                           .keeps_indirect = plan.is_by_photons(Effect::indirect) || plan.sends_caustics_on(),
                           .sun_irradiance = sunlight(scene),
                           .pixels = pixels_of(plan.settings),
+                          .max_albedo = facts.max_albedo,
                           .sphere_visits = world.sphere_visits,
                           .has_voxels = plan.has(Effect::voxels),
                           .store_bytes = request.photon_store_bytes != 0 ? request.photon_store_bytes

@@ -138,6 +138,10 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
                                          : any_positive(scene.sky.radiance);
     measure_materials(scene, std::move(voxels.used), facts);
+    if (facts.has_ground)
+        facts.max_albedo =
+            std::max(facts.max_albedo,
+                     double{std::max({scene.ground.albedo.x, scene.ground.albedo.y, scene.ground.albedo.z})});
     facts.simplified.insert(facts.simplified.end(), scene.notes.begin(), scene.notes.end());
     return facts;
 }

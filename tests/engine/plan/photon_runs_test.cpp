@@ -11,6 +11,7 @@
 #include "renderer/renderer.h"
 #include "shared/counters.h"
 #include "support/device_fixture.h"
+#include "support/light_scenes.h"
 
 namespace voxilux::test {
 namespace {
@@ -46,8 +47,24 @@ TEST_P(PhotonRuns, of_any_size_give_the_same_film) {
     for (const std::uint32_t at_once : {1u, 7u})
         EXPECT_EQ(film_in_runs(scene, at_once), whole) << at_once;
     Scene another = scene;
-    another.settings.seed = 2;
+    another.settings.photons.radius = 3.5;  // which changes the light of photons alone
     EXPECT_NE(film_in_runs(another, kPhotons), whole);
+}
+
+TEST(PhotonRunsOfTwoLights, across_the_border_of_lamp_and_sun_give_the_same_film) {
+    Scene scene = dark_scene(24, kPhotons, 3.0);
+    add_box(scene, {-8, -8, -1}, {8, 8, 0}, add_diffuse(scene, 0.7f));
+    add_box(scene, {-1, 3, 6}, {1, 5, 7}, add_emitter(scene, 50.0f));
+    scene.spheres.push_back({{0.0, -2.0, 3.0}, 1.5, add_glass(scene, 1.5f)});
+    scene.sun.on = true;
+    scene.camera = camera_towards({9, -13, 8}, {0, 0, 1}, 50.0);
+    const FilmSums whole = film_in_runs(scene, kPhotons);
+    for (const std::uint32_t at_once : {7u, 13u})  // not all of them end at the border
+        EXPECT_EQ(film_in_runs(scene, at_once), whole) << at_once;
+    Renderer renderer(test_device(), {});
+    renderer.prepare(scene, {});
+    EXPECT_GT(renderer.plan().photons.sun_photons, 0u);
+    EXPECT_GT(renderer.plan().photons.emitter_photons, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, PhotonRuns, testing::Values("photons", "splatting", "pixel_radii"),

@@ -63,6 +63,9 @@ TEST(Facts, albedo_that_bounds_paths_is_that_of_used_materials_with_a_diffuse_lo
     EXPECT_EQ(measure_scene(scene).max_albedo, 0.5f);
     scene.models[0].voxels.push_back({.x = 2, .material = 1});
     EXPECT_EQ(measure_scene(scene).max_albedo, 1.0);
+    Scene on_ground;
+    on_ground.ground = {.on = true, .albedo = glm::vec3(0.25f, 0.5f, 0.125f)};
+    EXPECT_EQ(measure_scene(on_ground).max_albedo, 0.5) << "photons and paths leave the ground, too";
 }
 
 TEST(Facts, materials_that_are_shown_as_something_simpler_are_named_once_a_kind) {
