@@ -94,7 +94,8 @@ WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording) {
     return {.roots = array("world.roots", plan.world.root_bytes),
             .nodes = array("world.nodes", plan.world.node_bytes),
             .leaves = array("world.leaves", plan.world.leaf_bytes),
-            .have_texels = plan.has_world_texels};
+            .have_texels = plan.has_world_texels,
+            .unused = placeholder_buffer(recording)};
 }
 
 gpu::uint sequence_id(Sequence sequence) {

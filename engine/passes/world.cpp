@@ -17,12 +17,17 @@ std::string& level_buffer(WorldBuffers& buffers, const MarchWorld& world, int lo
     return log2 == gpu::root_log2(static_cast<gpu::uint>(world.traversal)) ? buffers.roots : buffers.nodes;
 }
 
+const std::string& texels_of(const std::string& array, const WorldBuffers& buffers) {
+    return buffers.have_texels ? array : buffers.unused;
+}
+
 // All but the leaves as texels.
 void point_to_cells(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
     dispatch.addresses.insert(
         dispatch.addresses.end(),
         {{"roots", buffers.roots}, {"nodes", buffers.nodes}, {"leaves", buffers.leaves}});
-    dispatch.bindings.insert(dispatch.bindings.end(), {{"Roots", buffers.roots}, {"Nodes", buffers.nodes}});
+    dispatch.bindings.insert(dispatch.bindings.end(), {{"Roots", texels_of(buffers.roots, buffers)},
+                                                       {"Nodes", texels_of(buffers.nodes, buffers)}});
     dispatch.constants.insert(dispatch.constants.end(),
                               {{"traversal", static_cast<std::uint32_t>(traversal)},
                                {"has_world_texels", buffers.have_texels ? 1u : 0u}});
@@ -71,7 +76,7 @@ void upload_ranges(const std::string& buffer, const std::vector<std::uint32_t>& 
 
 void point_to_world(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
     point_to_cells(traversal, buffers, dispatch);
-    dispatch.bindings.push_back({"Leaves", buffers.leaves});
+    dispatch.bindings.push_back({"Leaves", texels_of(buffers.leaves, buffers)});
 }
 
 void record_world_build(const MarchWorld& unexpanded, const GrowthNeeds& growth, const WorldBuffers& buffers,

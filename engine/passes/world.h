@@ -18,6 +18,7 @@ struct WorldBuffers {
     std::string homes;
     std::string grown;
     bool have_texels = false;  // shaders read the arrays as texels (loads_texels)
+    std::string unused;        // what is bound in their place where they do not
 };
 
 // Lets a dispatch march through a world or read it: gives it the pointers, texels and constants that

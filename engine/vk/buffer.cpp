@@ -68,10 +68,8 @@ constexpr std::uint64_t kWordBytes = 4;
 
 UniqueBufferView view_texels(const DeviceState& device, const Buffer& buffer, VkFormat format,
                              std::uint64_t texel_bytes) {
-    std::uint64_t texels = buffer.bytes / texel_bytes;
-    const std::uint64_t most = device.properties.limits.maxTexelBufferElements;
-    if (texel_bytes == kWordBytes) texels = std::min(texels, most);
-    if (texels == 0 || texels > most) return {};
+    const std::uint64_t texels = buffer.bytes / texel_bytes;
+    if (texels == 0 || texels > device.properties.limits.maxTexelBufferElements) return {};
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = buffer.handle.get(),
                                       .format = format,

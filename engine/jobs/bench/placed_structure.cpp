@@ -31,7 +31,8 @@ WorldBuffers declare_structure(const PlacedStructure& structure, Recording& reco
     return {.roots = array("roots", structure.bytes.roots),
             .nodes = array("nodes", structure.bytes.nodes),
             .leaves = array("leaves", structure.bytes.leaves),
-            .have_texels = structure.have_texels};
+            .have_texels = structure.have_texels,
+            .unused = declare("bench.unused", 4, false, recording)};
 }
 
 void build_on_device(const PlacedStructure& placed, const MarchWorld& unexpanded, Executor& executor) {
