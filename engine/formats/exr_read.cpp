@@ -21,10 +21,13 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/printable.h"
+#include "base/read_or_refuse.h"
 #include "formats/exr.h"
 
 namespace voxilux {
 namespace {
+
+constexpr std::string_view kExrKind = "a readable EXR";
 
 class MemoryStream : public Imf::IStream {
   public:
@@ -214,19 +217,6 @@ std::unique_ptr<Imf::IStream> open_stream(const std::filesystem::path& path) {
     return std::make_unique<FileStream>(path);
 }
 
-// What `read` returns; whatever it throws becomes one line.
-template <class Read>
-auto guarded(const std::string& name, Read read) {
-    try {
-        return read();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& cause) {
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{}: not a readable EXR: {}", name, printable(cause.what())));
-    }
-}
-
 }  // namespace
 
 struct ExrRows::State {
@@ -247,7 +237,7 @@ struct ExrRows::State {
 };
 
 ExrRows::ExrRows(const std::filesystem::path& path)
-    : state_(guarded(path.string(), [&] { return std::make_unique<State>(path); })) {}
+    : state_(read_or_refuse(path.string(), kExrKind, [&] { return std::make_unique<State>(path); })) {}
 
 ExrRows::~ExrRows() = default;
 
@@ -257,7 +247,7 @@ const Image& ExrRows::head() const {
 
 Image ExrRows::read(int first, int count) {
     VX_ASSERT(first >= 0 && count > 0 && count <= state_->head.height - first);
-    return guarded(state_->name, [&] {
+    return read_or_refuse(state_->name, kExrKind, [&] {
         Imath::Box2i box = state_->part->header().dataWindow();
         box.min.y += first;
         box.max.y = box.min.y + count - 1;
@@ -268,7 +258,7 @@ Image ExrRows::read(int first, int count) {
 }
 
 Image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
-    return guarded(name, [&] {
+    return read_or_refuse(name, kExrKind, [&] {
         limit_library();
         MemoryStream stream(bytes, name);
         Imf::MultiPartInputFile file(stream, 0, false);

@@ -6,6 +6,7 @@
 #include "base/build_id.h"
 #include "base/error.h"
 #include "base/json.h"
+#include "base/read_or_refuse.h"
 #include "jobs/part_checksum.h"
 #include "scene/scene_hash.h"
 
@@ -15,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 4;       // of the attribute; another one is refused
+constexpr int kFormat = 4;  // of the attribute; another one is refused
+constexpr std::string_view kPartKind = "a part of a render";
 constexpr int kRowsAtOnce = 64;  // whole blocks of an EXR
 
 Json matrix_json(const std::optional<glm::mat4>& matrix) {
@@ -151,19 +153,6 @@ FilmPart described_part(const Image& head) {
     return part;
 }
 
-// What `read` returns; what is thrown becomes one line.
-template <class Read>
-auto guarded(const fs::path& path, Read read) {
-    try {
-        return read();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& cause) {
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{}: not a part of a render: {}", path.string(), cause.what()));
-    }
-}
-
 FilmSums planes_of(const Image& rows) {
     Result<FilmSums> film = load_sums(rows);
     check(film.ok(), film.ok() ? "" : film.reason().c_str());
@@ -225,14 +214,15 @@ void read_part_rows(const fs::path& path, const std::function<void(const FilmPar
                     const std::function<void(std::size_t, const FilmSums&)>& take) {
     ExrRows file(path);
     const Image& head = file.head();
-    accept(guarded(path, [&] { return described_part(head); }));
+    accept(read_or_refuse(path.string(), kPartKind, [&] { return described_part(head); }));
     PartChecksum checksum;
     for (int first = 0; first < head.height; first += kRowsAtOnce) {
         const Image rows = file.read(first, std::min(kRowsAtOnce, head.height - first));
         checksum.add(rows);
-        take(static_cast<std::size_t>(first), guarded(path, [&] { return planes_of(rows); }));
+        take(static_cast<std::size_t>(first),
+             read_or_refuse(path.string(), kPartKind, [&] { return planes_of(rows); }));
     }
-    guarded(path, [&] {
+    read_or_refuse(path.string(), kPartKind, [&] {
         check(checksum.text(texts_of(head)) == head.attributes.at(kChecksumAttribute),
               "it is damaged: its checksum is not that of its contents");
     });

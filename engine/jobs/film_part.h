@@ -59,8 +59,8 @@ void read_part_rows(const std::filesystem::path& path,
 // The whole part.
 [[nodiscard]] FilmPart read_part(const std::filesystem::path& path);
 
-// Whether the file is a part, undamaged, that holds exactly these samples of a render with this key; nothing
-// of the part but its description is kept.
+// The description of the part in the file, where it is undamaged and holds exactly these samples of a render
+// with this key; else nothing.
 [[nodiscard]] std::optional<FilmPart> finished_part(const std::filesystem::path& path,
                                                     const nlohmann::ordered_json& render,
                                                     const SampleSet& samples);

@@ -78,14 +78,21 @@ SampleSet SampleSet::shard(std::uint32_t index, std::uint32_t shards, std::uint3
 }
 
 std::optional<SampleSet> SampleSet::parse(std::string_view text) {
-    SampleSet set;
+    std::vector<SampleRange> ranges;
     do {
-        if (!set.empty()) text.remove_prefix(1);  // the comma
-        const SampleSet range = take_range(text);
-        if (range.empty() || set.common(range)) return {};
-        set.add(range);
+        if (!ranges.empty()) text.remove_prefix(1);  // the comma
+        const SampleSet some = take_range(text);
+        if (some.empty()) return {};
+        ranges.insert(ranges.end(), some.ranges_.begin(), some.ranges_.end());
     } while (text.starts_with(','));
-    return text.empty() ? std::optional(set) : std::nullopt;
+    if (!text.empty()) return {};
+    std::ranges::sort(ranges, {}, &SampleRange::first);
+    SampleSet set;
+    for (const SampleRange& range : ranges) {
+        if (range.first < set.end()) return {};
+        set.append(range);
+    }
+    return set;
 }
 
 std::uint32_t SampleSet::size() const {
