@@ -13,12 +13,10 @@ namespace {
 
 constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kValueBytes = 4;
-constexpr std::uint64_t kCountBytes = 8;     // samples of a pixel, in each half
-constexpr std::uint64_t kFirstValues = 4;    // position and depth
-constexpr std::uint64_t kBeautyValues = 5;   // R G B, error, sample count
-constexpr std::uint64_t kDisplayValues = 3;  // of a PNG
-constexpr std::uint64_t kCodeBytes = 3;
-constexpr std::uint64_t kHalfSaving = 6;  // bytes of a pixel's beauty that an EXR does not store
+constexpr std::uint64_t kCountBytes = 8;    // samples of a pixel, in each half
+constexpr std::uint64_t kFirstValues = 4;   // position and depth
+constexpr std::uint64_t kBeautyValues = 5;  // R G B, error, sample count
+constexpr std::uint64_t kHalfSaving = 6;    // bytes of a pixel's beauty that an EXR does not store
 
 // Bytes of a pixel on the host.
 struct PixelBytes {
@@ -57,10 +55,10 @@ std::uint64_t end_bytes(const RenderPlan& plan, const PictureUse& use) {
     const PixelBytes bytes = bytes_of_pixel(plan);
     const std::uint64_t kept = use.keeps_film ? bytes.film : 0;
     const std::uint64_t stored = bytes.picture - kHalfSaving;
+    const std::uint64_t display = plan.sums_coverage ? 4 : 3;  // values and codes of a PNG
     std::uint64_t most = bytes.film + bytes.picture + bytes.making;
     if (use.writes_exr) most = std::max(most, kept + bytes.picture + stored);
-    if (use.writes_png)
-        most = std::max(most, kept + bytes.picture + kDisplayValues * kValueBytes + 2 * kCodeBytes);
+    if (use.writes_png) most = std::max(most, kept + bytes.picture + display * kValueBytes + 2 * display);
     if (use.writes_checkpoint) most = std::max(most, bytes.film + bytes.picture + stored);
     return most * static_cast<std::uint64_t>(plan.settings.size.x) *
            static_cast<std::uint64_t>(plan.settings.size.y);

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <vector>
 
 #include "base/error.h"
 
@@ -34,26 +34,6 @@ std::uint64_t less(std::uint64_t a, std::uint64_t b) {
     return a > b ? a - b : 0;
 }
 
-// The folders of the process's groups and of all groups around them.
-std::vector<std::filesystem::path> group_folders() {
-    const std::filesystem::path root = "/sys/fs/cgroup";
-    std::vector<std::filesystem::path> folders;
-    std::ifstream groups("/proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);) {
-        const std::size_t first = line.find(':');
-        const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-        if (second == std::string::npos) continue;
-        const std::string kind = line.substr(first + 1, second - first - 1);
-        if (!kind.empty() && kind != "memory") continue;
-        const std::filesystem::path top = kind.empty() ? root : root / kind;
-        std::filesystem::path inside = std::filesystem::path(line.substr(second + 1)).relative_path();
-        for (; !inside.empty(); inside = inside.parent_path())
-            folders.push_back(top / inside);
-        folders.push_back(top);
-    }
-    return folders;
-}
-
 std::optional<std::uint64_t> room_of_address_space() {
     rlimit limit{};
     const auto pages = number_in_file("/proc/self/statm");
@@ -68,6 +48,23 @@ std::optional<std::uint64_t> room_of_machine() {
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> memory_groups(std::istream& lines, const std::filesystem::path& root) {
+    std::vector<std::filesystem::path> folders;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t first = line.find(':');
+        const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
+        if (second == std::string::npos) continue;
+        const std::string kind = line.substr(first + 1, second - first - 1);
+        if (!kind.empty() && kind != "memory") continue;
+        const std::filesystem::path top = kind.empty() ? root : root / kind;
+        std::filesystem::path inside = std::filesystem::path(line.substr(second + 1)).relative_path();
+        for (; !inside.empty(); inside = inside.parent_path())
+            folders.push_back(top / inside);
+        folders.push_back(top);
+    }
+    return folders;
+}
 
 std::optional<std::uint64_t> room_of_group(const std::filesystem::path& folder) {
     const bool is_first_version = std::filesystem::exists(folder / "memory.limit_in_bytes");
@@ -86,7 +83,8 @@ std::optional<MemoryRoom> memory_room() {
     };
     consider(room_of_machine(), "the machine");
     consider(room_of_address_space(), "the limit of the process (ulimit -v)");
-    for (const std::filesystem::path& folder : group_folders())
+    std::ifstream groups("/proc/self/cgroup");
+    for (const std::filesystem::path& folder : memory_groups(groups, "/sys/fs/cgroup"))
         consider(room_of_group(folder), "the control group of the process");
     return least;
 }

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <istream>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace voxilux {
 
@@ -16,6 +18,11 @@ struct MemoryRoom {
 // The least of what the limit of the address space (RLIMIT_AS), the control groups of the process and the
 // memory of the machine leave. Nothing where none of them is known.
 [[nodiscard]] std::optional<MemoryRoom> memory_room();
+
+// The folders of a process's control groups and of all groups around them, by the lines of its
+// /proc/self/cgroup ("0::/a/b", "4:memory:/a") and where the groups are mounted.
+[[nodiscard]] std::vector<std::filesystem::path> memory_groups(std::istream& lines,
+                                                               const std::filesystem::path& root);
 
 // What a control group's folder leaves, of version 2 (memory.max) or 1 (memory.limit_in_bytes); pages of
 // files that can be dropped are free. Nothing without a limit.

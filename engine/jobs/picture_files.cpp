@@ -61,17 +61,15 @@ nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Sce
 }
 
 // In linear light, as colours that are multiplied by their A add up.
-Image laid_over(const Image& image, const std::optional<glm::vec3>& background) {
-    const auto alpha = image.channels.find("A");
-    if (!background || alpha == image.channels.end()) return image;
-    Image laid = image;
+Image laid_over(Image image, glm::vec3 background) {
+    const std::vector<float>& alpha = image.channels.at("A").pixels;
     for (int c = 0; c < 3; ++c) {
-        std::vector<float>& pixels = laid.channels.at(std::string(1, "RGB"[c])).pixels;
+        std::vector<float>& pixels = image.channels.at(std::string(1, "RGB"[c])).pixels;
         for (std::size_t i = 0; i < pixels.size(); ++i)
-            pixels[i] += (1.0f - alpha->second.pixels[i]) * (*background)[c];
+            pixels[i] += (1.0f - alpha[i]) * background[c];
     }
-    laid.channels.erase("A");
-    return laid;
+    image.channels.erase("A");
+    return image;
 }
 
 }  // namespace
@@ -87,7 +85,9 @@ bool is_png(const std::filesystem::path& file) {
 void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
                    const Image& png, const ToneMapOptions& tone, WriteFaults& faults) {
     if (is_exr(file)) {
-        const WriteReport written = write_exr(file, laid_over(exr, options.background), options);
+        const bool is_laid = options.background && exr.channels.contains("A");
+        const WriteReport written = is_laid ? write_exr(file, laid_over(exr, *options.background), options)
+                                            : write_exr(file, exr, options);
         faults["exr_clamped"] += written.clamped;
         faults["exr_non_finite"] += written.non_finite;
     } else {

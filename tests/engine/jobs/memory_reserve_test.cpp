@@ -1,9 +1,10 @@
 #include "jobs/memory_reserve.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
-#include <limits>
+#include <sstream>
 
 #include "base/error.h"
 #include "support/scratch_folder.h"
@@ -37,6 +38,12 @@ TEST(MemoryRoom, of_a_control_group_of_the_first_version) {
     EXPECT_EQ(room_of_group(folder.path()), 700u);
 }
 
+TEST(MemoryRoom, groups_of_both_versions_and_those_around_them_count) {
+    std::istringstream lines("5:cpuset:/x\n4:memory:/a/b\n0::/c\nnonsense\n");
+    EXPECT_EQ(memory_groups(lines, "/g"), (std::vector<std::filesystem::path>{"/g/memory/a/b", "/g/memory/a",
+                                                                              "/g/memory", "/g/c", "/g"}));
+}
+
 TEST(MemoryReserve, more_than_there_is_is_refused_by_name) {
     ASSERT_TRUE(memory_room().has_value()) << "the machine says what it has";
     try {
@@ -49,11 +56,22 @@ TEST(MemoryReserve, more_than_there_is_is_refused_by_name) {
     EXPECT_THROW(MemoryReserve(0, std::uint64_t{1} << 60), Error);
 }
 
+std::uint64_t pages_of_address_space() {
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages;
+}
+
 TEST(MemoryReserve, holds_address_space_until_it_is_released) {
-    MemoryReserve reserve(std::uint64_t{1} << 20, 0);
+    const std::uint64_t reserved = std::uint64_t{1} << 30;  // far over what else comes and goes
+    const std::uint64_t half = reserved / 2 / static_cast<std::uint64_t>(getpagesize());
+    const std::uint64_t before = pages_of_address_space();
+    MemoryReserve reserve(reserved, 0);
+    EXPECT_GT(pages_of_address_space(), before + half);
     reserve.release();
-    reserve.release();
+    EXPECT_LT(pages_of_address_space(), before + half);
     reserve.take();
+    EXPECT_GT(pages_of_address_space(), before + half);
 }
 
 }  // namespace
