@@ -74,6 +74,7 @@ void RenderSession::change(const RenderSettings& settings, const PlanRequest& re
 void RenderSession::load(Scene scene, const PlanRequest& request) {
     player_ = FramePlayer(std::move(scene));
     options_.plan = request;
+    options_ = with_error_wish(std::move(options_));
     options_.started = Clock::now();
     last_points_.reset();
     forecast_.reset();
@@ -87,11 +88,11 @@ void RenderSession::load(Scene scene, const PlanRequest& request) {
 void RenderSession::show(std::int64_t frame) {
     scene_ = &player_.show(frame);
     const bool is_changed = std::exchange(is_changed_, false);
-    if (std::exchange(is_loaded_, false) || player_.has_new_light())
-        return renderer_->prepare(*scene_, options_.plan);
-    if (!player_.has_new_voxels() && scene_->camera) renderer_->set_camera(*scene_->camera);
+    if (std::exchange(is_loaded_, false)) return renderer_->prepare(*scene_, options_.plan);
+    const bool is_another = player_.has_new_voxels() || player_.has_new_light();
+    if (!is_another && scene_->camera) renderer_->set_camera(*scene_->camera);
     if (is_changed) renderer_->change(scene_->settings, options_.plan);
-    if (player_.has_new_voxels()) renderer_->set_voxels(*scene_);
+    if (is_another) renderer_->set_voxels(*scene_);
 }
 
 std::optional<ErrorPilot> RenderSession::run_pilot(const std::function<bool()>& stops) {

@@ -29,7 +29,7 @@ class Renderer {
     // The same for a scene that edit() will change: its voxels are kept, and its structure has room for more.
     void prepare_editable(const Scene& scene, const PlanRequest& request);
 
-    // The same scene with other voxels, as in an animation. They can no more be edited.
+    // The same scene with other voxels or another sun, as in an animation. It can no more be edited.
     void set_voxels(const Scene& scene);
 
     // Another camera on the same scene.

@@ -99,7 +99,7 @@ const Scene& FramePlayer::show(std::int64_t frame) {
         still_.camera = camera_on_turntable(*animation_.turntable, rest_, axis_, frame);
         const float before = still_.sun.azimuth_deg;
         still_.sun = sun_on_turntable(*animation_.turntable, rest_sun_, frame);
-        has_new_light_ = still_.sun.azimuth_deg != before;
+        has_new_light_ = still_.sun.on && still_.sun.azimuth_deg != before;
     }
     return still_;
 }
