@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "scene/vox_animation.h"
 #include "scene/vox_cells.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_material.h"
@@ -48,13 +49,7 @@ struct PlacedModel {
 };
 
 std::vector<VoxInstance> instances_of(const VoxFile& file) {
-    for (const VoxNode& node : file.nodes) {
-        const auto* transform = std::get_if<VoxTransform>(&node);
-        const auto* shape = std::get_if<VoxShape>(&node);
-        if ((transform != nullptr && transform->frames.size() > 1) ||
-            (shape != nullptr && shape->models.size() > 1))
-            refuse_edits("the file is animated");
-    }
+    if (is_animated(file)) refuse_edits("the file is animated");
     const auto instances = vox_instances(file);
     if (!instances) refuse_edits(instances.reason());
     return instances.value();
@@ -142,6 +137,15 @@ void add_node(VoxFile& file, std::int32_t group, std::size_t model, glm::ivec3 t
     file.nodes.emplace_back(VoxShape{.id = id + 1, .models = {{static_cast<std::int32_t>(model), {}}}});
 }
 
+bool is_placed(const VoxTransform& node) {
+    return std::ranges::any_of(node.frames, [](const VoxDict& frame) {
+        return std::ranges::any_of(frame, [](const auto& pair) {
+            return (pair.first == "_t" && pair.second != "0 0 0") ||
+                   (pair.first == "_r" && pair.second != "4");
+        });
+    });
+}
+
 // The group below the root, made where the file has no graph.
 std::int32_t root_group(VoxFile& file) {
     if (file.nodes.empty()) {
@@ -154,6 +158,7 @@ std::int32_t root_group(VoxFile& file) {
     for (const VoxNode& node : file.nodes) {
         const auto* root = std::get_if<VoxTransform>(&node);
         if (root == nullptr || root->id != 0) continue;
+        if (is_placed(*root)) refuse_edits("the file moves or turns the root of its graph");
         for (const VoxNode& child : file.nodes)
             if (const auto* group = std::get_if<VoxGroup>(&child);
                 group != nullptr && group->id == root->child)

@@ -113,5 +113,19 @@ TEST(VoxEdits, model_shown_twice_is_refused_when_it_would_change) {
     EXPECT_THROW((void)with_voxels(file, edited_world(scene), scene.materials), Error);
 }
 
+TEST(VoxEdits, files_in_which_edits_have_no_place_are_refused) {
+    const VoxFile file = two_models();
+    const Scene scene = scene_from_vox(file);
+    VoxFile pack = file;
+    pack.pack = 2;
+    pack.nodes.clear();
+    EXPECT_THROW((void)with_voxels(pack, build_world(scene), scene.materials), Error) << "models are frames";
+    VoxFile turned = file;
+    std::get<VoxTransform>(turned.nodes[0]).frames = {{{"_t", "0 0 9"}}};
+    EXPECT_THROW((void)with_voxels(turned, edited_world(scene), scene.materials), Error);
+    std::get<VoxTransform>(turned.nodes[0]).frames = {{{"_t", "0 0 0"}, {"_r", "4"}}};
+    EXPECT_NO_THROW((void)with_voxels(turned, edited_world(scene), scene.materials)) << "moves nothing";
+}
+
 }  // namespace
 }  // namespace voxilux
