@@ -95,10 +95,27 @@ def unexpected(ending: Ending, allowed: tuple) -> str | None:
     return f"ended with {ending.code}: {ending.err.strip()[-200:]}"
 
 
+def is_whole_exr(data: bytes) -> bool:
+    """Whether the file ends where the last block of its table of places does."""
+    try:
+        at = 8
+        while data[at]:  # name, type, size and value of an attribute
+            at = data.index(0, data.index(0, at) + 1) + 1
+            at += 4 + struct.unpack_from("<I", data, at)[0]
+        at += 1
+        (first,) = struct.unpack_from("<Q", data, at)
+        places = struct.unpack_from(f"<{(first - at) // 8}Q", data, at)
+        return max(place + 8 + struct.unpack_from("<I", data, place + 4)[0] for place in places) == len(data)
+    except (IndexError, ValueError, struct.error):
+        return False
+
+
 def is_picture(file: pathlib.Path) -> bool:
-    """Whether a file begins as an EXR or a PNG does and is not cut short."""
+    """Whether a file is an EXR or a PNG that is not cut short."""
     data = file.read_bytes()
-    return data.startswith(b"\x76\x2f\x31\x01") or (data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82"))
+    if data.startswith(b"\x76\x2f\x31\x01"):
+        return is_whole_exr(data)
+    return data.startswith(b"\x89PNG") and data.endswith(b"IEND\xaeB`\x82")
 
 
 # ---- the attacks -------------------------------------------------------------------------------------------------
@@ -108,8 +125,11 @@ def kill_and_resume(bench: Bench, rng: random.Random) -> str | None:
     samples = ["--spp", "3000", "--checkpoint", "0.05"]
     child = bench.start(render("a.exr", *samples))
     time.sleep(rng.uniform(0.1, 1.5))
+    has_ended = child.poll() is not None
     child.kill()
     child.communicate()
+    if has_ended:
+        return f"ended with {child.returncode} before it was killed"
     if problem := unexpected(bench.run(render("a.exr", *samples, "--resume")), (DONE,)):
         return problem
     if bench.names() != ["a.exr"]:
@@ -121,20 +141,19 @@ def kill_and_resume(bench: Bench, rng: random.Random) -> str | None:
 
 
 def stop_by_signal(bench: Bench, rng: random.Random) -> str | None:
+    """Once it has said that it takes samples."""
     which = rng.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1))
     since = time.monotonic()
-    child = bench.start(render("a.exr", "--spp", "1000000", "--time-limit", "4s"))
+    child = bench.start(render("a.exr", "--spp", "1000000", "--time-limit", "4s", "--progress", "json"))
+    child.stderr.readline()
     time.sleep(rng.uniform(0.0, 2.0))
     child.send_signal(which)
     ending = bench.finish(child, since)
-    if ending.code == -which:  # before the program takes signals
-        return None if bench.names() == [] else f"left {bench.names()}"
-    if problem := unexpected(ending, (DONE, LATE, INTERRUPTED)):
-        return problem
-    wrote = "a.exr" in bench.names()
-    if not wrote and ending.code != INTERRUPTED:
+    if problem := unexpected(ending, (DONE,) if which == signal.SIGUSR1 else (INTERRUPTED,)):
+        return f"{which.name}: {problem}"
+    if "a.exr" not in bench.names():
         return f"{which.name}: no picture"
-    return None if not wrote or is_picture(bench.folder / "a.exr") else f"{which.name}: the picture is cut short"
+    return None if is_picture(bench.folder / "a.exr") else f"{which.name}: the picture is cut short"
 
 
 def limit_time(bench: Bench, rng: random.Random) -> str | None:
@@ -166,7 +185,9 @@ def fill_disk(bench: Bench, rng: random.Random) -> str | None:
     if problem := unexpected(ending, (DONE, CANNOT_WRITE)):
         return f"{most} bytes: {problem}"
     wanted = [name] if ending.code == DONE else []
-    return None if bench.names() == wanted else f"left {bench.names()}"
+    if bench.names() != wanted:
+        return f"left {bench.names()}"
+    return None if not wanted or is_picture(bench.folder / name) else f"{most} bytes: the picture is cut short"
 
 
 def close_streams(bench: Bench, rng: random.Random) -> str | None:
@@ -243,7 +264,7 @@ def feed_file(bench: Bench, rng: random.Random) -> str | None:
     (bench.folder / name).write_bytes(mutated(seeds[name], rng))
     ending = bench.run(command_for(name, rng), {resource.RLIMIT_AS: MOST_BYTES})
     if problem := unexpected(ending, (DONE, REFUSED, NO_MEMORY, WRONG, CANNOT_WRITE)):
-        keep = bench.folder.parent / f"broken_{rng.getrandbits(32):08x}_{name}"
+        keep = f"broken_{rng.getrandbits(32):08x}_{name}"
         shutil.copy(bench.folder / name, keep)
         return f"{keep}: {problem}"
     return None if ending.seconds < 20.0 else f"{name}: {ending.seconds:.0f} s"
@@ -290,10 +311,8 @@ def play(attack: Attack, number: int, seed: int, binary: pathlib.Path, shared: p
 
 def play_for(seconds: float, attack: Attack, seed: int, binary: pathlib.Path, shared: pathlib.Path) -> None:
     end = time.monotonic() + seconds
-    number = 0
-    while number == 0 or time.monotonic() < end:
-        play(attack, number, seed, binary, shared)
-        number += 1
+    while attack.tries == 0 or time.monotonic() < end:
+        play(attack, attack.tries, seed, binary, shared)
 
 
 def make_seeds(binary: pathlib.Path, shared: pathlib.Path) -> None:
@@ -321,6 +340,7 @@ def main() -> int:
     options.add_argument("--seconds", type=float, default=300.0, help="for all attacks together")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--only", help="names of attacks, with commas between them")
+    options.add_argument("--number", type=int, help="one try of each attack again, by its number")
     options.add_argument("--table", type=pathlib.Path, help="the document that the figures go into")
     given = options.parse_args()
     known = {attack.name: attack for attack in attacks()}
@@ -333,6 +353,9 @@ def main() -> int:
         shared = pathlib.Path(folder)
         make_seeds(given.voxilux.resolve(), shared)
         for attack in chosen:
+            if given.number is not None:
+                play(attack, given.number, given.seed, given.voxilux.resolve(), shared)
+                continue
             play_for(given.seconds / len(chosen), attack, given.seed, given.voxilux.resolve(), shared)
     print(table(chosen))
     if given.table:

@@ -170,8 +170,10 @@ TEST(HostMemory, that_a_picture_will_lack_is_said_before_the_work) {
     EXPECT_NE(ending.err.find("ulimit -v"), std::string::npos) << ending.err;
     EXPECT_EQ(ending.err.find("\"sample\""), std::string::npos) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), Words{});
-    EXPECT_EQ(
-        run(one_voxel("a.png"), {.folder = scratch.path(), .address_space = std::uint64_t{4} << 30}).code, 0);
+    const Ending small = run(one_voxel("a.png", {"--progress", "json"}),
+                             {.folder = scratch.path(), .address_space = std::uint64_t{4} << 30});
+    EXPECT_EQ(small.code, 0) << small.err;
+    EXPECT_NE(small.err.find("\"sample\""), std::string::npos) << "or the search above finds nothing";
 }
 
 TEST(Signals, that_were_ignored_before_stay_ignored) {
