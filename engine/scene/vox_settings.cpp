@@ -58,7 +58,7 @@ bool is_usual(std::string_view type, std::string_view key, std::string_view valu
     });
 }
 
-// Three or more numbers of a text, the rest 0; nothing when a word is no number.
+// The first three numbers of a text, 0 for those that it lacks; nothing when a word is no number.
 std::optional<glm::dvec3> numbers_of(std::string_view text) {
     glm::dvec3 numbers(0.0);
     for (int i = 0; i < 3 && !text.empty(); ++i) {

@@ -9,7 +9,7 @@ namespace voxilux {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr int kChunk = 16;
+constexpr int kChunk = 1 << gpu::kChunkLog2;
 
 // Where a ray meets the planes lo and hi of an axis: entry and exit.
 glm::dvec2 span_of(double start, double direction, double lo, double hi) {

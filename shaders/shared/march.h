@@ -78,9 +78,10 @@ VX_FN MarchAxes march_axes(Ray ray) {
     axes.sign_mask =
         ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
               axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
+    // By `used` and not by the speed, which may be -0: 1 / -0 is -infinity.
     axes.inverse_direction =
         vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
-             used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);  // a speed may be -0
+             used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
     axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.sign_mask);
     axes.direction_numbers = ivec3(1, 3, 5) + axes.sign_mask;
     axes.far_shift = axes.direction_numbers * int(kFarBits);
