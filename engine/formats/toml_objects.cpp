@@ -14,11 +14,11 @@
 #include "formats/vox_read.h"
 #include "scene/vox_file.h"
 #include "scene/vox_scene.h"
-#include "scene/voxel_grid.h"
 
 namespace voxilux {
 namespace {
 
+constexpr std::size_t kMaxMaterials = 65535;  // their numbers in voxels have 16 bits
 constexpr Range kTranslation{-kVoxMaxTranslation, kVoxMaxTranslation};
 
 // What follows from the surface, once every row has been read.
@@ -112,8 +112,8 @@ void read_materials(TomlScene& in) {
         const TomlSection section =
             read_settings(*value.as_table(), fmt::format("[material.{}]", name), material);
         if (name == kAir) section.refuse("takes the name of what carves: choose another");
-        if (in.scene.materials.size() > kMaxGridMaterial)
-            section.refuse("is one material too many: at most 65535");
+        if (in.scene.materials.size() >= kMaxMaterials)
+            section.refuse(fmt::format("is one material too many: at most {}", kMaxMaterials));
         in.materials[name] = static_cast<std::uint32_t>(in.scene.materials.size());
         settle_surface(section, material);
         in.scene.materials.push_back(std::move(material));

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// All shapes of a file together: half a GiB of blocks, two GiB of voxels, seconds of time.
+// All shapes of a file together. When every cell can be seen, gigabytes and half a minute.
 constexpr double kMaxShapeCells = 268435456.0;  // 2^28
 constexpr double kMaxRadius = 1 << 20;
 constexpr int kMaxFeature = 1 << 16;

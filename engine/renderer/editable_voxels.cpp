@@ -52,7 +52,7 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
         check(edit);
         if (edit.material && !edit.paints) box = united(box, edit.box);
     }
-    const VoxelGrid before{world_.origin(), world_.chunks()};
+    const WorldGrid before{world_.origin(), world_.chunks()};
     if (box != box_) move_to(grid_around(box));
     VoxelChange change;
     for (const BoxEdit& edit : edits) {
@@ -69,9 +69,9 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
     // What was changed twice takes back the later change first.
     std::ranges::reverse(change.back);
     if (may_shrink_) measure_box();
-    if (const VoxelGrid grid = grid_around(box_); grid != VoxelGrid{world_.origin(), world_.chunks()})
+    if (const WorldGrid grid = grid_around(box_); grid != WorldGrid{world_.origin(), world_.chunks()})
         move_to(grid);
-    change.has_moved = before != VoxelGrid{world_.origin(), world_.chunks()};
+    change.has_moved = before != WorldGrid{world_.origin(), world_.chunks()};
     return change;
 }
 
@@ -93,7 +93,7 @@ void EditableVoxels::put(glm::ivec3 local, std::uint16_t voxel, VoxelChange& cha
 }
 
 // The same voxels counted from another corner.
-void EditableVoxels::move_to(const VoxelGrid& grid) {
+void EditableVoxels::move_to(const WorldGrid& grid) {
     VoxelWorld moved(grid.origin, grid.chunks);
     const glm::ivec3 shift = world_.origin() - grid.origin;
     world_.for_each_voxel([&](glm::ivec3 local, std::uint16_t voxel) { moved.put(local + shift, voxel); });

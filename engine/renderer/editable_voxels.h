@@ -43,7 +43,7 @@ class EditableVoxels {
   private:
     void check(const BoxEdit& edit) const;
     void put(glm::ivec3 local, std::uint16_t voxel, VoxelChange& change);
-    void move_to(const VoxelGrid& grid);
+    void move_to(const WorldGrid& grid);
     void measure_box();
 
     VoxelWorld world_;

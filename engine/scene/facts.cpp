@@ -27,6 +27,8 @@ std::vector<bool> used_by_voxels(const Scene& scene) {
         if (!instanced[m]) continue;
         for (const Voxel& voxel : scene.models[m].voxels)
             used.at(voxel.material) = true;
+        for (const VoxelBox& box : scene.models[m].boxes)
+            used.at(box.material) = true;
     }
     return used;
 }
@@ -115,8 +117,12 @@ double cell_count(const Box& box) {
 
 SceneFacts measure_scene(const Scene& scene) {
     std::uint64_t count = 0;
-    for (const Instance& instance : scene.instances)
-        count += scene.models.at(instance.model).voxels.size();
+    for (const Instance& instance : scene.instances) {
+        const VoxelModel& model = scene.models.at(instance.model);
+        count += model.voxels.size();
+        for (const VoxelBox& box : model.boxes)
+            count += static_cast<std::uint64_t>(box.cells.volume());
+    }
     return measure_scene(scene, {.count = count, .box = voxel_bounds(scene), .used = used_by_voxels(scene)});
 }
 

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/ao_settings.h"
+#include "scene/box.h"
 #include "scene/path_settings.h"
 #include "scene/photon_settings.h"
 #include "scene/sky_settings.h"
@@ -48,11 +49,18 @@ struct Voxel {
     bool operator==(const Voxel&) const = default;
 };
 
-// At most one voxel per cell, each inside `size`.
+// Cells of one material.
+struct VoxelBox {
+    Box cells;
+    std::uint16_t material = 0;
+};
+
+// Each cell at most once, inside `size`: voxels of files, boxes of shapes.
 struct VoxelModel {
     std::string name;
     glm::ivec3 size{0};
     std::vector<Voxel> voxels;
+    std::vector<VoxelBox> boxes;
 };
 
 // A signed permutation of the axes: all 24 rotations and 24 mirrored ones. Component i of the result is
@@ -90,6 +98,8 @@ struct Instance {
 
 // The scene cell of voxel `v` of a model of `size` under `instance`.
 [[nodiscard]] glm::ivec3 world_cell(const Instance& instance, glm::ivec3 size, glm::ivec3 v);
+// The scene cells of such a box.
+[[nodiscard]] Box world_cells(const Instance& instance, glm::ivec3 size, const Box& box);
 
 struct Sphere {
     glm::dvec3 centre{0.0};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -12,17 +11,16 @@
 namespace voxilux {
 namespace {
 
-// The smallest box around the voxels of a model, in model space.
+// The smallest box around the cells of a model, in model space.
 Box model_bounds(const VoxelModel& model) {
-    if (model.voxels.empty()) return {};
-    glm::ivec3 lo(std::numeric_limits<int>::max());
-    glm::ivec3 hi(std::numeric_limits<int>::min());
+    Box bounds;
     for (const Voxel& voxel : model.voxels) {
         const glm::ivec3 cell(voxel.x, voxel.y, voxel.z);
-        lo = glm::min(lo, cell);
-        hi = glm::max(hi, cell);
+        bounds = united(bounds, {cell, cell + 1});
     }
-    return {lo, hi + 1};
+    for (const VoxelBox& box : model.boxes)
+        bounds = united(bounds, box.cells);
+    return bounds;
 }
 
 // What world_cell computes, in 64 bits. With everything doubled v + 1/2 - pivot is an odd integer, a rotation
@@ -67,12 +65,6 @@ Box bounds_of(const Sphere& sphere) {
 }
 
 }  // namespace
-
-Box united(const Box& a, const Box& b) {
-    if (a.empty()) return b;
-    if (b.empty()) return a;
-    return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
-}
 
 Box voxel_bounds(std::span<const VoxelModel> models, std::span<const Instance> instances) {
     std::vector<Box> local;

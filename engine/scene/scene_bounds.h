@@ -11,21 +11,6 @@ namespace voxilux {
 // No voxel or sphere may reach further from the origin on any axis. Twice it still fits an int.
 inline constexpr int kMaxCoordinate = 1 << 30;
 
-// The cells lo <= c < hi.
-struct Box {
-    glm::ivec3 lo{0};
-    glm::ivec3 hi{0};
-
-    bool operator==(const Box&) const = default;
-
-    [[nodiscard]] bool empty() const { return lo.x >= hi.x || lo.y >= hi.y || lo.z >= hi.z; }
-    // Up to 2^31 per axis, hence 64 bits.
-    [[nodiscard]] glm::i64vec3 extent() const { return glm::i64vec3(hi) - glm::i64vec3(lo); }
-};
-
-// The smallest box that holds both; an empty one adds nothing.
-[[nodiscard]] Box united(const Box& a, const Box& b);
-
 // The smallest box around the filled cells of all instances, empty when there are none.
 // Throws Error(input_refused) when one lies beyond kMaxCoordinate.
 [[nodiscard]] Box voxel_bounds(const Scene& scene);

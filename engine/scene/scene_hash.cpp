@@ -23,8 +23,13 @@ auto fields_of(const Material& material) {
 }
 
 auto fields_of(const VoxelModel& model) {
-    const auto& [name, size, voxels] = model;
-    return std::tie(size, voxels);
+    const auto& [name, size, voxels, boxes] = model;
+    return std::tie(size, voxels, boxes);
+}
+
+auto fields_of(const VoxelBox& box) {
+    const auto& [cells, material] = box;
+    return std::tie(cells.lo, cells.hi, material);
 }
 
 auto fields_of(const Rotation& rotation) {

@@ -112,12 +112,20 @@ void draw(VoxelGrid& grid, const GroundShape& ground) {
     const TerrainShape& terrain = ground.terrain;
     const std::int64_t height = std::int64_t{terrain.to.z} - terrain.from.z;
     const auto layer_count = static_cast<std::int64_t>(ground.layers.size());
+    std::vector<int> filled(static_cast<std::size_t>(std::int64_t{terrain.to.x} - terrain.from.x));
     for (int y = terrain.from.y; y < terrain.to.y; ++y) {
-        for (int x = terrain.from.x; x < terrain.to.x; ++x) {
-            const int filled = terrain_height(terrain, x, y);
-            for (int z = 0; z < filled; ++z)
-                grid.set({x, y, terrain.from.z + z},
-                         ground.layers[static_cast<std::size_t>(z * layer_count / height)]);
+        terrain_heights(terrain, terrain.from.x, y, filled);
+        const int top = std::ranges::max(filled);
+        for (int z = 0; z < top; ++z) {
+            const Filling& layer = ground.layers[static_cast<std::size_t>(z * layer_count / height)];
+            const auto is_above = [&](int column) { return column > z; };
+            for (auto begin = std::ranges::find_if(filled, is_above); begin != filled.end();) {
+                const auto end = std::find_if_not(begin, filled.end(), is_above);
+                grid.fill_row(terrain.from.x + static_cast<int>(begin - filled.begin()),
+                              terrain.from.x + static_cast<int>(end - filled.begin()),
+                              {y, terrain.from.z + z}, layer);
+                begin = std::find_if(end, filled.end(), is_above);
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 #include "scene/terrain.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "shared/hash.h"
 
@@ -32,15 +33,33 @@ std::int64_t lattice_height(std::int64_t i, std::int64_t j, std::uint32_t octave
     return gpu::hash4(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), octave, seed) >> 16;
 }
 
-std::int64_t octave_height(std::int64_t x, std::int64_t y, std::uint32_t octave,
-                           const TerrainShape& terrain) {
+// Adds an octave to the sums of the columns x, x + 1, ... of a row. A row meets each lattice cell and each
+// place in a cell but once.
+void add_octave(const TerrainShape& terrain, std::uint32_t octave, int x, int y,
+                std::span<std::int64_t> sums) {
     const std::int64_t cell = std::max(1, terrain.feature >> octave);
-    const std::int64_t i = floor_div(x, cell), j = floor_div(y, cell);
-    const std::int64_t tx = smooth((x - i * cell) * kOne / cell), ty = smooth((y - j * cell) * kOne / cell);
+    const auto count = static_cast<std::int64_t>(sums.size());
+    std::int64_t i = floor_div(x, cell);
+    const std::int64_t j = floor_div(y, cell);
+    const std::int64_t ty = smooth((y - j * cell) * kOne / cell);
+    const std::int64_t start = x - i * cell;
+    std::vector<std::int64_t> tx(static_cast<std::size_t>(std::min(cell, count)));
+    for (std::size_t k = 0; k < tx.size(); ++k)
+        tx[k] = smooth((start + static_cast<std::int64_t>(k)) % cell * kOne / cell);
     const auto height = [&](std::int64_t di, std::int64_t dj) {
         return lattice_height(i + di, j + dj, octave, terrain.seed);
     };
-    return blend(blend(height(0, 0), height(1, 0), tx), blend(height(0, 1), height(1, 1), tx), ty);
+    std::size_t place = 0;
+    for (std::int64_t k = 0; k < count; ++i) {
+        const std::int64_t h00 = height(0, 0), h10 = height(1, 0), h01 = height(0, 1), h11 = height(1, 1);
+        const std::int64_t end = std::min(count, (i + 1) * cell - x);
+        for (; k < end; ++k) {
+            const std::int64_t t = tx[place];
+            place = place + 1 == static_cast<std::size_t>(cell) ? 0 : place + 1;
+            sums[static_cast<std::size_t>(k)] += blend(blend(h00, h10, t), blend(h01, h11, t), ty)
+                                                 << (kOctaves - 1 - octave);
+        }
+    }
 }
 
 // 1 in the middle of the range, 0 at its ends: 1 - u^2.
@@ -51,20 +70,24 @@ std::int64_t arch(std::int64_t at, std::int64_t from, std::int64_t to) {
 
 }  // namespace
 
-int terrain_height(const TerrainShape& terrain, int x, int y) {
-    std::int64_t sum = 0;
+void terrain_heights(const TerrainShape& terrain, int x, int y, std::span<int> heights) {
+    std::vector<std::int64_t> sums(heights.size(), 0);
     for (std::uint32_t octave = 0; octave < kOctaves; ++octave)
-        sum += octave_height(x, y, octave, terrain) << (kOctaves - 1 - octave);
-    // The weights are 8, 4, 2, 1. Sums of noise crowd around the middle: the stretch makes plains and peaks.
-    const std::int64_t mean = sum / ((1 << kOctaves) - 1);
-    std::int64_t height = std::clamp<std::int64_t>((16 * mean - 4 * kOne) / 8, 0, kOne);
-    if (terrain.island) {
-        const std::int64_t middle =
-            (arch(x, terrain.from.x, terrain.to.x) * arch(y, terrain.from.y, terrain.to.y)) >> kFraction;
-        height = (smooth(middle) * (kOne + 3 * height) / 4) >> kFraction;
-    }
+        add_octave(terrain, octave, x, y, sums);
     const std::int64_t cells = std::int64_t{terrain.to.z} - terrain.from.z;
-    return static_cast<int>((height * cells + kOne / 2) >> kFraction);
+    const std::int64_t arch_y = terrain.island ? arch(y, terrain.from.y, terrain.to.y) : 0;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        // The weights are 8, 4, 2, 1. Sums of noise crowd around the middle: the stretch makes plains and
+        // peaks.
+        const std::int64_t mean = sums[k] / ((1 << kOctaves) - 1);
+        std::int64_t height = std::clamp<std::int64_t>((16 * mean - 4 * kOne) / 8, 0, kOne);
+        if (terrain.island) {
+            const std::int64_t at = std::int64_t{x} + static_cast<std::int64_t>(k);
+            const std::int64_t middle = (arch(at, terrain.from.x, terrain.to.x) * arch_y) >> kFraction;
+            height = (smooth(middle) * (kOne + 3 * height) / 4) >> kFraction;
+        }
+        heights[k] = static_cast<int>((height * cells + kOne / 2) >> kFraction);
+    }
 }
 
 }  // namespace voxilux

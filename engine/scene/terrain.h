@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include <glm/glm.hpp>
 
@@ -15,10 +16,11 @@ struct TerrainShape {
     bool island = false;  // falls to nothing towards the sides of the box
 };
 
-// How many cells of the column (x, y) are filled, from the floor of the box: in [0, to.z - from.z]. Integer
+// How many cells of the columns (x, y), (x + 1, y), ... are filled, from the floor of the box: in
+// [0, to.z - from.z]. Integer
 // arithmetic only, so it is the same on every machine. Source: value noise on a lattice of hashed heights,
 // Perlin 1985's smoothing of the cell (3 t^2 - 2 t^3), four octaves that halve in size and in weight,
 // stretched to the range.
-[[nodiscard]] int terrain_height(const TerrainShape& terrain, int x, int y);
+void terrain_heights(const TerrainShape& terrain, int x, int y, std::span<int> heights);
 
 }  // namespace voxilux

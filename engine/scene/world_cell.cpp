@@ -12,4 +12,10 @@ glm::ivec3 world_cell(const Instance& instance, glm::ivec3 size, glm::ivec3 v) {
     return turned - shift + instance.translation;
 }
 
+Box world_cells(const Instance& instance, glm::ivec3 size, const Box& box) {
+    const glm::ivec3 a = world_cell(instance, size, box.lo);
+    const glm::ivec3 b = world_cell(instance, size, box.hi - 1);
+    return {glm::min(a, b), glm::max(a, b) + 1};
+}
+
 }  // namespace voxilux

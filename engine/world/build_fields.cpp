@@ -35,19 +35,29 @@ std::array<std::uint16_t, 64> confined_boxes(const VoxelWorld::Brick& brick) {
 class LeafStore {
   public:
     LeafStore(const VoxelWorld& world, MarchWorld& built)
-        : surroundings_(world), leaves_(built.leaves), is_free_(has_free_boxes(built.traversal)) {}
+        : world_(world),
+          surroundings_(world),
+          leaves_(built.leaves),
+          is_free_(has_free_boxes(built.traversal)),
+          confined_(is_free_ ? 0 : world.brick_count(), VoxelWorld::kNoBrick) {}
 
-    // `cell` counts bricks.
-    std::uint32_t add(const VoxelWorld::Brick& brick, glm::ivec3 cell) {
-        const LeafBlock block =
-            leaf_block(brick, is_free_ ? near_boxes(surroundings_.around(cell)) : confined_boxes(brick));
+    // The brick at `cell`, which counts bricks.
+    std::uint32_t add(std::uint32_t brick, glm::ivec3 cell) {
+        if (is_free_) return store(leaf_block(world_.brick(brick), near_boxes(surroundings_.around(cell))));
+        std::uint32_t& known = confined_[brick];
+        if (known == VoxelWorld::kNoBrick)
+            known = store(leaf_block(world_.brick(brick), confined_boxes(world_.brick(brick))));
+        return known;
+    }
+
+  private:
+    std::uint32_t store(const LeafBlock& block) {
         const auto number = checked_cast<std::uint32_t>(leaves_.size() / block.size(), "mixed bricks");
         const auto [known, is_new] = numbers_.try_emplace(block, number);
         if (is_new) leaves_.insert(leaves_.end(), block.begin(), block.end());
         return known->second;
     }
 
-  private:
     struct Hash {
         std::size_t operator()(const LeafBlock& block) const {
             return std::hash<std::string_view>()(
@@ -55,9 +65,11 @@ class LeafStore {
         }
     };
 
+    const VoxelWorld& world_;
     FilledMasks surroundings_;
     std::vector<std::uint32_t>& leaves_;
     bool is_free_;
+    std::vector<std::uint32_t> confined_;  // by brick: its leaf, which depends on nothing around it
     std::unordered_map<LeafBlock, std::uint32_t, Hash> numbers_;
 };
 
@@ -73,7 +85,8 @@ BrickCells pack_chunk(const VoxelWorld& world, const VoxelWorld::ChunkBricks& nu
         }
         const VoxelWorld::Brick& brick = world.brick(numbers[i]);
         if (!is_uniform(brick)) {
-            cells[i] = gpu::make_cell(gpu::kCellMixed, store.add(brick, chunk_cell * 4 + gpu::slot_cell(i)));
+            cells[i] =
+                gpu::make_cell(gpu::kCellMixed, store.add(numbers[i], chunk_cell * 4 + gpu::slot_cell(i)));
         } else {
             cells[i] = gpu::cell_of_voxel(brick[0]);
         }

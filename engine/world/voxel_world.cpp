@@ -5,6 +5,22 @@
 
 namespace voxilux {
 
+namespace {
+
+std::uint16_t solid_voxel(std::uint16_t material) {
+    return static_cast<std::uint16_t>(gpu::kVoxelSolidBit | material);
+}
+
+template <class Visit>
+void for_each_cell(const Box& box, const Visit& visit) {
+    for (int z = box.lo.z; z < box.hi.z; ++z)
+        for (int y = box.lo.y; y < box.hi.y; ++y)
+            for (int x = box.lo.x; x < box.hi.x; ++x)
+                visit(glm::ivec3(x, y, z));
+}
+
+}  // namespace
+
 VoxelWorld::VoxelWorld(glm::ivec3 origin, glm::ivec3 chunks) : origin_(origin), chunks_(chunks) {
     VX_ASSERT(chunks.x > 0 && chunks.y > 0 && chunks.z > 0);
     const auto count = static_cast<std::size_t>(chunks.x) * static_cast<std::size_t>(chunks.y) *
@@ -24,31 +40,76 @@ std::size_t VoxelWorld::chunk_index(glm::ivec3 c) const {
                 static_cast<std::size_t>(chunks_.y) * static_cast<std::size_t>(c.z));
 }
 
-void VoxelWorld::set(glm::ivec3 local, std::uint16_t material) {
-    VX_ASSERT(contains(local));
-    VX_ASSERT(material <= gpu::kVoxelPayloadMask);
-    std::uint32_t& slot = chunk_slots_[chunk_index(local >> gpu::kChunkLog2)];
+std::uint32_t& VoxelWorld::brick_slot(glm::ivec3 brick_cell) {
+    std::uint32_t& slot = chunk_slots_[chunk_index(brick_cell >> (gpu::kChunkLog2 - gpu::kBrickLog2))];
     if (slot == kNoBrick) {
         slot = static_cast<std::uint32_t>(chunk_bricks_.size());
         chunk_bricks_.emplace_back().fill(kNoBrick);
     }
-    std::uint32_t& number = chunk_bricks_[slot][gpu::child_slot((local >> gpu::kBrickLog2) & 3)];
+    return chunk_bricks_[slot][gpu::child_slot(brick_cell & 3)];
+}
+
+std::uint32_t VoxelWorld::add_brick(const Brick& brick, bool is_shared) {
+    bricks_.push_back(brick);
+    is_shared_.push_back(is_shared);
+    return static_cast<std::uint32_t>(bricks_.size() - 1);
+}
+
+VoxelWorld::Brick& VoxelWorld::own_brick(std::uint32_t& number) {
     if (number == kNoBrick) {
-        number = static_cast<std::uint32_t>(bricks_.size());
-        bricks_.emplace_back().fill(kEmpty);
+        number = add_brick({}, false);
+    } else if (is_shared_[number]) {
+        number = add_brick(Brick(bricks_[number]), false);
     }
-    std::uint16_t& voxel = bricks_[number][gpu::child_slot(local & 3)];
-    if (voxel == kEmpty) ++voxel_count_;
-    voxel = static_cast<std::uint16_t>(gpu::kVoxelSolidBit | material);
+    return bricks_[number];
+}
+
+std::uint32_t VoxelWorld::shared_brick(const Box& part, std::uint16_t voxel) {
+    const std::uint32_t key =
+        std::uint32_t{voxel} << 12 | gpu::child_slot(part.hi - 1) << 6 | gpu::child_slot(part.lo);
+    const auto [known, is_new] = shared_.try_emplace(key);
+    if (is_new) {
+        Brick brick{};
+        for_each_cell(part, [&](glm::ivec3 cell) { brick[gpu::child_slot(cell)] = voxel; });
+        known->second = add_brick(brick, true);
+    }
+    return known->second;
+}
+
+void VoxelWorld::write(Brick& brick, glm::ivec3 cell, std::uint16_t voxel) {
+    std::uint16_t& old = brick[gpu::child_slot(cell)];
+    if (old == kEmpty) ++voxel_count_;
+    old = voxel;
+}
+
+void VoxelWorld::set(glm::ivec3 local, std::uint16_t material) {
+    VX_ASSERT(contains(local));
+    VX_ASSERT(material <= gpu::kVoxelPayloadMask);
+    write(own_brick(brick_slot(local >> gpu::kBrickLog2)), local & 3, solid_voxel(material));
+}
+
+void VoxelWorld::fill(const Box& local, std::uint16_t material) {
+    VX_ASSERT(!local.empty() && contains(local.lo) && contains(local.hi - 1));
+    VX_ASSERT(material <= gpu::kVoxelPayloadMask);
+    const std::uint16_t voxel = solid_voxel(material);
+    for_each_cell({local.lo >> 2, ((local.hi - 1) >> 2) + 1}, [&](glm::ivec3 brick_cell) {
+        const Box part{glm::max(local.lo - brick_cell * 4, 0), glm::min(local.hi - brick_cell * 4, 4)};
+        std::uint32_t& number = brick_slot(brick_cell);
+        if (number == kNoBrick) {
+            number = shared_brick(part, voxel);
+            voxel_count_ += static_cast<std::uint64_t>(part.volume());
+            return;
+        }
+        Brick& brick = own_brick(number);
+        for_each_cell(part, [&](glm::ivec3 cell) { write(brick, cell, voxel); });
+    });
 }
 
 void VoxelWorld::put(glm::ivec3 local, std::uint16_t voxel) {
     if (voxel != kEmpty) {
         set(local, voxel & gpu::kVoxelPayloadMask);
     } else if (get(local) != kEmpty) {
-        const std::uint32_t number =
-            (*chunk(local >> gpu::kChunkLog2))[gpu::child_slot((local >> gpu::kBrickLog2) & 3)];
-        bricks_[number][gpu::child_slot(local & 3)] = kEmpty;
+        own_brick(brick_slot(local >> gpu::kBrickLog2))[gpu::child_slot(local & 3)] = kEmpty;
         --voxel_count_;
     }
 }
@@ -72,7 +133,7 @@ std::uint32_t VoxelWorld::brick_number(glm::ivec3 brick_cell) const {
     return bricks == nullptr ? kNoBrick : (*bricks)[gpu::child_slot(brick_cell & 3)];
 }
 
-VoxelGrid grid_around(const Box& box, std::uint64_t limit_chunks) {
+WorldGrid grid_around(const Box& box, std::uint64_t limit_chunks) {
     if (box.empty()) return {};
     const glm::ivec3 origin = box.lo - 1;
     const glm::ivec3 chunks = (box.hi + 1 - origin + 15) >> gpu::kChunkLog2;
@@ -89,13 +150,17 @@ VoxelGrid grid_around(const Box& box, std::uint64_t limit_chunks) {
 }
 
 VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
-    const VoxelGrid grid = grid_around(voxel_bounds(scene), limit_chunks);
+    const WorldGrid grid = grid_around(voxel_bounds(scene), limit_chunks);
     VoxelWorld world(grid.origin, grid.chunks);
     for (const Instance& instance : scene.instances) {
         const VoxelModel& model = scene.models[instance.model];
         for (const Voxel& voxel : model.voxels)
             world.set(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}) - grid.origin,
                       voxel.material);
+        for (const VoxelBox& box : model.boxes) {
+            const Box cells = world_cells(instance, model.size, box.cells);
+            world.fill({cells.lo - grid.origin, cells.hi - grid.origin}, box.material);
+        }
     }
     return world;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -23,6 +24,8 @@ class VoxelWorld {
 
     // Fills a cell; `material` < 32768. The last call for a cell wins.
     void set(glm::ivec3 local, std::uint16_t material);
+    // The same for every cell of a box. Bricks that it alone fills, to equal parts, are stored once.
+    void fill(const Box& local, std::uint16_t material);
 
     // Sets a cell to the 16 bits that get() gives: kEmpty clears it.
     void put(glm::ivec3 local, std::uint16_t voxel);
@@ -80,6 +83,13 @@ class VoxelWorld {
 
   private:
     [[nodiscard]] std::size_t chunk_index(glm::ivec3 chunk_cell) const;
+    // Where the number of the brick stands; a chunk is made where there is none.
+    [[nodiscard]] std::uint32_t& brick_slot(glm::ivec3 brick_cell);
+    std::uint32_t add_brick(const Brick& brick, bool is_shared);
+    // The brick, which no other cell shares from now on.
+    [[nodiscard]] Brick& own_brick(std::uint32_t& number);
+    [[nodiscard]] std::uint32_t shared_brick(const Box& part, std::uint16_t voxel);
+    void write(Brick& brick, glm::ivec3 cell, std::uint16_t voxel);
 
     glm::ivec3 origin_;
     glm::ivec3 chunks_;
@@ -87,21 +97,23 @@ class VoxelWorld {
     std::vector<std::uint32_t> chunk_slots_;  // dense, kNoBrick where empty
     std::vector<ChunkBricks> chunk_bricks_;
     std::vector<Brick> bricks_;
+    std::vector<bool> is_shared_;                              // a brick, by cells
+    std::unordered_map<std::uint32_t, std::uint32_t> shared_;  // bricks that one box fills, by part and voxel
 };
 
 // Where a world lies: its scene cell 0, and its chunks.
-struct VoxelGrid {
+struct WorldGrid {
     glm::ivec3 origin{0};
     glm::ivec3 chunks{1};
 
-    bool operator==(const VoxelGrid&) const = default;
+    bool operator==(const WorldGrid&) const = default;
 };
 
 inline constexpr std::uint64_t kMaxChunks = std::uint64_t{1} << 25;
 
 // The grid of a world whose voxels fill this box of scene cells. Throws Error(out_of_memory) when it would
 // have more than `limit_chunks` chunks.
-[[nodiscard]] VoxelGrid grid_around(const Box& box, std::uint64_t limit_chunks = kMaxChunks);
+[[nodiscard]] WorldGrid grid_around(const Box& box, std::uint64_t limit_chunks = kMaxChunks);
 
 // The world of a scene's voxels. Throws as grid_around does.
 [[nodiscard]] VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks = kMaxChunks);

@@ -1,4 +1,5 @@
 #include "support/edited_scene.h"
+#include "support/scene_voxels.h"
 
 #include <map>
 #include <tuple>
@@ -10,13 +11,9 @@ using Cells = std::map<std::tuple<int, int, int>, std::uint16_t>;
 
 Cells cells_of(const Scene& scene) {
     Cells cells;
-    for (const Instance& instance : scene.instances) {
-        const VoxelModel& model = scene.models[instance.model];
-        for (const Voxel& voxel : model.voxels) {
-            const glm::ivec3 at = world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z});
-            cells[{at.x, at.y, at.z}] = voxel.material;
-        }
-    }
+    for_each_scene_voxel(scene, [&](glm::ivec3 at, std::uint16_t material) {
+        cells[{at.x, at.y, at.z}] = material;
+    });
     return cells;
 }
 

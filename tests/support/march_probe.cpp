@@ -38,6 +38,7 @@ std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, cons
     upload(recording, "probe.nodes", words_or_zero(march_world.nodes));
     upload(recording, "probe.leaves", words_or_zero(march_world.leaves));
     upload(recording, "probe.rays", rays);
+    recording.declare({.name = "probe.unused", .size_bytes = 4});
     recording.declare({.name = "probe.marched", .size_bytes = count * sizeof(gpu::MarchProbe)});
     Dispatch dispatch{.label = "probe.march",
                       .shader = "march",
@@ -48,7 +49,8 @@ std::vector<gpu::MarchProbe> march_on_device(const MarchWorld& march_world, cons
                    {.roots = "probe.roots",
                     .nodes = "probe.nodes",
                     .leaves = "probe.leaves",
-                    .have_texels = access == WorldAccess::texels},
+                    .have_texels = access == WorldAccess::texels,
+                    .unused = "probe.unused"},
                    dispatch);
     recording.dispatch(std::move(dispatch));
     recording.readback("probe.marched");

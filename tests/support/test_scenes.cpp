@@ -1,6 +1,7 @@
 #include "support/test_scenes.h"
 
 #include "scene/scene_camera.h"
+#include "support/scene_voxels.h"
 
 namespace voxilux::test {
 
@@ -57,11 +58,7 @@ Scene lit_plane(float angular_diameter_deg) {
 
 std::vector<glm::ivec3> scene_cells(const Scene& scene) {
     std::vector<glm::ivec3> cells;
-    for (const Instance& instance : scene.instances) {
-        const VoxelModel& model = scene.models[instance.model];
-        for (const Voxel& voxel : model.voxels)
-            cells.push_back(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}));
-    }
+    for_each_scene_voxel(scene, [&](glm::ivec3 cell, std::uint16_t) { cells.push_back(cell); });
     return cells;
 }
 

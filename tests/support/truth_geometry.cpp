@@ -1,4 +1,5 @@
 #include "support/truth_geometry.h"
+#include "support/scene_voxels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -141,14 +142,7 @@ TruthMaterial truth_material(const Material& material) {
 
 void fill_grid(const Scene& scene, TruthGrid& grid) {
     ivec3 low(std::numeric_limits<int>::max()), high(std::numeric_limits<int>::min());
-    const auto each_voxel = [&](const auto& visit) {
-        for (const Instance& instance : scene.instances) {
-            const VoxelModel& model = scene.models.at(instance.model);
-            for (const Voxel& voxel : model.voxels)
-                visit(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}), voxel.material);
-        }
-    };
-    each_voxel([&](ivec3 cell, std::uint16_t) {
+    test::for_each_scene_voxel(scene, [&](ivec3 cell, std::uint16_t) {
         low = glm::min(low, cell);
         high = glm::max(high, cell + 1);
     });
@@ -157,7 +151,7 @@ void fill_grid(const Scene& scene, TruthGrid& grid) {
     grid.size = high - low;
     grid.cells.resize(static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y) *
                       static_cast<std::size_t>(grid.size.z));
-    each_voxel([&](ivec3 cell, std::uint16_t material) {
+    test::for_each_scene_voxel(scene, [&](ivec3 cell, std::uint16_t material) {
         const ivec3 c = cell - low;
         grid.cells[static_cast<std::size_t>(c.x + grid.size.x * (c.y + grid.size.y * c.z))] = material + 1u;
     });

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/print.h"
 #include "estimators/difference_estimate.h"
+#include "interrupt.h"
 #include "jobs/effect_price.h"
 #include "jobs/price_list/make_price_list.h"
 #include "jobs/price_list/price_list.h"
@@ -37,6 +38,7 @@ void prepare_folder(const TradeoffCommand& command) {
 RenderOptions render_options(const TradeoffCommand& command) {
     RenderOptions options{.plan = command.scene.request, .device = command.device.request()};
     options.executor.cache_dir = command.device.cache_dir();
+    options.interrupted = &interrupted_by_signal();
     return options;
 }
 
@@ -107,7 +109,9 @@ int run_tradeoff(const TradeoffCommand& command) {
     if (command.report.prints())
         print_result("wrote     {}\n",
                      (folder / (command.no_page ? "tradeoff.json" : "tradeoff.html")).string());
-    return static_cast<int>(ExitCode::done);
+    if (!options.interrupted->load()) return static_cast<int>(ExitCode::done);
+    print_message("interrupted: the price list has what was measured until then\n");
+    return static_cast<int>(ExitCode::interrupted);
 }
 
 }  // namespace voxilux

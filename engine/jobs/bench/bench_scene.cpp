@@ -43,10 +43,13 @@ class ProceduralWorld {
                                  .to = {extent, extent, extent / 4},
                                  .seed = seed,
                                  .feature = std::max(4, extent / 4)};
-        heights_.reserve(static_cast<std::size_t>(extent) * static_cast<std::size_t>(extent));
+        const auto columns = static_cast<std::size_t>(extent);
+        heights_.resize(columns * columns);
         for (int y = 0; y < extent; ++y)
-            for (int x = 0; x < extent; ++x)
-                heights_.push_back(std::max(1, terrain_height(shape, x, y)));
+            terrain_heights(shape, 0, y,
+                            std::span(heights_).subspan(static_cast<std::size_t>(y) * columns, columns));
+        for (int& height : heights_)
+            height = std::max(1, height);
     }
 
     void draw() {

@@ -83,7 +83,9 @@ EqualRow make_row(const Workshop& workshop, const ParameterDesign& design,
         if (workshop.left_s() <= 0.0) break;
         const MeasuredConfiguration& configuration =
             configurations[design.parameters[parameter].settings[setting].configuration];
-        EqualPicture picture = render(workshop, configuration, samples_of(configuration));
+        EqualPicture picture;
+        if (!is_measured([&] { picture = render(workshop, configuration, samples_of(configuration)); }))
+            break;
         picture.parameter = parameter;
         picture.setting = setting;
         picture.is_reached = picture.*member <= kNear * target;

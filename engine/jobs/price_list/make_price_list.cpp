@@ -22,8 +22,13 @@ constexpr double kReferenceSamples = 64.0;
 constexpr double kMaxEffectSamples = 64.0;
 constexpr double kEffectTrials = 5.0;  // times of short pictures scatter
 
-// Time since the start of the job, and what of it is left.
+bool is_interrupted(const PriceListJob& job) {
+    return job.options.interrupted != nullptr && job.options.interrupted->load();
+}
+
+// What is left of a share of the job's time.
 double left_s(const PriceListJob& job, double share) {
+    if (is_interrupted(job)) return 0.0;
     return share * job.time_limit_s - seconds_since(job.options.started);
 }
 

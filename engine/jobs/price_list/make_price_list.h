@@ -21,7 +21,9 @@ struct PriceListJob {
     std::function<void(const Progress&)> on_progress;
 };
 
-// Renders the configurations of the scene's plan, a reference, its effects and the rows of pictures.
+// Renders the configurations of the scene's plan, a reference, its effects and the rows of pictures. When it
+// is interrupted, the list has what was measured until then; throws Error(interrupted) if that is too little
+// for a list.
 [[nodiscard]] PriceList make_price_list(const PriceListJob& job);
 
 }  // namespace voxilux

@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kNothingMeasured =
+    "interrupted before anything could be compared; no price list was written";
+
 // Steps through all seeds: the golden ratio of 2^32 and the square of it.
 constexpr std::uint32_t kRepeatStep = 0x9E3779B9;
 constexpr std::uint32_t kLevelStep = 0x61C88647;
@@ -146,6 +149,40 @@ std::vector<MeasuredConfiguration*> leading_ways(std::vector<MeasuredConfigurati
     return leading;
 }
 
+// `reached`: the number of samples that most configurations have.
+void measure_rising(const Workshop& workshop, const SamplePlan& plan, std::uint32_t asked,
+                    std::vector<MeasuredConfiguration>& configurations, std::uint32_t& reached) {
+    std::set<std::uint32_t> counts;
+    for (const std::vector<std::uint32_t>& levels : plan.of_configuration)
+        counts.insert(levels.begin(), levels.end());
+    const std::vector<std::uint32_t> usual = three_levels(plan.top);
+    for (const std::uint32_t samples : counts) {
+        if (reached != 0 && workshop.left_s() <= 0.0) return;
+        std::vector<MeasuredConfiguration*> taking;
+        for (std::size_t i = 0; i < configurations.size(); ++i) {
+            const std::vector<std::uint32_t>& levels = plan.of_configuration[i];
+            if (std::ranges::find(levels, samples) != levels.end()) taking.push_back(&configurations[i]);
+        }
+        measure_level(workshop, taking, samples);
+        if (std::ranges::find(usual, samples) != usual.end()) reached = samples;
+        workshop.on_progress(0.8 * samples / plan.top, samples);
+    }
+    const auto times = static_cast<double>(workshop.repeats);
+    double per_sample_s = 0.0;
+    while (reached < asked) {
+        const std::uint32_t next = std::min(2 * reached, asked);
+        const std::vector<MeasuredConfiguration*> leading =
+            leading_ways(configurations, reached, per_sample_s);
+        if (times * next * per_sample_s > workshop.left_s()) break;
+        measure_level(workshop, leading, next);
+        reached = next;
+        workshop.on_progress(0.9, reached);
+    }
+    const double base_s = median(configurations.front().levels.back().times_s);
+    if (2.0 * times * base_s < workshop.left_s())
+        measure_level(workshop, {&configurations.front()}, 2 * reached);
+}
+
 }  // namespace
 
 Image colours_of(Image image) {
@@ -163,7 +200,19 @@ Measured measure_once(RenderSession& session, const MeasureJob& job) {
     Measured measured{.outcome = session.render(job.frame, job.time_limit_s)};
     for (const PassTime& pass : measured.outcome.statistics.passes)
         if (!pass.label.starts_with("world.")) measured.time_s += 1e-3 * pass.ms;
+    if (measured.outcome.statistics.stop == StopReason::interrupted)
+        throw Error(ExitCode::interrupted, kNothingMeasured);
     return measured;
+}
+
+bool is_measured(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::interrupted) throw;
+        return false;
+    }
+    return true;
 }
 
 Json settings_json(const Configuration& configuration, const RenderPlan& plan, std::uint32_t samples) {
@@ -236,36 +285,10 @@ SamplePlan plan_samples(const std::vector<MeasuredConfiguration>& configurations
 
 std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan, std::uint32_t asked,
                              std::vector<MeasuredConfiguration>& configurations) {
-    std::set<std::uint32_t> counts;
-    for (const std::vector<std::uint32_t>& levels : plan.of_configuration)
-        counts.insert(levels.begin(), levels.end());
-    const std::vector<std::uint32_t> usual = three_levels(plan.top);
     std::uint32_t reached = 0;
-    for (const std::uint32_t samples : counts) {
-        if (reached != 0 && workshop.left_s() <= 0.0) return reached;
-        std::vector<MeasuredConfiguration*> taking;
-        for (std::size_t i = 0; i < configurations.size(); ++i) {
-            const std::vector<std::uint32_t>& levels = plan.of_configuration[i];
-            if (std::ranges::find(levels, samples) != levels.end()) taking.push_back(&configurations[i]);
-        }
-        measure_level(workshop, taking, samples);
-        if (std::ranges::find(usual, samples) != usual.end()) reached = samples;
-        workshop.on_progress(0.8 * samples / plan.top, samples);
-    }
-    const auto times = static_cast<double>(workshop.repeats);
-    double per_sample_s = 0.0;
-    while (reached < asked) {
-        const std::uint32_t next = std::min(2 * reached, asked);
-        const std::vector<MeasuredConfiguration*> leading =
-            leading_ways(configurations, reached, per_sample_s);
-        if (times * next * per_sample_s > workshop.left_s()) break;
-        measure_level(workshop, leading, next);
-        reached = next;
-        workshop.on_progress(0.9, reached);
-    }
-    const double base_s = median(configurations.front().levels.back().times_s);
-    if (2.0 * times * base_s < workshop.left_s())
-        measure_level(workshop, {&configurations.front()}, 2 * reached);
+    const bool is_whole =
+        is_measured([&] { measure_rising(workshop, plan, asked, configurations, reached); });
+    if (!is_whole && reached == 0) throw Error(ExitCode::interrupted, kNothingMeasured);
     return reached;
 }
 

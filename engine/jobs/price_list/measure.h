@@ -28,8 +28,12 @@ struct Measured {
     double time_s = 0.0;  // of the samples, on the device
 };
 
-// Renders the picture. The session is one of the configuration's scene and structure.
+// Renders the picture. The session is one of the configuration's scene and structure. Throws
+// Error(interrupted) when a signal ends it early: what it has then is no measurement.
 [[nodiscard]] Measured measure_once(RenderSession& session, const MeasureJob& job);
+
+// Whether `work` came to its end, and was not interrupted.
+[[nodiscard]] bool is_measured(const std::function<void()>& work);
 
 // The image without the channels that are no colour.
 [[nodiscard]] Image colours_of(Image image);

@@ -33,11 +33,12 @@ std::vector<std::uint32_t> words_of(const RunResult& result, const std::string& 
 MarchWorld grown_on_device(MarchWorld unexpanded) {
     const GrowthNeeds needs = growth_needs(unexpanded);
     Recording recording;
-    const WorldBuffers buffers{declare(recording, "test.roots", unexpanded.roots.size()),
-                               declare(recording, "test.nodes", unexpanded.nodes.size()),
-                               declare(recording, "test.leaves", unexpanded.leaves.size()),
-                               declare(recording, "test.homes", needs.home_bytes / 4),
-                               declare(recording, "test.grown", needs.grown_bytes / 4)};
+    const WorldBuffers buffers{.roots = declare(recording, "test.roots", unexpanded.roots.size()),
+                               .nodes = declare(recording, "test.nodes", unexpanded.nodes.size()),
+                               .leaves = declare(recording, "test.leaves", unexpanded.leaves.size()),
+                               .homes = declare(recording, "test.homes", needs.home_bytes / 4),
+                               .grown = declare(recording, "test.grown", needs.grown_bytes / 4),
+                               .unused = declare(recording, "test.unused", 1)};
     record_world_build(unexpanded, needs, buffers, recording);
     for (const std::string& name : {buffers.roots, buffers.nodes, buffers.leaves})
         recording.readback(name);

@@ -12,6 +12,7 @@
 #include "scene/scene_camera.h"
 #include "scene/scene_hash.h"
 #include "scene/vox_scene.h"
+#include "support/scene_voxels.h"
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"
 #include "support/vox_builder.h"
@@ -24,13 +25,7 @@ using Cells = std::set<std::tuple<int, int, int>>;
 
 Cells cells_of(const Scene& scene) {
     Cells cells;
-    for (const Instance& instance : scene.instances) {
-        const VoxelModel& model = scene.models.at(instance.model);
-        for (const Voxel& v : model.voxels) {
-            const glm::ivec3 c = world_cell(instance, model.size, {v.x, v.y, v.z});
-            cells.insert({c.x, c.y, c.z});
-        }
-    }
+    test::for_each_scene_voxel(scene, [&](glm::ivec3 c, std::uint16_t) { cells.insert({c.x, c.y, c.z}); });
     return cells;
 }
 

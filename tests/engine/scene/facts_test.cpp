@@ -85,6 +85,15 @@ TEST(Facts, materials_that_are_shown_as_something_simpler_are_named_once_a_kind)
     EXPECT_TRUE(measure_scene(scene).simplified.empty());
 }
 
+TEST(Facts, boxes_of_shapes_count_as_their_cells) {
+    Scene scene = small_scene();
+    scene.models[0].boxes = {{{{0, 0, 0}, {2, 3, 2}}, 1}};
+    const SceneFacts facts = measure_scene(scene);
+    EXPECT_EQ(facts.voxel_count, 2u + 2u * 3u * 2u);
+    EXPECT_TRUE(facts.has_emitters);
+    EXPECT_EQ(facts.material_count, 2u);
+}
+
 TEST(Facts, sphere_material_counts) {
     Scene scene = small_scene();
     scene.spheres[0].material = 2;

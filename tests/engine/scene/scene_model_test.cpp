@@ -13,6 +13,7 @@
 #include "scene/scene_camera.h"
 #include "scene/scene_hash.h"
 #include "scene/vox_scene.h"
+#include "support/scene_voxels.h"
 #include "support/scratch_folder.h"
 
 namespace voxilux {
@@ -22,13 +23,9 @@ using NamedCells = std::map<std::tuple<int, int, int>, std::string>;  // cell to
 
 NamedCells named_cells_of(const Scene& scene) {
     NamedCells cells;
-    for (const Instance& instance : scene.instances) {
-        const VoxelModel& model = scene.models.at(instance.model);
-        for (const Voxel& v : model.voxels) {
-            const glm::ivec3 c = world_cell(instance, model.size, {v.x, v.y, v.z});
-            cells[{c.x, c.y, c.z}] = scene.materials.at(v.material).name;
-        }
-    }
+    test::for_each_scene_voxel(scene, [&](glm::ivec3 c, std::uint16_t material) {
+        cells[{c.x, c.y, c.z}] = scene.materials.at(material).name;
+    });
     return cells;
 }
 

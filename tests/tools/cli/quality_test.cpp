@@ -39,13 +39,13 @@ TEST(Quality, explicit_flags_win) {
     EXPECT_EQ(samples_of({"--quality", "fine", "--iterations", "7"}), 7u);
 }
 
-TEST(Quality, scenes_with_light_between_surfaces_have_samples_of_their_own) {
+TEST(Quality, scenes_with_photons_have_samples_of_their_own) {
     const auto iterations = [](const Words& more) { return samples_of(more, "cornell"); };
     const std::uint64_t preset = iterations({"--quality", "normal"});
-    EXPECT_EQ(preset, samples_of({"--quality", "normal"}));
+    EXPECT_GT(preset, samples_of({"--quality", "normal"}));
     const Words without{"--quality", "normal", "--effect", "indirect=off", "--effect", "caustics=off"};
     EXPECT_LT(iterations(without), preset);
-    EXPECT_EQ(iterations(without), samples_of(without));
+    EXPECT_EQ(iterations(without), samples_of({"--quality", "normal"}));
     EXPECT_EQ(iterations({"--quality", "normal", "--iterations", "7"}), 7u);
     EXPECT_EQ(iterations({"--quality", "normal", "-D", "render.spp=5"}), 5u);
 }

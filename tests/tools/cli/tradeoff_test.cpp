@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -230,6 +232,39 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedWords{"absent_scene", {"tradeoff", "absent.toml", "-o", "out"}, 3, "absent.toml"},
         RefusedWords{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
     [](const testing::TestParamInfo<RefusedWords>& one) { return one.param.name; });
+
+// Interrupted when the runs have come to the middle of their samples: what is there is written, and whole.
+TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
+    const ScratchFolder folder;
+    Words words = small_list(folder / "list", "4096");
+    std::erase(words, "-q");
+    words.insert(words.end(), {"--progress", "json"});
+    *std::ranges::find(words, "60s") = "12s";
+    ChildProcess child(words);
+    ASSERT_TRUE(child.wait_for_error("\"done\":0.6"));
+    child.send(SIGINT);
+    const Ending ending = child.finish();
+    EXPECT_EQ(ending.code, 130) << ending.err;
+    EXPECT_NE(ending.err.find("interrupted: the price list has what was measured until then\n"),
+              std::string::npos)
+        << ending.err;
+    const Json list = json_in(folder / "list" / "tradeoff.json");
+    EXPECT_FALSE(list["runs"].empty());
+}
+
+TEST(TradeoffInterrupted, before_anything_is_measured_nothing_is_written) {
+    const ScratchFolder folder;
+    Words words = small_list(folder / "list", "4096");
+    std::erase(words, "-q");
+    words.insert(words.end(), {"--progress", "json"});
+    ChildProcess child(words);
+    ASSERT_TRUE(child.wait_for_error("\"done\""));
+    child.send(SIGINT);
+    const Ending ending = child.finish();
+    EXPECT_EQ(ending.code, 130) << ending.err;
+    EXPECT_NE(ending.err.find("no price list was written"), std::string::npos) << ending.err;
+    EXPECT_EQ(names_in(folder / "list"), Words{"pictures"});
+}
 
 TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;

@@ -30,10 +30,12 @@ glm::dvec3 position_of(const test::FrameFixture& fixture, const gpu::Hit& hit) {
     return glm::dvec3(fixture.march_world().origin + hit.cell) + glm::dvec3(hit.fraction);
 }
 
-// How far the hits of two scenes lie apart at most, voxels.
+// How far the hits of two scenes lie apart at most, voxels. One fixture after the other: they share a device.
 double farthest(const Scene& a, const Scene& b) {
-    test::FrameFixture of_a(a), of_b(b);
-    const std::vector<gpu::Hit> in_a = of_a.render(0).hits, in_b = of_b.render(0).hits;
+    test::FrameFixture of_a(a);
+    const std::vector<gpu::Hit> in_a = of_a.render(0).hits;
+    test::FrameFixture of_b(b);
+    const std::vector<gpu::Hit> in_b = of_b.render(0).hits;
     double most = 0.0;
     for (std::size_t i = 0; i < in_a.size(); ++i)
         most = std::max(most, glm::length(position_of(of_a, in_a[i]) - position_of(of_b, in_b[i])));
