@@ -38,7 +38,7 @@ class Sleepers(Cluster):
         self.cluster = LocalCluster(n_workers=WORKERS, threads_per_worker=threads // WORKERS, processes=True,
                                     memory_limit=0, dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
         self.client = Client(self.cluster)
-        addresses = list(self.client.scheduler_info()["workers"])
+        addresses = list(self.client.scheduler_info(n_workers=-1)["workers"])
         self.members = {slot: Member(addresses[slot % WORKERS], slot, "ready") for slot in range(threads)}
 
 
