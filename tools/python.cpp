@@ -124,7 +124,9 @@ void become_python(const std::string& python, std::string_view script, std::stri
     const int file = file_with(script, python);
     if (::dup2(file, STDIN_FILENO) < 0) refuse_start(python);
     ::close(file);
-    std::vector<std::string> words = {python, "-I", "-", std::to_string(file_with(input, python))};
+    // Warnings are for those who write Python.
+    std::vector<std::string> words = {python,   "-I", "-W",
+                                      "ignore", "-",  std::to_string(file_with(input, python))};
     const std::vector<char*> arguments = arguments_of(words);
     ::execvp(python.c_str(), arguments.data());
     refuse_start(python);

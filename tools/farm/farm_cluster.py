@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import logging
+import math
 import os
 import pathlib
 import queue
@@ -23,6 +24,7 @@ DASK_SETTINGS = {
     "distributed.worker.profile.interval": "10s",
     "distributed.admin.tick.interval": "1s", "distributed.admin.tick.limit": "60s",
     "distributed.admin.system-monitor.interval": "5s"}
+LOOK_S = 0.5  # between two looks at who is there: the scheduler tells all it knows of every worker
 LONELY_S = 60.0  # without any worker, and the job ends
 
 
@@ -64,8 +66,9 @@ def quiet_dask() -> None:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
 
-def open_local(workers: int):
-    """A cluster of this machine that listens on the loopback alone."""
+def open_local(workers: int, folder: str):
+    """A cluster of this machine that listens on the loopback alone, and keeps its own files in this folder."""
+    os.environ.setdefault("DASK_TEMPORARY_DIRECTORY", folder)  # which Dask reads when it is imported
     from distributed import Client, LocalCluster
     cluster = LocalCluster(n_workers=0, threads_per_worker=1, processes=True, host="127.0.0.1", memory_limit=0,
                            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
@@ -101,8 +104,9 @@ class Cluster:
             cores = len(os.sched_getaffinity(0))
             workers = options["workers"] or len(self.gpus) or max(1, cores // CORES_OF_A_WORKER)
             self.groups = [[]] * workers if self.gpus else core_groups(workers)
-            self.client, self.cluster = open_local(workers)
+            self.client, self.cluster = open_local(workers, f"{setup['folder']}/dask")
         self.seen_s = self.heard_s = time.monotonic()
+        self.looked_s = -math.inf
 
     def dashboard(self) -> str:
         try:
@@ -120,6 +124,9 @@ class Cluster:
     def look(self) -> list[Member]:
         """Meets new workers; returns those that are gone."""
         now = time.monotonic()
+        if now - self.looked_s < LOOK_S:
+            return []
+        self.looked_s = now
         if self.client.status == "running":
             self.heard_s = now
         if now - self.heard_s > CONNECT_S:
