@@ -23,7 +23,8 @@ DASK_SETTINGS = {
     "distributed.scheduler.events-log-length": "1000", "distributed.admin.log-length": "1000",
     "distributed.worker.profile.interval": "10s",
     "distributed.admin.tick.interval": "1s", "distributed.admin.tick.limit": "60s",
-    "distributed.admin.system-monitor.interval": "5s"}
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.scheduler.work-stealing": "False"}  # each task is for one worker
 LOOK_S = 0.5  # between two looks at who is there: the scheduler tells all it knows of every worker
 LONELY_S = 60.0  # without any worker, and the job ends
 
