@@ -78,6 +78,7 @@ class Loop(unittest.TestCase):
         lacks = {"device": "d", "lacking": ["s.toml"], "shares": False}
         with self.assertRaises(Stop) as stop:
             for _ in range(MAX_FAILURES):
+                self.assertIs(member.future.function, farm_worker.prepare, "it is asked again")
                 self.answer(one, member, "asked", lacks)
                 self.assertIs(member.future.function, farm_worker.store)
                 self.answer(one, member, "storing", OSError("No space left on device"))
