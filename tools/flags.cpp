@@ -63,6 +63,10 @@ std::function<Flags::GivenWords()> Flags::given() const {
         for (const CLI::Option* option : options) {
             const std::string name = option->get_name();
             if (!name.starts_with("-")) continue;
+            if (option->get_expected_max() == 0) {  // its results are "true"
+                if (option->count() > 0) words.emplace_back(name, "");
+                continue;
+            }
             for (const std::string& value : option->reduced_results())
                 words.emplace_back(name, value);
         }
@@ -70,9 +74,10 @@ std::function<Flags::GivenWords()> Flags::given() const {
     };
 }
 
-void Flags::on_switch(const std::string& name, std::function<void()> take, const std::string& help) {
+Flag Flags::on_switch(const std::string& name, std::function<void()> take, const std::string& help) {
     CLI::Option* const option = app_.add_flag_callback(name, std::move(take), help);
     if (!group_.empty()) option->group(group_);
+    return Flag(*option);
 }
 
 void Flags::add_switch(const std::string& name, bool& target, const std::string& help) {

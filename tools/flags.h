@@ -94,12 +94,12 @@ class Flags {
     }
 
     // Once the command line is parsed: the flags declared so far that were given, and their values, as words
-    // of another command line. Arguments without a flag are left out.
+    // of another command line; the value of a switch is empty. Arguments without a flag are left out.
     using GivenWords = std::vector<std::pair<std::string, std::string>>;
     [[nodiscard]] std::function<GivenWords()> given() const;
 
     // Calls `take` where the flag, which has no value, is given.
-    void on_switch(const std::string& name, std::function<void()> take, const std::string& help);
+    Flag on_switch(const std::string& name, std::function<void()> take, const std::string& help);
 
     // A flag without a value.
     void add_switch(const std::string& name, bool& target, const std::string& help);

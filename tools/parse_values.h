@@ -59,8 +59,8 @@ struct Shard {
 [[nodiscard]] std::int64_t checked_range(std::string_view flag, std::int64_t value, std::int64_t low,
                                          std::int64_t high);
 
-// A number of stops.
-[[nodiscard]] std::optional<float> parse_exposure(std::string_view text);  // none: automatic
+// A number of stops, or "auto": none.
+[[nodiscard]] std::optional<float> parse_exposure(std::string_view text);
 
 // filmic or plain; auto, never or json.
 [[nodiscard]] ToneMap parse_tone(std::string_view name);

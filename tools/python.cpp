@@ -75,6 +75,19 @@ std::vector<char*> arguments_of(std::vector<std::string>& words) {
     throw Error(ExitCode::temporary, fmt::format("cannot start {}: {}", python, std::strerror(errno)));
 }
 
+// Open at the beginning of a text. A file without a name, not a pipe: nobody is left to fill one.
+int file_with(std::string_view text, const std::string& python) {
+    const int file = ::memfd_create("script", 0);
+    if (file < 0) refuse_start(python);
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t n = ::write(file, text.data() + done, text.size() - done);
+        if (n <= 0) refuse_start(python);
+        done += static_cast<std::size_t>(n);
+    }
+    if (::lseek(file, 0, SEEK_SET) != 0) refuse_start(python);
+    return file;
+}
+
 }  // namespace
 
 int run_program(std::vector<std::string> words, std::string_view text, bool is_silent) {
@@ -107,18 +120,13 @@ std::string python_with(const std::vector<std::string>& modules) {
     return "";
 }
 
-void become_python(const std::string& python, std::string_view script, std::vector<std::string> words) {
-    // A file without a name, not a pipe: nobody is left to fill one.
-    const int file = ::memfd_create("script", 0);
-    if (file < 0) refuse_start(python);
-    for (std::size_t done = 0; done < script.size();) {
-        const ssize_t n = ::write(file, script.data() + done, script.size() - done);
-        if (n <= 0) refuse_start(python);
-        done += static_cast<std::size_t>(n);
-    }
-    if (::lseek(file, 0, SEEK_SET) != 0 || ::dup2(file, STDIN_FILENO) < 0) refuse_start(python);
+void become_python(const std::string& python, std::string_view script, std::string_view input) {
+    const int file = file_with(script, python);
+    if (::dup2(file, STDIN_FILENO) < 0) refuse_start(python);
     ::close(file);
-    words.insert(words.begin(), {python, "-I", "-"});
+    // Warnings are for those who write Python.
+    std::vector<std::string> words = {python,   "-I", "-W",
+                                      "ignore", "-",  std::to_string(file_with(input, python))};
     const std::vector<char*> arguments = arguments_of(words);
     ::execvp(python.c_str(), arguments.data());
     refuse_start(python);

@@ -16,9 +16,9 @@ namespace voxilux {
 // negative number when it did not start. A silent one has no standard error.
 [[nodiscard]] int run_program(std::vector<std::string> words, std::string_view text, bool is_silent);
 
-// Replaces this process by a Python that runs `script`, which gets these words as its arguments. Signals and
-// the exit code are the script's. Throws Error(temporary) when it cannot be started.
-[[noreturn]] void become_python(const std::string& python, std::string_view script,
-                                std::vector<std::string> words);
+// Replaces this process by a Python that runs `script`, which gets the number of an open file that holds
+// `input`: an argument would have to be short. Signals and the exit code are the script's. Throws
+// Error(temporary) when it cannot be started.
+[[noreturn]] void become_python(const std::string& python, std::string_view script, std::string_view input);
 
 }  // namespace voxilux

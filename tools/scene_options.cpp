@@ -95,15 +95,19 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
 }
 
 void add_projection_flags(Flags& flags, SceneOptions& options) {
-    flags.add_parsed("--projection", "NAME", options.projection, parse_projection,
-                     "perspective, orthographic, equirectangular or fisheye");
-    flags.on<double>(
-        "--pixels-per-voxel", "N",
-        [&options](double pixels) {
-            options.pixels_per_voxel =
-                in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
-        },
-        "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given");
+    flags
+        .add_parsed("--projection", "NAME", options.projection, parse_projection,
+                    "perspective, orthographic, equirectangular or fisheye")
+        .excludes("--viewpoint");
+    flags
+        .on<double>(
+            "--pixels-per-voxel", "N",
+            [&options](double pixels) {
+                options.pixels_per_voxel =
+                    in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
+            },
+            "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given")
+        .excludes("--viewpoint");
 }
 
 Camera saved_camera(const Scene& scene, const std::string& name) {
@@ -156,7 +160,7 @@ void add_turntable_flags(Flags& flags, SceneOptions& options) {
                 options.turntable = in_range<Turntable>("--turntable", "frames", frames);
             },
             "N pictures of a whole turn, numbered as frames")
-        .excludes("--frame");
+        .excludes("--viewpoint");
     flags.add_parsed("--turn", "WHAT", options.turned, parse_turned,
                      "what turns: camera, model (light and camera stay) or light");
 }
@@ -195,9 +199,11 @@ void add_camera_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
 void add_background_flags(Flags& flags, SceneOptions& options) {
     flags.add_parsed("--background", "COLOR", options.background, parse_background,
                      "#rrggbb behind the scene, or sky");
-    flags.on_switch(
-        "--transparent", [&options] { options.background = Background{.shown = Backdrop::transparent}; },
-        "nothing behind the scene: a PNG or EXR with alpha; --alpha without a number is the same");
+    flags
+        .on_switch(
+            "--transparent", [&options] { options.background = Background{.shown = Backdrop::transparent}; },
+            "nothing behind the scene: a PNG or EXR with alpha; --alpha without a number is the same")
+        .excludes("--background");
     flags.add_switch("--ignore-file-settings", options.ignores_file_settings,
                      "leave out light, ground, background, lens and film of a .vox file");
 }
@@ -234,8 +240,10 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
         },
         "picture size in pixels");
     add_camera_flag(flags, options, pictures);
-    flags.add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
-                     "stand there: voxels and degrees, as the window says them");
+    flags
+        .add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
+                    "stand there: voxels and degrees, as the window says them")
+        .excludes("--camera");
     add_projection_flags(flags, options);
     add_background_flags(flags, options);
     flags.add_parsed("--crop", "X0,Y0,X1,Y1", request.crop, parse_window,
@@ -299,19 +307,27 @@ Scene load_scene_with(const SceneOptions& options) {
     return scene;
 }
 
+bool asks_for_frames(const SceneOptions& options) {
+    return options.frames || (options.turntable && !options.frame);
+}
+
+FrameList frames_asked_for(const SceneOptions& options) {
+    if (options.frames) return *options.frames;
+    if (!asks_for_frames(options)) return {};
+    return {.first = 1, .last = *options.turntable, .is_sequence = true};
+}
+
 FrameList frames_to_render(const SceneOptions& options, const Scene& scene) {
     const std::optional<FrameRange> all = frames_of(scene);
-    if (options.turntable && !options.frames)
-        return {.first = 1, .last = *options.turntable, .is_sequence = true};
-    if (!options.frames) {
+    if (!asks_for_frames(options)) {
         const std::int64_t frame = options.frame.value_or(all.value_or(FrameRange{}).first);
         return {.first = frame, .last = frame};
     }
-    if (!all)
+    if (options.frames && !all)
         throw Error(ExitCode::usage,
                     "--frames: the scene is still; it needs [[camera.key]], [camera.turntable] "
                     "or an animated .vox file");
-    return *options.frames;
+    return frames_asked_for(options);
 }
 
 void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request) {

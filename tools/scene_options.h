@@ -58,6 +58,12 @@ void add_photon_flags(Flags& flags, SettingsChanges& changes);
 // The scene with the flags applied. Throws Error(input_refused) for a file.
 [[nodiscard]] Scene load_scene_with(const SceneOptions& options);
 
+// Whether flags ask for a picture of each of several frames: a range, or a whole turntable.
+[[nodiscard]] bool asks_for_frames(const SceneOptions& options);
+
+// These frames; else one picture without a number.
+[[nodiscard]] FrameList frames_asked_for(const SceneOptions& options);
+
 // The frames to render. Without a flag, the first frame of an animated scene. Throws Error(usage) for
 // --frames on a still scene.
 [[nodiscard]] FrameList frames_to_render(const SceneOptions& options, const Scene& scene);

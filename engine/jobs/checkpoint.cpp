@@ -80,8 +80,6 @@ void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& o
     options.rehearse_end = [&](const Scene& scene, RenderOutcome strip) {
         rehearse_output(checkpoint, scene, std::move(strip));
     };
-    options.writes_exr = std::ranges::any_of(checkpoint.pictures.files, is_exr);
-    options.writes_png = std::ranges::any_of(checkpoint.pictures.files, is_png);
     std::error_code ignored;
     if (checkpoint.file.empty()) return;
     options.checkpoint_s = checkpoint.every_s;

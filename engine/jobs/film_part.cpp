@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 4;  // of the attribute; another one is refused
+constexpr int kFormat = 5;  // of the attribute; another one is refused
 constexpr std::string_view kPartKind = "a part of a render";
 constexpr int kRowsAtOnce = 64;  // whole blocks of an EXR
 
@@ -85,6 +85,7 @@ Json part_json(const FilmPart& part) {
             {"samples", part.samples.text()},
             {"ahead", {{"rows", part.rows_ahead}, {"sample", part.sample_ahead}}},
             {"independent", part.film.is_independent},
+            {"exposure_ev", part.exposure_ev ? Json(*part.exposure_ev) : Json(nullptr)},
             {"file", file_json(part.file)}};
 }
 
@@ -103,6 +104,7 @@ void read_json(const Json& json, FilmPart& part) {
     check(part.rows_ahead < static_cast<std::uint32_t>(part.film.height), "its rows are damaged");
     check(part.rows_ahead == 0 || part.sample_ahead >= part.samples.end(), "its samples are damaged");
     part.film.is_independent = json.at("independent").get<bool>();
+    if (const Json& stops = json.at("exposure_ev"); !stops.is_null()) part.exposure_ev = stops.get<float>();
     part.file = file_of(json.at("file"), part.film);
 }
 
@@ -192,7 +194,8 @@ FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const E
             .sample_ahead = outcome.rows_ahead == 0 ? 0 : part.sample(done),
             .film = std::move(*outcome.film),
             .report = std::move(report),
-            .file = file};
+            .file = file,
+            .exposure_ev = scene.exposure_ev};
 }
 
 Image image_of(FilmPart part) {

@@ -23,7 +23,8 @@ struct FilmPart {
     std::uint32_t sample_ahead = 0;  // which is this one
     FilmSums film;
     nlohmann::ordered_json report;
-    ExrOptions file;  // how a picture of it is written
+    ExrOptions file;                   // how a picture of it is written
+    std::optional<float> exposure_ev;  // of its PNGs, that the scene sets
 };
 
 inline constexpr const char* kPartAttribute = "voxilux.part";

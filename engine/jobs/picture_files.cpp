@@ -99,11 +99,16 @@ void write_picture(const std::filesystem::path& file, const Image& exr, const Ex
     }
 }
 
+ToneMapOptions tone_of(const PictureFiles& pictures, const std::optional<float>& exposure_ev) {
+    ToneMapOptions tone = pictures.tone;
+    if (exposure_ev && !tone.is_exposure_given) tone.exposure_ev = exposure_ev;
+    return tone;
+}
+
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome) {
     outcome.image.attributes[kReportAttribute] = json_text(report_of_picture(pictures, scene, outcome));
     const Image part = pictures.is_part ? image_of(part_to_write(pictures, scene, outcome)) : Image{};
-    ToneMapOptions tone = pictures.tone;
-    if (scene.exposure_ev && !tone.is_exposure_given) tone.exposure_ev = scene.exposure_ev;
+    const ToneMapOptions tone = tone_of(pictures, scene.exposure_ev);
     for (const std::string& file : pictures.files)
         write_picture(file, pictures.is_part ? part : outcome.image,
                       exr_options(pictures, scene, outcome.plan), outcome.image, tone,

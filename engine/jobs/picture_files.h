@@ -32,6 +32,9 @@ using WriteFaults = std::map<std::string, std::uint64_t>;
 void write_picture(const std::filesystem::path& file, const Image& exr, const ExrOptions& options,
                    const Image& png, const ToneMapOptions& tone, WriteFaults& faults);
 
+// How the PNGs of a scene that sets an exposure are shown: as the user said, else with that.
+[[nodiscard]] ToneMapOptions tone_of(const PictureFiles& pictures, const std::optional<float>& exposure_ev);
+
 // Writes the picture into every file and counts what did not fit their formats
 // among the faults. `scene` is the still one that was rendered.
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome);

@@ -38,6 +38,25 @@ TEST_F(FlagsTest, value_is_stored_and_the_last_one_wins) {
     EXPECT_THROW(parse("--number many"), CLI::ParseError);
 }
 
+TEST_F(FlagsTest, given_flags_are_words_of_another_command_line) {
+    int number = 1;
+    std::string input;
+    std::vector<std::string> items;
+    bool is_on = false;
+    bool is_off = false;
+    flags_.add("INPUT", "", input, "");
+    flags_.add("-n,--number", "N", number, "");
+    flags_.add("-D", "ITEM", items, "");
+    flags_.add_switch("--switch", is_on, "");
+    flags_.add_switch("--other", is_off, "");
+    flags_.on_switch(
+        "--call", [] {}, "");
+    const auto given = flags_.given();
+    parse("file --switch -D a=1 --number 2 -D b --number 3 --call");
+    EXPECT_EQ(given(), (Flags::GivenWords{
+                           {"--number", "3"}, {"-D", "a=1"}, {"-D", "b"}, {"--switch", ""}, {"--call", ""}}));
+}
+
 TEST_F(FlagsTest, parser_gets_the_name_of_the_flag_and_its_error_passes_through) {
     glm::ivec2 size{1, 1};
     flags_.add_parsed("--group-size", "WxH", size, parse_size, "");

@@ -26,7 +26,7 @@ Json words_json(const Flags::GivenWords& words) {
     for (const auto& [name, value] : words) {
         if (kDealtOut.contains(name)) continue;
         json.push_back(name);
-        json.push_back(value);
+        if (!value.empty()) json.push_back(value);
     }
     return json;
 }
@@ -132,12 +132,12 @@ void add_farm_flags(Flags& flags, FarmCommand& command) {
 int run_farm(const FarmCommand& command) {
     check_command(command);
     const Json job = job_of(command);
-    const std::string python = python_with({"dask", "distributed"});
+    const std::string python = python_with({"dask", "distributed", "tomllib"});
     if (python.empty())
         throw Error(ExitCode::no_device,
-                    "farm: there is no python3 with dask and distributed: apt-get install "
-                    "python3-distributed, or pip install dask distributed");
-    become_python(python, farm_source(), {json_text(job)});
+                    "farm: there is no python3 of version 3.11 or later with dask and distributed: apt-get "
+                    "install python3-distributed, or pip install dask distributed");
+    become_python(python, farm_source(), json_text(job));
 }
 
 }  // namespace voxilux

@@ -3,24 +3,29 @@
 import dataclasses
 import json
 import logging
+import math
 import os
 import pathlib
 import queue
 import subprocess
+import threading
 import time
 
 from farm_job import Stop, say
-from farm_worker import prepare, run_task, store
+from farm_worker import forget, prepare, run_task, store
 
 CORES_OF_A_WORKER = 8  # without a GPU; more threads on one picture gain little
 MAX_FAILURES = 3  # in a row, and a worker gets no more tasks
 CONNECT_S = 30.0
+CLEAN_S = 5.0  # for workers to remove what they have stored
 DASK_SETTINGS = {
     "logging.distributed": "critical", "distributed.scheduler.transition-log-length": "1000",
     "distributed.scheduler.events-log-length": "1000", "distributed.admin.log-length": "1000",
     "distributed.worker.profile.interval": "10s",
     "distributed.admin.tick.interval": "1s", "distributed.admin.tick.limit": "60s",
-    "distributed.admin.system-monitor.interval": "5s"}
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.scheduler.work-stealing": "False"}  # each task is for one worker
+LOOK_S = 0.5  # between two looks at who is there: the scheduler tells all it knows of every worker
 LONELY_S = 60.0  # without any worker, and the job ends
 
 
@@ -38,10 +43,11 @@ class Member:
     future: object = None
 
 
-def usable_gpus(binary: str) -> int:
+def usable_gpus(binary: str) -> list[int]:
+    """Their indices among all devices."""
     found = subprocess.run([binary, "devices", "--json", "-"], capture_output=True, text=True, check=False)
     devices = json.loads(found.stdout) if found.returncode == 0 else []
-    return sum(row["usable"] and row["type"] != "cpu" for row in devices)
+    return [row["index"] for row in devices if row["usable"] and row["type"] != "cpu"]
 
 
 def core_groups(workers: int) -> list[list[int]]:
@@ -61,8 +67,9 @@ def quiet_dask() -> None:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
 
-def open_local(workers: int):
-    """A cluster of this machine that listens on the loopback alone."""
+def open_local(workers: int, folder: str):
+    """A cluster of this machine that listens on the loopback alone, and keeps its own files in this folder."""
+    os.environ.setdefault("DASK_TEMPORARY_DIRECTORY", folder)  # which Dask reads when it is imported
     from distributed import Client, LocalCluster
     cluster = LocalCluster(n_workers=0, threads_per_worker=1, processes=True, host="127.0.0.1", memory_limit=0,
                            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
@@ -82,22 +89,25 @@ def open_remote(address: str):
 class Cluster:
     """Asks new workers what they are, sends them the scene, and runs tasks on them."""
 
-    def __init__(self, options: dict, setup: dict, files: dict[str, pathlib.Path]):
+    def __init__(self, options: dict, setup: dict, files: dict[str, pathlib.Path], device: str):
+        """`device`: the kind that a resumed job has had; empty: that of the first worker."""
         quiet_dask()
         self.options, self.setup, self.files = options, setup, files
         self.members: dict[str, Member] = {}
         self.results: queue.Queue = queue.Queue()
-        self.device = ""
-        self.gpus = 0
+        self.device = device
+        self.gpus: list[int] = []
         self.groups: list[list[int]] = []
         if options["scheduler"]:
             self.client, self.cluster = open_remote(options["scheduler"])
         else:
-            self.gpus = 0 if options["device"] else usable_gpus(options["binary"])
-            workers = options["workers"] or self.gpus or max(1, len(os.sched_getaffinity(0)) // CORES_OF_A_WORKER)
+            self.gpus = [] if options["device"] else usable_gpus(options["binary"])
+            cores = len(os.sched_getaffinity(0))
+            workers = options["workers"] or len(self.gpus) or max(1, cores // CORES_OF_A_WORKER)
             self.groups = [[]] * workers if self.gpus else core_groups(workers)
-            self.client, self.cluster = open_local(workers)
+            self.client, self.cluster = open_local(workers, f"{setup['folder']}/dask")
         self.seen_s = self.heard_s = time.monotonic()
+        self.looked_s = -math.inf
 
     def dashboard(self) -> str:
         try:
@@ -115,11 +125,14 @@ class Cluster:
     def look(self) -> list[Member]:
         """Meets new workers; returns those that are gone."""
         now = time.monotonic()
+        if now - self.looked_s < LOOK_S:
+            return []
+        self.looked_s = now
         if self.client.status == "running":
             self.heard_s = now
         if now - self.heard_s > CONNECT_S:
             raise Stop(75, "the scheduler is gone")
-        there = set(self.client.scheduler_info()["workers"])
+        there = set(self.client.scheduler_info(n_workers=-1)["workers"])  # some versions tell 5 of them otherwise
         gone = [self.members.pop(address) for address in list(self.members) if address not in there]
         for address in there - set(self.members):
             used = {member.slot for member in self.members.values()}
@@ -132,9 +145,13 @@ class Cluster:
             raise Stop(75, f"no worker for {LONELY_S:.0f} s")
         return gone
 
+    def selector(self, member: Member) -> str:
+        """The device of a worker, as --device names it; empty: the one that a render chooses."""
+        return str(self.gpus[member.slot % len(self.gpus)]) if self.gpus else self.options["device"]
+
     def ask(self, member: Member) -> None:
         member.state = "asked"
-        self.submit(member, "asked", prepare, self.setup)
+        self.submit(member, "asked", prepare, self.setup, self.selector(member))
 
     def answer(self, member: Member, answer: dict) -> None:
         """What a new worker says of itself."""
@@ -174,7 +191,7 @@ class Cluster:
         order |= {"cores": self.groups[member.slot] if member.slot < len(self.groups) else [],
                   "shares": member.shares}
         if self.gpus:
-            order["words"] = [*order["words"], "--device", str(member.slot)]
+            order["words"] = [*order["words"], "--device", self.selector(member)]
         self.submit(member, "task", run_task, self.setup, order)
 
     def collect(self, timeout_s: float) -> list[tuple[Member, str, object]]:
@@ -187,7 +204,18 @@ class Cluster:
         except queue.Empty:
             return ended
 
+    def clean(self) -> None:
+        """Workers without the job's folder remove what they have stored, also while they render."""
+        away = [member.address for member in self.members.values() if member.device and not member.shares]
+        if not away:
+            return
+        thread = threading.Thread(daemon=True, target=lambda: self.client.run(
+            forget, self.setup, workers=away, on_error="ignore"))
+        thread.start()
+        thread.join(CLEAN_S)
+
     def close(self) -> None:
+        self.clean()
         for part in (self.client, self.cluster):
             if part is not None:
                 try:

@@ -1,16 +1,22 @@
 """The folder of a job: what it is of, and which parts of it are done by whom. Nothing in it is ever half there: files
-appear under their names when they are whole, and the journal grows by lines, of which a torn last one is ignored."""
+appear under their names when they are whole, and the journal grows by lines, of which a torn last one is cut off."""
 
 import dataclasses
 import hashlib
 import json
 import os
 import pathlib
+import reprlib
 import shutil
 import sys
 import tomllib
 
 from farm_ranges import Ranges, difference, overlaps, union
+
+
+OF_JOB = ("build", "scene", "files", "words", "frames")  # what a job that is resumed must have in common, and
+OF_FILM = ("spp", "error", "tone_words", "outputs")  # where whole frames are dealt out, which are final when they come
+DECIDED = ("id", "by_frames", "device")  # by the job itself, and kept
 
 
 class Stop(Exception):
@@ -31,6 +37,8 @@ class Part:
     wall_s: float = 0.0
     cpu_s: float = 0.0
     sha256: str = ""
+    samples: int = 0
+    error: dict | None = None  # estimate and high
     of: list[str] = dataclasses.field(default_factory=list)  # the files that were merged into it
     count: int = 1  # parts that workers have rendered
 
@@ -73,9 +81,10 @@ def files_of_scene(scene: pathlib.Path, overrides: list[str]) -> dict[str, pathl
 class Job:
     """The folder, its manifest, and the parts that are done."""
 
-    def __init__(self, folder: pathlib.Path, manifest: dict):
+    def __init__(self, folder: pathlib.Path, manifest: dict, mixes_devices: bool = False):
         self.folder = folder
         self.manifest = manifest
+        self.mixes_devices = mixes_devices
         self.parts: dict[str, Part] = {}
         self.retries = 0
 
@@ -83,30 +92,52 @@ class Job:
         """Makes the folder, or goes on with one of the same job."""
         is_there = (self.folder / "manifest.json").exists()
         if is_there and not resumes:
-            raise Stop(2, f"{self.folder} is there: --resume goes on with it, and without it the job starts anew")
+            raise Stop(2, f"{self.folder} is there: --resume goes on with it; remove it to start anew")
         self.manifest["files"] = {name: sha256_of(file) for name, file in sorted(files.items())}
         if is_there:
-            self.check(json.loads((self.folder / "manifest.json").read_text()))
-            self.read_journal()
+            self.go_on()
         (self.folder / "parts").mkdir(parents=True, exist_ok=True)
         for name, file in files.items():
             copy = self.folder / "scene" / name
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, copy)
+        self.write_manifest()
+
+    def write_manifest(self) -> None:
         write_atomically(self.folder / "manifest.json", json.dumps(self.manifest, indent=1).encode())
 
+    def remember(self, **facts: object) -> None:
+        """What was decided in this job."""
+        if any(self.manifest[key] != value for key, value in facts.items()):
+            self.manifest |= facts
+            self.write_manifest()
+
+    def go_on(self) -> None:
+        """With what the folder has."""
+        try:
+            before = json.loads((self.folder / "manifest.json").read_text())
+            self.check(before)
+            self.read_journal()
+            if self.parts:
+                self.manifest |= {key: before[key] for key in DECIDED}
+        except (ValueError, TypeError, KeyError, AttributeError) as cause:
+            raise Stop(3, f"{self.folder}: cannot go on: it is damaged: {type(cause).__name__}: {cause}") from cause
+
     def check(self, before: dict) -> None:
-        for key in ("build", "scene", "files", "words", "frames"):
+        for key in OF_JOB + (OF_FILM if before.get("by_frames") else ()):
             if before.get(key) != self.manifest.get(key):
-                raise Stop(3, f"{self.folder}: cannot go on: its {key} is {before.get(key)} and not "
-                              f"{self.manifest.get(key)}")
+                raise Stop(3, f"{self.folder}: cannot go on: its {key} is {reprlib.repr(before.get(key))} and not "
+                              f"{reprlib.repr(self.manifest.get(key))}")
 
     def read_journal(self) -> None:
-        try:
-            lines = (self.folder / "journal.jsonl").read_text().split("\n")
-        except FileNotFoundError:
+        file = self.folder / "journal.jsonl"
+        if not file.exists():
             return
-        for line in lines[:-1]:
+        text = file.read_bytes()
+        whole = text.rfind(b"\n") + 1
+        if whole < len(text):
+            os.truncate(file, whole)  # else the next line would be appended to the torn one
+        for line in text[:whole].splitlines():
             row = json.loads(line)
             if "dropped" in row:
                 self.parts.pop(row["dropped"], None)
@@ -129,9 +160,10 @@ class Job:
 
     def add(self, part: Part) -> bool:
         """False for a part of which other files have samples already: a late one, which must be equal where it has the
-        same samples."""
+        same samples, unless devices of several kinds render."""
         known = self.parts.get(part.file)
-        if known is not None and known.sha256 and part.sha256 and known.sha256 != part.sha256:
+        differs = known is not None and known.sha256 and part.sha256 and known.sha256 != part.sha256
+        if differs and not self.mixes_devices:
             raise Stop(70, f"{part.worker} and {known.worker} rendered {part.file} differently")
         if not part.of and self.has_some(part):
             return False

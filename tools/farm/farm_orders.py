@@ -5,6 +5,7 @@ import pathlib
 import subprocess
 
 from farm_job import Stop
+from farm_picture import failure_of
 from farm_ranges import text
 from farm_work import Task
 
@@ -42,6 +43,6 @@ def first_round(options: dict, frame: int) -> int:
              str(options["spp"]), *frame_words(options, frame), "-q", "--json", "-"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise Stop(done.returncode, done.stderr.strip().split("\n")[-1].removeprefix("voxilux: "))
+        raise Stop(*failure_of("plan", done).values())
     forecast = json.loads(done.stdout).get("forecast") or {}
     return min(forecast.get("samples") or FIRST_ROUND, options["spp"])

@@ -34,8 +34,15 @@ def run_merge(options: dict, files: list[pathlib.Path], outputs: list[str], part
     begin = time.monotonic()
     done = subprocess.run(words, capture_output=True, text=True, check=False, start_new_session=True)
     if done.returncode != 0:
-        return {"code": done.returncode, "line": done.stderr.strip().split("\n")[-1].removeprefix("voxilux: ")}
+        return failure_of("merge", done)
     return {"report": json.loads(done.stdout), "seconds": time.monotonic() - begin}
+
+
+def failure_of(command: str, done: subprocess.CompletedProcess) -> dict:
+    """The exit code and the last line of our own binary; whatever kills it may not come again."""
+    if done.returncode < 0:
+        return {"code": 75, "line": f"{command} was killed by signal {-done.returncode}"}
+    return {"code": done.returncode, "line": done.stderr.strip().split("\n")[-1].removeprefix("voxilux: ")}
 
 
 class Picture:
@@ -48,6 +55,11 @@ class Picture:
         self.is_written = False
         self.error: dict | None = None
         self.samples = 0
+
+    def take_frame(self, part: Part) -> None:
+        """It was rendered as a whole."""
+        self.is_written, self.samples = True, part.samples
+        self.error = part.error
 
 
 class Merger:
@@ -64,9 +76,9 @@ class Merger:
         future = self.pool.submit(run_merge, self.options, files, outputs, partial)
         self.running = (picture, parts, outputs, partial, future)
 
-    def write(self, picture: Picture) -> None:
+    def write(self, picture: Picture, partial: bool) -> None:
         """The picture of all that is there."""
-        self.start(picture, self.job.of_frame(picture.frame), picture.outputs, False)
+        self.start(picture, self.job.of_frame(picture.frame), picture.outputs, partial)
 
     def compact(self, picture: Picture) -> None:
         """One part of all that are there, and a preview."""
@@ -80,6 +92,12 @@ class Merger:
         pause_s = max(PREVIEW_S, PREVIEW_PAUSES * self.took_s)
         return count >= MAX_PARTS or (count > 1 and time.monotonic() - self.last_s > pause_s)
 
+    def wait(self) -> tuple | None:
+        """finished(), when it is."""
+        if self.running is not None:
+            concurrent.futures.wait([self.running[-1]])
+        return self.finished()
+
     def finished(self) -> tuple | None:
         """(picture, was partial, report), once; nothing while a merge runs. Parts that turn out to be damaged are
         dropped: then the report is what they held."""
@@ -91,7 +109,7 @@ class Merger:
         if "code" in result:
             return picture, partial, self.drop_damaged(parts, result)
         self.last_s, self.took_s = time.monotonic(), result["seconds"]
-        if partial:
+        if outputs is not picture.outputs:
             ranges = union([one for part in parts for one in part.ranges], [])
             self.job.add(Part(picture.frame, ranges, str(pathlib.Path(outputs[0]).relative_to(
                 self.job.folder)), "merge", sum(part.wall_s for part in parts), sum(part.cpu_s for part in parts),

@@ -56,6 +56,10 @@ def worker_rows(work: Work, wall_s: float) -> list[dict]:
              "utilisation": min(1.0, speed.busy_s / wall_s)} for worker, speed in sorted(work.speeds.items())]
 
 
+def known_high(error: dict) -> float:
+    return math.inf if error["high"] is None else error["high"]
+
+
 def facts_of(job: Job, pictures: list[Picture], wall_s: float) -> dict:
     """Of a film: the fewest samples and the largest error of a frame."""
     outputs = [output for picture in pictures if picture.samples for output in picture.outputs]
@@ -63,7 +67,7 @@ def facts_of(job: Job, pictures: list[Picture], wall_s: float) -> dict:
     return {"samples": min((picture.samples for picture in pictures), default=0),
             "parts": sum(part.count for part in job.parts.values()), "retries": job.retries, "workers": 0,
             "wall_s": wall_s, "cpu_s": sum(part.cpu_s for part in job.parts.values()),
-            "error": max(errors, key=lambda one: one["high"] or 0.0) if errors else None,
+            "error": max(errors, key=known_high) if errors else None,
             "output": outputs[0] if len(outputs) == 1 else outputs}
 
 
@@ -74,6 +78,14 @@ def report_of(work: Work, facts: dict) -> dict:
     busy_s = sum(speed.busy_s for speed in work.speeds.values())
     return {**facts, "workers": count, "per_worker": rows,
             "one_worker_more_saves_s": busy_s / (count * (count + 1)) if count else None}
+
+
+def print_missed_error(facts: dict, target: float) -> None:
+    """As render says it."""
+    high = (facts["error"] or {}).get("high")
+    error = "an unknown error" if high is None else f"an error of up to {100 * high:.3g} %"
+    print(f"warning: stopped after {facts['samples']} samples with {error}, over the {100 * target:g}% asked for",
+          file=sys.stderr, flush=True)
 
 
 def print_report(report: dict, options: dict) -> None:

@@ -26,6 +26,7 @@ class Task:
     end: int
     number: int = 0
     tries: int = 0
+    failed: set[str] = dataclasses.field(default_factory=set)  # workers that did not do it
     runs: dict[str, float] = dataclasses.field(default_factory=dict)  # when it began, by worker
 
     def units(self) -> int:
@@ -85,15 +86,21 @@ class Work:
 
     def next_task(self, worker: str, workers: int, now_s: float) -> Task | None:
         """A task that failed elsewhere, a new one, or one that another worker is late with."""
-        task = self.failed_elsewhere(worker) or self.new_task(worker, workers) or self.straggler(worker, now_s)
+        task = (self.failed_elsewhere(worker, workers) or self.new_task(worker, workers)
+                or self.straggler(worker, now_s))
         if task is None:
             return None
         task.runs[worker] = now_s
         self.running[task.number] = task
         return task
 
-    def failed_elsewhere(self, worker: str) -> Task | None:
-        return self.again.pop(0) if self.again else None
+    def failed_elsewhere(self, worker: str, workers: int) -> Task | None:
+        """One that this worker has not failed, or that as many have failed as there are."""
+        for task in self.again:
+            if worker not in task.failed or len(task.failed) >= workers:
+                self.again.remove(task)
+                return task
+        return None
 
     def new_task(self, worker: str, workers: int) -> Task | None:
         if not self.lanes:
@@ -114,7 +121,7 @@ class Work:
         late = []
         for task in self.running.values():
             runs = list(task.runs.items())
-            if len(runs) != 1 or runs[0][0] == worker:
+            if len(runs) != 1 or runs[0][0] == worker or worker in task.failed:
                 continue
             expected_s = self.expected_s(task, runs[0][0])
             elapsed_s = now_s - runs[0][1]
@@ -135,6 +142,7 @@ class Work:
     def fail(self, task: Task, worker: str) -> None:
         """This worker will not do it: another one does, or works on it already."""
         task.runs.pop(worker, None)
+        task.failed.add(worker)
         if task.number not in self.running or task.runs:
             return
         del self.running[task.number]

@@ -21,8 +21,11 @@ def file_hash(file: pathlib.Path) -> str:
 
 
 def own_folder(setup: dict) -> pathlib.Path:
-    """Of this worker's machine, for what it cannot find in the job's folder."""
-    return pathlib.Path(tempfile.gettempdir()) / f"voxilux-farm-{os.getuid()}" / setup["id"]
+    """Of this machine, for what its workers cannot find in the job's folder. The id is random, so nobody else can have
+    made a folder of that name."""
+    folder = pathlib.Path(tempfile.gettempdir()) / f"voxilux-farm-{setup['id']}"
+    folder.mkdir(mode=0o700, exist_ok=True)
+    return folder
 
 
 def program_of(setup: dict) -> str:
@@ -41,7 +44,18 @@ def sees_job(setup: dict) -> bool:
         return False
 
 
-def prepare(setup: dict) -> dict:
+def selected(devices: list[dict], selector: str) -> dict | None:
+    """The one of these devices that --device names, or that a render chooses."""
+    if not selector:
+        fits = [row for row in devices if row["would_use"]]
+    elif selector.isdigit():
+        fits = [row for row in devices if row["index"] == int(selector)]
+    else:
+        fits = [row for row in devices if selector.lower() in row["name"].lower()]
+    return next((row for row in fits if row["usable"]), None)
+
+
+def prepare(setup: dict, selector: str) -> dict:
     """What the worker is, and which files of the scene it lacks."""
     program = program_of(setup)
     if not program:
@@ -51,12 +65,15 @@ def prepare(setup: dict) -> dict:
         return {"refusal": f"{program} is another build"}
     found = subprocess.run([program, "devices", "--json", "-"], capture_output=True, text=True, check=False)
     devices = json.loads(found.stdout) if found.returncode == 0 else []
-    used = [row for row in devices if row["would_use"]] or [row for row in devices if row["usable"]]
-    if not used:
-        return {"refusal": "it has no usable Vulkan device"}
-    folder = scene_folder(setup)
+    used = selected(devices, selector)
+    if used is None:
+        return {"refusal": "it has no usable Vulkan device" + (f" '{selector}'" if selector else "")}
+    try:
+        folder = scene_folder(setup)
+    except OSError as cause:
+        return {"refusal": str(cause)}
     lacking = [name for name, digest in setup["files"].items() if file_hash(folder / name) != digest]
-    return {"device": f"{used[0]['name']}, {used[0]['driver']}", "lacking": lacking, "shares": sees_job(setup)}
+    return {"device": f"{used['name']}, {used['driver']}", "lacking": lacking, "shares": sees_job(setup)}
 
 
 def store(setup: dict, files: dict[str, bytes]) -> dict:
@@ -68,6 +85,11 @@ def store(setup: dict, files: dict[str, bytes]) -> dict:
         temporary.write_bytes(data)
         os.replace(temporary, file)
     return {}
+
+
+def forget(setup: dict) -> None:
+    """Removes the folder of a job that has ended."""
+    shutil.rmtree(own_folder(setup), ignore_errors=True)
 
 
 def start_render(words: list[str], cores: list[int]) -> subprocess.Popen:
@@ -109,7 +131,7 @@ def run_one(setup: dict, task: dict, unit: dict) -> dict:
         return result
     report = json.loads(out)
     # A part that was there already, of a worker that was given up, has no times.
-    result |= {"cpu_s": report.get("cpu_s", 0.0), "samples": report["samples"], "error": report["error"]["high"],
+    result |= {"cpu_s": report.get("cpu_s", 0.0), "samples": report["samples"], "error": {name: report["error"][name] for name in ("estimate", "high")},
                "sha256": [file_hash(file) for file in files]}
     if not task["shares"]:
         result["bytes"] = [file.read_bytes() for file in files]

@@ -41,10 +41,11 @@ void write_outputs(const PictureFiles& pictures, FilmPart part) {
     ExrOptions options = part.file;
     options.reproducible = pictures.reproducible;
     options.software = "voxilux " VX_VERSION;
+    const ToneMapOptions tone = tone_of(pictures, part.exposure_ev);
     const Image image = picture_to_write(std::move(part), pictures.is_part);
     WriteFaults ignored;  // the report has those of the parts
     for (const std::string& file : pictures.files)
-        write_picture(file, image, options, image, pictures.tone, ignored);
+        write_picture(file, image, options, image, tone, ignored);
 }
 
 void print_merge(const MergeCommand& command, const nlohmann::ordered_json& report) {

@@ -19,9 +19,10 @@
 namespace voxilux {
 
 // A picture that nobody named must not replace one that somebody kept.
-void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs) {
-    std::vector<std::string> files = {command.report.json};
-    const FrameList frames = command.scene.frames.value_or(FrameList{});
+std::vector<std::string> files_to_write(const RenderCommand& command,
+                                        const std::vector<std::string>& outputs) {
+    std::vector<std::string> files;
+    const FrameList frames = frames_asked_for(command.scene);
     for (std::int64_t i = 0; i < frames.count(); ++i) {
         for (const std::string& file : files_of_frame(outputs, frames, frames.at(i))) {
             if (command.pictures.files.empty() && std::filesystem::exists(file)) {
@@ -33,7 +34,7 @@ void check_outputs_of(const RenderCommand& command, const std::vector<std::strin
             files.push_back(file);
         }
     }
-    check_outputs(files, {command.scene.input});
+    return files;
 }
 
 namespace {
@@ -86,7 +87,9 @@ int run_render(const RenderCommand& command) {
     options.interrupted = &interrupted_by_signal();
     options.checkpoint_wanted = &checkpoint_wanted_by_signal();
     ProgressLine progress(command.progress, command.report.quiet);
-    check_outputs_of(command, checkpoint.pictures.files);
+    std::vector<std::string> outputs = files_to_write(command, checkpoint.pictures.files);
+    outputs.push_back(command.report.json);
+    check_outputs(outputs, {command.scene.input});
     Scene scene = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, scene);
     if (!command.report.quiet) print_frame_note(command.scene, scene);
@@ -99,7 +102,10 @@ int run_render(const RenderCommand& command) {
                         .range = {frames, options.time_limit_s, options.started},
                         .progress = progress,
                         .scene_hash = hash};
-    return frames.is_sequence ? render_frames(command, session, job) : render_picture(command, session, job);
+    if (!frames.is_sequence) return render_picture(command, session, job);
+    const RenderedFrames rendered = render_frames(command, session, job);
+    write_json(command.report.json, rendered.report);
+    return static_cast<int>(rendered.code);
 }
 
 }  // namespace voxilux

@@ -34,9 +34,10 @@ Flag add_render_flags(Flags& flags, RenderCommand& command);
 // input. {name} stands for that name, {camera} for the camera's.
 [[nodiscard]] PictureFiles pictures_of(const RenderCommand& command);
 
-// Throws Error(usage) for outputs that are inputs or each other, and for one that nobody named and that is
+// `outputs`, numbered where flags ask for frames. Throws Error(usage) for one that nobody named and that is
 // there already.
-void check_outputs_of(const RenderCommand& command, const std::vector<std::string>& outputs);
+[[nodiscard]] std::vector<std::string> files_to_write(const RenderCommand& command,
+                                                      const std::vector<std::string>& outputs);
 
 // The checkpoint of a render. Throws Error(usage) where --samples, --shard, --resume or --checkpoint do not
 // go with the other flags.

@@ -1,8 +1,10 @@
 #include "render/render_batch.h"
 
+#include <algorithm>
 #include <set>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/print.h"
 #include "formats/png.h"
 #include "interrupt.h"
@@ -11,6 +13,7 @@
 #include "parse_values.h"
 #include "render/print_render.h"
 #include "render/render_job.h"
+#include "scene/scene_hash.h"
 #include "write_json.h"
 
 namespace voxilux {
@@ -38,7 +41,7 @@ std::vector<RenderCommand> commands_of(const RenderCommand& command) {
             one.scene.input = input;
             one.scene.camera = camera;
             one.report.json.clear();
-            if (!one.scene.frames && !one.scene.turntable) one.checkpoint_s = 0.0;
+            if (!asks_for_frames(one.scene)) one.checkpoint_s = 0.0;
             commands.push_back(std::move(one));
         }
     }
@@ -46,18 +49,27 @@ std::vector<RenderCommand> commands_of(const RenderCommand& command) {
 }
 
 void check_batch(const RenderCommand& command, const std::vector<RenderCommand>& commands) {
-    if (command.shard || command.resume || command.checkpoint_s)
-        refuse("--shard, --resume and --checkpoint are for one picture; render the inputs one by one");
-    std::set<std::string> files;
+    if (is_part(command) || command.resume || command.checkpoint_s)
+        refuse(
+            "--samples, --shard, --resume and --checkpoint are for one picture; render the inputs one by "
+            "one");
+    std::set<std::string> names;
+    std::vector<std::string> files = {command.report.json, command.sheet};
     for (const RenderCommand& one : commands) {
-        for (const std::string& file : pictures_of(one).files) {
-            if (!files.insert(file).second)
+        const std::vector<std::string> pictures = pictures_of(one).files;
+        for (const std::string& file : pictures) {
+            if (!names.insert(file).second)
                 refuse(fmt::format("two pictures would be written to {}; put {{name}} or {{camera}} into -o",
                                    file));
         }
+        const std::vector<std::string> written = files_to_write(one, pictures);
+        files.insert(files.end(), written.begin(), written.end());
     }
     if (!command.sheet.empty() && !is_png(command.sheet))
         refuse(fmt::format("--sheet {}: the ending must be .png", command.sheet));
+    if (!command.sheet.empty() && std::ranges::none_of(names, is_png))
+        refuse("--sheet: it shows the PNGs of the pictures; add -o FILE.png");
+    check_outputs(files, command.scene.inputs);
 }
 
 void add_pngs(const std::vector<std::string>& files, Batch& batch) {
@@ -94,12 +106,11 @@ ExitCode render_still(const RenderCommand& command, const RenderJob& job, Batch&
 
 ExitCode render_one(const RenderCommand& command, Batch& batch) {
     const Checkpoint checkpoint = checkpoint_of(command);
-    check_outputs_of(command, checkpoint.pictures.files);
     RenderOptions options = render_options(command);
     options.interrupted = &interrupted_by_signal();
     Scene scene = scene_to_render(command);
     const FrameList frames = frames_to_render(command.scene, scene);
-    const std::uint64_t hash = frames.is_sequence ? scene_hash(scene) : 0;
+    const std::uint64_t hash = frames.is_sequence ? sample_hash(scene) : 0;
     request_frames(scene, frames, options.plan);
     if (batch.session)
         batch.session->load(std::move(scene), options.plan);
@@ -110,16 +121,16 @@ ExitCode render_one(const RenderCommand& command, Batch& batch) {
                         .progress = batch.progress,
                         .scene_hash = hash};
     if (!frames.is_sequence) return render_still(command, job, batch);
-    const int code = render_frames(command, *batch.session, job);
-    for (std::int64_t i = 0; i < frames.count(); ++i)
+    RenderedFrames rendered = render_frames(command, *batch.session, job);
+    for (std::int64_t i = 0; i < rendered.count; ++i)
         add_pngs(files_of_frame(checkpoint.pictures.files, frames, frames.at(i)), batch);
-    return static_cast<ExitCode>(code);
+    batch.reports.push_back(std::move(rendered.report));
+    return rendered.code;
 }
 
-// Errors that all later pictures would have, too.
+// Ends that all later pictures would have, too.
 bool ends_batch(ExitCode code) {
-    return code == ExitCode::no_device || code == ExitCode::device_lost || code == ExitCode::interrupted ||
-           code == ExitCode::usage;
+    return code == ExitCode::no_device || code == ExitCode::device_lost || code == ExitCode::interrupted;
 }
 
 void take_error(const RenderCommand& command, const Error& error, Batch& batch) {
@@ -127,6 +138,28 @@ void take_error(const RenderCommand& command, const Error& error, Batch& batch) 
     const bool names_file = what.starts_with(command.scene.input);
     print_message("voxilux: {}{}\n", names_file ? "" : command.scene.input + ": ", what);
     if (batch.code == ExitCode::done) batch.code = error.code();
+}
+
+void render_all(const std::vector<RenderCommand>& commands, Batch& batch) {
+    for (const RenderCommand& one : commands) {
+        try {
+            const ExitCode code = render_one(one, batch);
+            if (batch.code == ExitCode::done || ends_batch(code)) batch.code = code;
+            if (ends_batch(code)) return;
+        } catch (const Error& error) {
+            if (ends_batch(error.code())) throw;
+            take_error(one, error, batch);
+        }
+    }
+}
+
+// The reports, and the sheet of the pictures that are there.
+void write_rest(const RenderCommand& command, const Batch& batch) {
+    write_json(command.report.json, batch.reports);
+    if (command.sheet.empty() || batch.pngs.empty()) return;
+    write_png(command.sheet, contact_sheet(batch.pngs));
+    if (command.report.prints())
+        print_result("sheet     {} pictures  {}\n", batch.pngs.size(), command.sheet);
 }
 
 }  // namespace
@@ -139,22 +172,13 @@ int render_batch(const RenderCommand& command) {
     const std::vector<RenderCommand> commands = commands_of(command);
     check_batch(command, commands);
     Batch batch{.progress = ProgressLine(command.progress, command.report.quiet)};
-    for (const RenderCommand& one : commands) {
-        try {
-            const ExitCode code = render_one(one, batch);
-            if (code == ExitCode::interrupted) return static_cast<int>(code);
-            if (batch.code == ExitCode::done) batch.code = code;
-        } catch (const Error& error) {
-            if (ends_batch(error.code())) throw;
-            take_error(one, error, batch);
-        }
+    try {
+        render_all(commands, batch);
+    } catch (const Error&) {
+        if (!batch.reports.empty()) write_rest(command, batch);
+        throw;
     }
-    if (!command.sheet.empty() && !batch.pngs.empty()) {
-        write_png(command.sheet, contact_sheet(batch.pngs));
-        if (command.report.prints())
-            print_result("sheet     {} pictures  {}\n", batch.pngs.size(), command.sheet);
-    }
-    write_json(command.report.json, batch.reports);
+    write_rest(command, batch);
     return static_cast<int>(batch.code);
 }
 

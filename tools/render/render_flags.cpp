@@ -79,7 +79,7 @@ void refuse_parts_of_a_range(const RenderCommand& command) {
 }
 
 void check_part_flags(const RenderCommand& command, bool writes_exr) {
-    if (command.scene.frames || command.scene.turntable) refuse_parts_of_a_range(command);
+    if (asks_for_frames(command.scene)) refuse_parts_of_a_range(command);
     if (is_part(command) && command.error_target)
         refuse(fmt::format("{} and --error: the error of the whole picture is not known before voxilux merge",
                            part_flag(command)));
@@ -144,8 +144,7 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
     };
     checkpoint.warn = [](const std::string& line) { print_message("warning: {}\n", line); };
     check_part_flags(command, std::ranges::any_of(checkpoint.pictures.files, is_exr));
-    if (!command.scene.frames && !command.scene.turntable)
-        checkpoint.file = checkpoint_file(checkpoint.pictures);
+    if (!asks_for_frames(command.scene)) checkpoint.file = checkpoint_file(checkpoint.pictures);
     return checkpoint;
 }
 
@@ -160,7 +159,9 @@ RenderOptions render_options(const RenderCommand& command) {
                           .device = command.device.request(),
                           .time_limit_s = command.time_limit_s,
                           .error_target = command.error_target};
-    options.plan.effects.wants_aov = std::ranges::any_of(command.pictures.files, is_exr);
+    const std::vector<std::string> files = pictures_of(command).files;
+    options.writes_exr = options.plan.effects.wants_aov = std::ranges::any_of(files, is_exr);
+    options.writes_png = std::ranges::any_of(files, is_png);
     options.executor.cache_dir = command.device.cache_dir();
     options.executor.group_size = {static_cast<std::uint32_t>(command.group_size.x),
                                    static_cast<std::uint32_t>(command.group_size.y)};

@@ -7,7 +7,6 @@
 #include "jobs/report.h"
 #include "render/print_render.h"
 #include "render/render_job.h"
-#include "write_json.h"
 
 namespace voxilux {
 namespace {
@@ -75,7 +74,7 @@ bool render_frame(const RenderCommand& command, RenderSession& session, const Re
 
 }  // namespace
 
-int render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
+RenderedFrames render_frames(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
     Rendered done;
     std::int64_t index = 0;
     const auto has_time = [&] { return fits_in_time(job.range, index, done.last.wall_s, done.last.samples); };
@@ -91,9 +90,10 @@ int render_frames(const RenderCommand& command, RenderSession& session, const Re
     print_faults(report.total);
     print_end(command, report, done.missed);
     if (has_rest) print_rest(job.range.frames, index, is_interrupted ? "interrupted in" : "no time left for");
-    write_json(command.report.json, sequence_json(session.scene(), job.scene_hash, report));
-    if (is_interrupted) return static_cast<int>(ExitCode::interrupted);
-    return static_cast<int>(has_rest ? ExitCode::time_limit : done.code);
+    const ExitCode code = has_rest ? ExitCode::time_limit : done.code;
+    return {.code = is_interrupted ? ExitCode::interrupted : code,
+            .count = index,
+            .report = sequence_json(session.scene(), job.scene_hash, report)};
 }
 
 }  // namespace voxilux

@@ -41,7 +41,7 @@ std::string render_command(const std::vector<std::string>& words, const std::str
                            const ViewState& state) {
     std::vector<std::string> line{"voxilux", "render", quoted(state.input.string())};
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] == input) continue;
+        if (words[i] == input || words[i] == "--transparent") continue;
         const std::string_view name = std::string_view(words[i]).substr(0, words[i].find('='));
         if (std::ranges::find(kDropped, name) == kDropped.end())
             line.push_back(quoted(words[i]));

@@ -174,8 +174,10 @@ TEST(FilmPart, damaged_description_is_refused) {
         }
         return std::string();
     };
-    EXPECT_EQ(refusal("\"format\":4", "\"format\":4"), "");
-    EXPECT_NE(refusal("\"format\":4", "\"format\":3"), "");
+    EXPECT_EQ(refusal("\"format\":5", "\"format\":5"), "");
+    EXPECT_NE(refusal("\"format\":5", "\"format\":4"), "");
+    EXPECT_EQ(refusal("\"exposure_ev\":null", "\"exposure_ev\":2.5"), "");
+    EXPECT_NE(refusal("\"exposure_ev\":null", "\"exposure_ev\":\"auto\""), "");
     const std::string samples = R"("samples":"1-10x3")";
     EXPECT_NE(refusal(samples, R"("samples":"1-10x0")"), "");
     EXPECT_NE(refusal(samples, R"("samples":"1-10x3,4")"), "") << "a sample twice";

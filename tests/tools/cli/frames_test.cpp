@@ -203,6 +203,9 @@ TEST(Frames, unnamed_pictures_never_replace_files) {
     const Ending ending = run(small_turn({"--frames", "1-2"}), here);
     EXPECT_EQ(ending.code, 2);
     EXPECT_NE(ending.err.find("turntable.0002.png is there already"), std::string::npos) << ending.err;
+    const Ending turn = run(small_turn({"--turntable", "2"}), here);
+    EXPECT_EQ(turn.code, 2);
+    EXPECT_NE(turn.err.find("turntable.0002.png is there already"), std::string::npos) << turn.err;
     EXPECT_EQ(names_in(scratch.path()), Words{"turntable.0002.png"});
 }
 

@@ -13,7 +13,8 @@ import time
 from needs import need_modules
 
 need_modules("dask", "distributed")
-PYTHON = "/usr/bin/python3"
+PYTHON = sys.executable
+HIDE = ["unshare", "-rm", "sh", "-c"]  # a shell whose mounts nobody else sees; root or not
 
 
 class Bench:
@@ -88,7 +89,8 @@ def free_port():
 
 
 def can_hide_folders():
-    return subprocess.run(["unshare", "-m", "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0
+    words = [*HIDE, "mount -t tmpfs none /mnt", "sh"]
+    return subprocess.run(words, stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 
 class Cluster:
@@ -107,13 +109,13 @@ class Cluster:
         return self.processes[-1]
 
     def add_worker(self, before=(), host=""):
-        words = [self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", "/tmp"]
+        words = [self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", self.folder]
         words += ["--host", host] if host else []
         return self.run("distributed.cli.dask_worker", *words, before=before)
 
     def hidden(self):
         """Words before a command that does not see the folder of this test: as on a machine without a shared disk."""
-        return ["unshare", "-m", "sh", "-c", f'mount -t tmpfs none {self.folder} && exec "$@"', "sh"]
+        return [*HIDE, f'mount -t tmpfs none {self.folder} && exec "$@"', "sh"]
 
     def __enter__(self):
         return self

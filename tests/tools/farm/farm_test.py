@@ -1,23 +1,33 @@
 """voxilux farm with Dask on the loopback: bytes equal to those of one render, whatever happens to the workers."""
 
+import functools
 import json
 import os
+import pathlib
 import shutil
 import signal
+import tempfile
 import unittest
 
 from cluster import Cluster, bench_of_arguments, can_hide_folders, kill, workers_of
 
 BENCH = bench_of_arguments()
 SMALL = ["--size", "48x27", "--spp", "24"]
-LONG = ["--size", "320x180", "--spp", "48"]  # some seconds
+# The first part is one sample, so whoever looks for it 50 times a second finds most of the work still to be done.
+LONG = ["--size", "320x180", "--spp", "48"]
+
+
+@functools.cache
+def whole_of_long():
+    return BENCH.render("mixed", "long.exr", *LONG)
 
 
 class Farm(unittest.TestCase):
     def test_picture_has_the_bytes_of_one_render(self):
-        whole = BENCH.render("mixed", "whole.exr", *SMALL, "-o", BENCH.top / "whole.png", "--exposure", "1")
-        out, err = BENCH.farm("mixed", "f.exr", "-o", BENCH.top / "f.png", "--exposure", "1", *SMALL, "--workers", "2",
-                              "--json", "-", "--progress", "json")
+        more = ["--exposure", "1", "--transparent", "-D", "sun.elevation=30"]
+        whole = BENCH.render("mixed", "whole.exr", *SMALL, "-o", BENCH.top / "whole.png", *more)
+        out, err = BENCH.farm("mixed", "f.exr", "-o", BENCH.top / "f.png", *more, *SMALL, "--workers", "2", "--json",
+                              "-", "--progress", "json")
         self.assertEqual((BENCH.top / "f.exr").read_bytes(), whole)
         self.assertEqual((BENCH.top / "f.png").read_bytes(), (BENCH.top / "whole.png").read_bytes())
         self.assertFalse((BENCH.top / "f.exr.farm").exists())
@@ -35,12 +45,24 @@ class Farm(unittest.TestCase):
             alone = BENCH.render("turntable", "one.exr", *SMALL[:2], "--spp", "4", "--frame", str(frame))
             self.assertEqual((BENCH.top / f"t.000{frame}.exr").read_bytes(), alone)
 
-    def test_killed_workers_and_a_killed_job_lose_nothing(self):
-        whole = BENCH.render("mixed", "whole.exr", *LONG)
+    def test_turntable_has_the_bytes_of_its_renders(self):
+        turn = [*SMALL[:2], "--spp", "4", "--turntable", "3", "--turn", "light"]
+        BENCH.farm("mixed", "l.exr", *turn, "--workers", "2", "-q")
+        for frame in (1, 2, 3):
+            alone = BENCH.render("mixed", "one.exr", *turn, "--frame", str(frame))
+            self.assertEqual((BENCH.top / f"l.000{frame}.exr").read_bytes(), alone)
+
+    def test_killed_worker_loses_nothing(self):
+        child = BENCH.start("mixed", "w.exr", *LONG, "--workers", "2", "-q")
+        BENCH.wait_for_parts(child, "w.exr", 1)
+        kill(workers_of(child.pid)[0])
+        _, err = child.communicate(timeout=600)
+        self.assertEqual(child.returncode, 0, err)
+        self.assertEqual((BENCH.top / "w.exr").read_bytes(), whole_of_long())
+
+    def test_killed_job_goes_on_where_it_was(self):
         child = BENCH.start("mixed", "k.exr", *LONG, "--workers", "2", "-q")
         BENCH.wait_for_parts(child, "k.exr", 1)
-        kill(workers_of(child.pid)[0])
-        BENCH.wait_for_parts(child, "k.exr", 3)
         kill(child.pid)
         child.communicate()
         done = BENCH.journal("k.exr")
@@ -49,12 +71,11 @@ class Farm(unittest.TestCase):
         _, err = BENCH.farm("mixed", "k.exr", *LONG, "-q", code=2)
         self.assertIn("--resume goes on with it", err)
         BENCH.farm("mixed", "k.exr", *LONG, "--workers", "2", "-q", "--resume")
-        self.assertEqual((BENCH.top / "k.exr").read_bytes(), whole)
+        self.assertEqual((BENCH.top / "k.exr").read_bytes(), whole_of_long())
 
     def test_interrupted_job_leaves_a_picture_and_goes_on(self):
-        whole = BENCH.render("mixed", "whole.exr", *LONG)
         child = BENCH.start("mixed", "i.exr", *LONG, "--workers", "2", "--json", "-")
-        BENCH.wait_for_parts(child, "i.exr", 2)
+        BENCH.wait_for_parts(child, "i.exr", 1)
         child.send_signal(signal.SIGINT)
         out, err = child.communicate()
         self.assertEqual(child.returncode, 130, err)
@@ -63,15 +84,19 @@ class Farm(unittest.TestCase):
         self.assertTrue(0 < samples < 48, samples)
         self.assertEqual(json.loads(BENCH.info("i.exr"))["attributes"]["voxilux.report"]["samples"], samples)
         BENCH.farm("mixed", "i.exr", *LONG, "--workers", "2", "-q", "--resume")
-        self.assertEqual((BENCH.top / "i.exr").read_bytes(), whole)
+        self.assertEqual((BENCH.top / "i.exr").read_bytes(), whole_of_long())
 
-    @unittest.skipUnless(can_hide_folders(), "only root can hide a folder from a worker")
     def test_worker_without_the_folder_gets_the_scene_and_sends_its_parts(self):
+        if not can_hide_folders():
+            self.assertNotEqual(os.environ.get("CI"), "true", "a folder cannot be hidden: there is no unshare -rm")
+            self.skipTest("a folder cannot be hidden: there is no unshare -rm")
         whole = BENCH.render("mixed", "whole.exr", *SMALL)
+        before = set(pathlib.Path(tempfile.gettempdir()).glob("voxilux-farm-*"))
         with Cluster(BENCH.top) as cluster:
             cluster.add_worker(before=cluster.hidden())
             BENCH.farm("mixed", "r.exr", *SMALL, "--scheduler", cluster.address, "-q")
         self.assertEqual((BENCH.top / "r.exr").read_bytes(), whole)
+        self.assertEqual(set(pathlib.Path(tempfile.gettempdir()).glob("voxilux-farm-*")) - before, set())
 
     def test_worker_of_another_build_is_not_used(self):
         other = BENCH.top / "other"
@@ -85,6 +110,10 @@ class Farm(unittest.TestCase):
             self.assertIn("is not used: ", err)
             self.assertIn("is another build", err)
             self.assertIn("missing: samples 0-23; --resume goes on", err)
+            # What it is told is longer than the 128 KiB of an argument.
+            _, err = BENCH.farm("turntable", "many.exr", "--frames", "1-4000", "--scheduler", cluster.address,
+                                "--worker-binary", other, code=75)
+            self.assertIn("4000 of 4000 frames are missing, from 1 on", err)
 
     def test_error_is_reached_by_the_merged_picture(self):
         out, _ = BENCH.farm("mixed", "e.exr", "--size", "96x54", "--error", "3%", "--workers", "2", "--json", "-")

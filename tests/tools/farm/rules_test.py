@@ -2,6 +2,7 @@
 
 import pathlib
 import random
+import shutil
 import tempfile
 import unittest
 
@@ -39,7 +40,8 @@ class JobFolder(unittest.TestCase):
         self.scene.write_text("")
 
     def job(self, resumes=False, **changes):
-        manifest = {"id": "1", "build": "b", "scene": "s.toml", "words": [], "frames": [0], **changes}
+        manifest = {"id": "1", "build": "b", "scene": "s.toml", "words": [], "frames": [0], "by_frames": False,
+                    "device": "", **changes}
         job = Job(self.top / "job", manifest)
         job.start({"s.toml": self.scene}, resumes)
         return job
@@ -58,6 +60,19 @@ class JobFolder(unittest.TestCase):
         again = self.job(resumes=True)
         self.assertEqual(again.samples(0), [(0, 4), (8, 9)])
         self.assertEqual(again.missing(0, 10), [(4, 8), (9, 10)])
+        self.add(again, 4, 8)
+        self.assertEqual(self.job(resumes=True).samples(0), [(0, 9)], "the line after the torn one is whole")
+
+    def test_damaged_folder_is_refused_with_one_line(self):
+        job = self.job()
+        self.add(job, 0, 4)
+        for name, text in (("journal.jsonl", "nonsense\n"), ("manifest.json", "[]"), ("manifest.json", "{")):
+            (job.folder / name).write_text(text)
+            with self.assertRaises(Stop) as stop:
+                self.job(resumes=True)
+            self.assertEqual(stop.exception.code, 3)
+            self.assertRegex(str(stop.exception), "^.*/job: cannot go on: [^\n]*$")
+            (job.folder / "journal.jsonl").write_text("")
 
     def test_part_whose_file_is_gone_is_missing(self):
         job = self.job()
@@ -85,6 +100,28 @@ class JobFolder(unittest.TestCase):
         with self.assertRaises(Stop) as stop:
             self.add(job, 0, 4, sha256="b")
         self.assertEqual(stop.exception.code, 70)
+        job.mixes_devices = True
+        self.assertFalse(self.add(job, 0, 4, sha256="b"), "devices of another kind round differently")
+
+    def test_job_keeps_what_it_has_decided_once_something_is_done(self):
+        job = self.job(by_frames=True, device="a GPU", spp=4)
+        self.assertEqual(self.job(resumes=True, id="2", device="", spp=4).manifest["id"], "2", "nothing is done")
+        job = self.job(resumes=True, by_frames=True, device="a GPU", spp=4)
+        self.add(job, 0, 4)
+        again = self.job(resumes=True, id="3", by_frames=None, spp=4).manifest
+        self.assertEqual([again[key] for key in ("id", "by_frames", "device")], ["1", True, "a GPU"])
+
+    def test_finished_frames_fix_what_the_samples_of_a_picture_leave_open(self):
+        for by_frames in (False, True):
+            self.add(self.job(resumes=True, by_frames=by_frames, spp=4, tone_words=[]), 0, 4)
+            changed = {"by_frames": by_frames, "tone_words": ["--exposure", "1"], "spp": 8}
+            if not by_frames:
+                self.assertEqual(self.job(resumes=True, **changed).manifest["spp"], 8)
+                shutil.rmtree(self.top / "job")
+                continue
+            with self.assertRaises(Stop) as stop:
+                self.job(resumes=True, **changed)
+            self.assertIn("its spp is 4 and not 8", str(stop.exception))
 
     def test_folder_is_taken_over_only_on_request_and_only_of_the_same_job(self):
         self.job()
@@ -172,6 +209,16 @@ class Tasks(unittest.TestCase):
             work.fail(task, "a")
             self.assertEqual(task.tries, tries)
         self.assertFalse(work.is_idle(3))
+
+    def test_worker_does_not_get_again_what_it_failed_while_others_may(self):
+        work = Work()
+        work.add(0, [(0, 1)])
+        task = work.next_task("a", 2, 0.0)
+        work.fail(task, "a")
+        self.assertIsNone(work.next_task("a", 2, 0.0))
+        self.assertIs(work.next_task("b", 2, 0.0), task)
+        work.fail(task, "b")
+        self.assertIs(work.next_task("a", 2, 0.0), task, "all have failed it")
 
     def test_lanes_come_in_order(self):
         work = Work()
