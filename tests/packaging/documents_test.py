@@ -106,6 +106,13 @@ class Texts(unittest.TestCase):
         self.assertGreater(len(packages()), 30)
         self.assertEqual([package for package in packages() if f"`{package}`" not in named], [])
 
+    def test_changes_and_metadata_tell_of_this_version(self):
+        project = (TOP / "CMakeLists.txt").read_text(encoding="utf-8")
+        newest = re.search(r"^## ([\d.]+) \((.*)\)$", (TOP / "CHANGELOG.md").read_text(encoding="utf-8"), re.M).groups()
+        metadata = (TOP / "packaging/voxilux.metainfo.xml").read_text(encoding="utf-8")
+        self.assertEqual(newest, re.search(r'<release version="(.*)" date="(.*)"/>', metadata).groups())
+        self.assertEqual(newest[0], re.search(r"project\(voxilux VERSION ([\d.]+)", project).group(1))
+
     def test_lines_are_short(self):
         for file in documents():
             long = [line for line in file.read_text(encoding="utf-8").splitlines()

@@ -2,16 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string_view>
 
 namespace voxilux {
 namespace {
-
-// Values that are files or folders, by what --help calls them.
-constexpr std::array<std::string_view, 7> kFileValues = {"FILE", "FILE.png", "DIR", "REF",
-                                                         "TEST", "PART",     "MESH"};
 
 std::vector<std::string> names_of(const CLI::Option& option) {
     std::vector<std::string> names;
@@ -61,8 +56,7 @@ std::vector<std::string> ManualFlag::choices() const {
 }
 
 bool ManualFlag::is_file() const {
-    const std::string& known_as = is_argument() ? names.front() : value;
-    return known_as == "INPUT" || std::ranges::find(kFileValues, known_as) != kFileValues.end();
+    return is_argument() || value.starts_with("FILE") || value == "DIR";
 }
 
 ManualCommand command_tree(const CLI::App& app) {

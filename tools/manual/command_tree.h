@@ -22,7 +22,7 @@ struct ManualFlag {
     [[nodiscard]] bool is_argument() const { return !names.front().starts_with("-"); }
     // Words that the value may be: "filmic" and "plain" of "filmic|plain".
     [[nodiscard]] std::vector<std::string> choices() const;
-    [[nodiscard]] bool is_file() const;
+    [[nodiscard]] bool is_file() const;  // or a folder; arguments are files
 };
 
 struct ManualCommand {
