@@ -14,20 +14,19 @@
 #include "devices/devices.h"
 #include "farm/farm.h"
 #include "info/info.h"
+#include "manual/manual.h"
 #include "merge/merge.h"
 #include "plan/plan.h"
 #include "render/render.h"
 #include "tradeoff/tradeoff.h"
+#include "version.h"
 #include "view/view.h"
 #include "voxelize/voxelize.h"
 
 namespace voxilux {
 namespace {
 
-constexpr const char* kFooter =
-    "voxilux SUBCOMMAND --help lists its flags.\n"
-    "\n"
-    "Exit codes:\n"
+constexpr const char* kExitCodes =
     "    0  done\n"
     "    2  usage: a flag or its value\n"
     "    3  an input was refused\n"
@@ -153,6 +152,10 @@ class Commands {
         rows_.push_back({command, [=] { return run_command(*options); }});
     }
 
+    void add(const CLI::App& command, std::function<int()> run_command) {
+        rows_.push_back({&command, std::move(run_command)});
+    }
+
     [[nodiscard]] int run() const {
         const auto parsed = std::ranges::find_if(rows_, [](const Row& row) { return row.app->parsed(); });
         VX_ASSERT(parsed != rows_.end());
@@ -189,11 +192,28 @@ void add_bench(CLI::App& app, Commands& commands) {
         add_bench_photons_flags, run_bench_photons);
 }
 
+// For the build: what is installed beside the program, made from the flags that there are.
+void add_generate(CLI::App& app, Commands& commands) {
+    CLI::App& generate = *app.add_subcommand("generate", "print the manual page or a completion")->group("");
+    generate.require_subcommand(1);
+    const auto add = [&](const char* name, std::function<std::string(const ManualCommand&)> text) {
+        commands.add(*generate.add_subcommand(name), [&app, text] {
+            print_result("{}", text(command_tree(app)));
+            return 0;
+        });
+    };
+    add("man", [](const ManualCommand& root) { return man_page(root, kExitCodes); });
+    add("bash", bash_completion);
+    add("zsh", zsh_completion);
+    add("fish", fish_completion);
+}
+
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) {
     CLI::App app{"voxilux renders voxel scenes with Vulkan compute, with or without a GPU.", "voxilux"};
-    app.set_version_flag("--version", "voxilux " VX_VERSION, "print the version and exit");
+    app.set_version_flag("--version", version_text,
+                         "print the version, the build and its libraries and exit");
     app.set_help_flag("-h,--help", "print this help and exit");
     app.get_formatter()->column_width(kHelpColumn);
     app.require_subcommand(1);
@@ -224,7 +244,8 @@ int run_command_line(int argc, const char* const* argv) {
     commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
                                   add_voxelize_flags, run_voxelize);
     add_bench(app, commands);
-    app.footer(kFooter);
+    add_generate(app, commands);
+    app.footer(fmt::format("voxilux SUBCOMMAND --help lists its flags.\n\nExit codes:\n{}", kExitCodes));
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
     try {

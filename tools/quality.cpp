@@ -13,19 +13,23 @@ namespace {
 
 #include "quality_presets.inc"
 
-std::string names() {
+std::string names(std::string_view between) {
     std::string text;
     for (const QualityPreset& preset : kPresets)
-        text += fmt::format("{}{}", text.empty() ? "" : ", ", preset.name);
+        text += fmt::format("{}{}", text.empty() ? "" : between, preset.name);
     return text;
 }
 
 }  // namespace
 
+std::string quality_names() {
+    return names("|");
+}
+
 const QualityPreset& quality_named(std::string_view name) {
     const auto* const found = std::ranges::find(kPresets, name, &QualityPreset::name);
     if (found == kPresets.end())
-        throw Error(ExitCode::usage, fmt::format("--quality: '{}' is none of {}", name, names()));
+        throw Error(ExitCode::usage, fmt::format("--quality: '{}' is none of {}", name, names(", ")));
     return *found;
 }
 

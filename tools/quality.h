@@ -29,7 +29,8 @@ struct QualityPreset {
 // What the preset sets in a scene without photons, as "key=value" of a scene file.
 [[nodiscard]] std::vector<std::string> overrides_of(const QualityPreset& preset);
 
-// The presets and their prices, for --help.
+// "draft|normal|...", for --help, and the presets with their prices.
+[[nodiscard]] std::string quality_names();
 [[nodiscard]] std::string quality_help();
 
 }  // namespace voxilux

@@ -41,12 +41,19 @@ std::function<void(const Value&)> change_photons(SettingsChanges& changes, T Pho
     };
 }
 
+std::string traversal_names() {
+    std::string text;
+    for (std::size_t i = 0; i < kTraversalCount; ++i)
+        text += fmt::format("{}{}", i == 0 ? "" : "|", name_of(static_cast<Traversal>(i)));
+    return text;
+}
+
 void add_sampling_flags(Flags& flags, SceneOptions& options) {
     SettingsChanges& changes = options.changes;
     flags.begin_group("Sampling");
     flags.add_parsed(
-        "--quality", "NAME", options.quality, [](const std::string& name) { return &quality_named(name); },
-        quality_help());
+        "--quality", quality_names(), options.quality,
+        [](const std::string& name) { return &quality_named(name); }, quality_help());
     const std::function<void(const std::uint32_t&)> take_spp = [&](std::uint32_t spp) { options.spp = spp; };
     flags.on("--spp", "N", checked("--spp", "spp", take_spp), "samples per pixel");
     flags
@@ -60,21 +67,21 @@ void add_sampling_flags(Flags& flags, SceneOptions& options) {
              checked("--ao-radius", "ao_radius", change(changes, &RenderSettings::ao_radius)),
              "reach of occlusion rays, in voxels");
     flags.on<std::string>(
-        "--ao", "METHOD",
+        "--ao", "brute|hash|auto",
         [&changes](const std::string& name) {
             changes.push_back(
                 [method = parse_ao_method(name)](RenderSettings& settings) { settings.ao.method = method; });
         },
-        "occlusion: brute (each pixel alone), hash (shared between pixels and frames) or auto");
-    flags.add_parsed("--traversal", "NAME", options.request.traversal, traversal_named,
+        "occlusion: of each pixel alone, or shared between pixels and frames");
+    flags.add_parsed("--traversal", traversal_names(), options.request.traversal, traversal_named,
                      "structure that rays march through; the plan chooses one");
     flags.on("--seed", "N", change(changes, &RenderSettings::seed), "seed of every random stream");
     flags.on<std::string>(
-        "--sequence", "NAME",
+        "--sequence", "sobol|halton|white",
         [take = change(changes, &RenderSettings::sequence)](const std::string& name) {
             take(parse_sequence(name));
         },
-        "sample sequence: sobol, halton or white");
+        "sample sequence");
 }
 
 bool sends_photons(const Scene& scene, const SceneOptions& options) {
@@ -96,8 +103,8 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
 
 void add_projection_flags(Flags& flags, SceneOptions& options) {
     flags
-        .add_parsed("--projection", "NAME", options.projection, parse_projection,
-                    "perspective, orthographic, equirectangular or fisheye")
+        .add_parsed("--projection", fmt::format("{}", fmt::join(kProjectionNames, "|")), options.projection,
+                    parse_projection, "of the camera")
         .excludes("--viewpoint");
     flags
         .on<double>(
@@ -161,9 +168,11 @@ void add_turntable_flags(Flags& flags, SceneOptions& options) {
             },
             "N pictures of a whole turn, numbered as frames")
         .excludes("--viewpoint");
-    flags.add_parsed("--turn", "WHAT", options.turned, parse_turned,
-                     "what turns: camera, model (light and camera stay) or light");
+    flags.add_parsed("--turn", fmt::format("{}", fmt::join(kTurnedNames, "|")), options.turned, parse_turned,
+                     "what turns; where the model does, light and camera stay");
 }
+
+constexpr const char* kCameraValue = "front|back|left|right|top|bottom|iso|three-quarter|N";
 
 Flag add_input_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     if (pictures != PicturesOf::inputs)
@@ -178,15 +187,13 @@ Flag add_input_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
 }
 
 void add_camera_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
-    const std::string help =
-        "a side that frames it (three-quarter, front, back, left, right, top, bottom, iso), or the number of "
-        "a camera in the file";
+    const std::string help = "a side that frames it, or the number of a camera in the file";
     if (pictures != PicturesOf::inputs) {
-        flags.add_parsed("--camera", "SIDE|N", options.camera, parse_camera, help);
+        flags.add_parsed("--camera", kCameraValue, options.camera, parse_camera, help);
         return;
     }
     flags.on<std::vector<std::string>>(
-        "--camera", "SIDE|N",
+        "--camera", kCameraValue,
         [&options](const std::vector<std::string>& names) {
             options.cameras.clear();
             for (const std::string& name : names)
@@ -197,8 +204,8 @@ void add_camera_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
 }
 
 void add_background_flags(Flags& flags, SceneOptions& options) {
-    flags.add_parsed("--background", "COLOR", options.background, parse_background,
-                     "#rrggbb behind the scene, or sky");
+    flags.add_parsed("--background", "COLOR|sky", options.background, parse_background,
+                     "a colour behind the scene, #rrggbb, or the sky");
     flags
         .on_switch(
             "--transparent", [&options] { options.background = Background{.shown = Backdrop::transparent}; },

@@ -25,8 +25,8 @@ void add_report_flags(Flags& flags, ReportOptions& report) {
 }
 
 void add_progress_flag(Flags& flags, ProgressMode& mode) {
-    flags.add_parsed("--progress", "HOW", mode, parse_progress,
-                     "progress on standard error: auto (if a terminal), never or json");
+    flags.add_parsed("--progress", "auto|never|json", mode, parse_progress,
+                     "progress on standard error; auto: if it is a terminal");
 }
 
 Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::string& help) {
@@ -41,8 +41,8 @@ Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::
 }
 
 void add_tone_flags(Flags& flags, ToneMapOptions& tone) {
-    flags.add_parsed("--tone", "NAME", tone.curve, parse_tone,
-                     "tone curve of a PNG: filmic or plain (default filmic)");
+    flags.add_parsed("--tone", "filmic|plain", tone.curve, parse_tone,
+                     "tone curve of a PNG (default filmic)");
     flags.on<std::string>(
         "--exposure", "EV|auto",
         [&tone](const std::string& text) {

@@ -68,6 +68,9 @@ class Device {
 // loader.
 [[nodiscard]] std::vector<DeviceInfo> list_devices();
 
+// The version of this machine's Vulkan loader, such as "1.3.239"; "none" where there is none.
+[[nodiscard]] std::string loader_version();
+
 // The place in `devices` that `selector` means: an index, else the first usable device whose name contains it
 // (in any case), else, when empty, a real GPU before a CPU. Throws Error(usage) that lists the devices when
 // nothing matches, Error(no_device) when the machine has no usable one or the one meant is not usable.

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "vk/check.h"
+#include "vk/device.h"
 
 namespace voxilux {
 namespace {
@@ -127,6 +128,13 @@ Instance& Instance::operator=(Instance&& other) noexcept {
 Instance::~Instance() {
     if (messenger_ != VK_NULL_HANDLE) vkDestroyDebugUtilsMessengerEXT(handle_, messenger_, nullptr);
     if (handle_ != VK_NULL_HANDLE) vkDestroyInstance(handle_, nullptr);
+}
+
+std::string loader_version() {
+    if (volkInitialize() != VK_SUCCESS) return "none";
+    const std::uint32_t version = volkGetInstanceVersion();
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
 }
 
 }  // namespace voxilux

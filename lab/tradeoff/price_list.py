@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The price list of the README: a table of what accuracy costs in several scenes, and a picture of it.
+"""The price list, docs/price_list.md: a table of what accuracy costs in several scenes, and a picture of it.
 
     price_list.py                                             table and picture from prices.csv
     price_list.py --measure --voxilux build/release/voxilux   measures the scenes anew first; presets follow
@@ -81,11 +81,11 @@ def table_text(about, rows):
     return "\n".join([*lines, "", textwrap.fill(measured, 110)])
 
 
-def with_table(readme, table):
-    """The README with the table between its markers."""
-    if readme.count(BEGIN) != 1 or readme.count(END) != 1 or readme.index(BEGIN) > readme.index(END):
-        raise Malformed(f"README.md: the markers '{BEGIN}' and '{END}' must stand there once, in this order")
-    before, rest = readme.split(BEGIN)
+def with_table(page, table):
+    """The page with the table between its markers."""
+    if page.count(BEGIN) != 1 or page.count(END) != 1 or page.index(BEGIN) > page.index(END):
+        raise Malformed(f"price_list.md: the markers '{BEGIN}' and '{END}' must stand there once, in this order")
+    before, rest = page.split(BEGIN)
     return f"{before}{BEGIN}\n{table}\n{END}{rest.split(END)[1]}"
 
 
@@ -152,8 +152,8 @@ def parse_arguments(words):
     parser.add_argument("--voxilux", default=str(TOP / "build/release/voxilux"), help="the program, for --measure")
     parser.add_argument("--scenes", default=",".join(SCENES), help="names of scenes, for --measure")
     parser.add_argument("--from", dest="files", nargs="+", help="tradeoff.json files to take prices from, instead")
-    parser.add_argument("--check", action="store_true", help="write nothing; exit code 5 when README or presets are stale")
-    parser.add_argument("--readme", type=pathlib.Path, default=TOP / "README.md")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit code 5 when page or presets are stale")
+    parser.add_argument("--page", type=pathlib.Path, default=TOP / "docs" / "price_list.md")
     parser.add_argument("--prices", type=pathlib.Path, default=PRICES)
     parser.add_argument("--presets", type=pathlib.Path, default=PRESETS)
     parser.add_argument("--picture", type=pathlib.Path, default=TOP / "docs" / "price_list.png")
@@ -171,9 +171,9 @@ def update_prices(options):
 
 
 def texts_of(options):
-    """What the README and the presets should hold."""
+    """What the page and the presets should hold."""
     about, rows = read_csv(options.prices)
-    return {options.readme: with_table(options.readme.read_text(encoding="utf-8"), table_text(about, rows)),
+    return {options.page: with_table(options.page.read_text(encoding="utf-8"), table_text(about, rows)),
             options.presets: choose_presets.header_text(about, rows, choose_presets.choose(rows))}
 
 

@@ -1,4 +1,4 @@
-"""The tables of prices, the presets chosen from them and the README's price list.
+"""The tables of prices, the presets chosen from them and the page of the price list.
 
     prices_test.py FOLDER_OF_TOOLS
 """
@@ -199,17 +199,17 @@ class Gathered(unittest.TestCase):
 
 
 class Committed(unittest.TestCase):
-    """README, presets and picture are what the scripts make of prices.csv."""
+    """Page, presets and picture are what the scripts make of prices.csv."""
 
-    def test_readme_and_presets_follow_the_prices(self):
+    def test_page_and_presets_follow_the_prices(self):
         self.assertEqual(price_list.main(["--check"]), 0)
 
     def test_table_that_was_edited_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
-            readme = pathlib.Path(folder) / "README.md"
-            text = (TOP / "README.md").read_text(encoding="utf-8")
-            readme.write_text(text.replace("| `draft` |", "| `draft` | 1", 1), encoding="utf-8")
-            self.assertEqual(price_list.main(["--check", "--readme", str(readme)]), 5)
+            page = pathlib.Path(folder) / "price_list.md"
+            text = (TOP / "docs" / "price_list.md").read_text(encoding="utf-8")
+            page.write_text(text.replace("| `draft` |", "| `draft` | 1", 1), encoding="utf-8")
+            self.assertEqual(price_list.main(["--check", "--page", str(page)]), 5)
 
     def test_scenes_are_there(self):
         _, rows = prices.read_csv(price_list.PRICES)

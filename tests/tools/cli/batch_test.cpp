@@ -12,7 +12,7 @@
 namespace voxilux::test {
 namespace {
 
-long lines_of(const std::string& text) {
+long line_count(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
 }
 
@@ -26,7 +26,7 @@ TEST(Batch, renders_every_input_from_every_camera_with_one_line_each) {
                               {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(ending.err, "");
-    EXPECT_EQ(lines_of(ending.out), 6) << ending.out;
+    EXPECT_EQ(line_count(ending.out), 6) << ending.out;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.vox", "a_2.png", "a_front.png", "a_iso.png", "b.vox",
                                                "b_2.png", "b_front.png", "b_iso.png"}));
     EXPECT_EQ(bytes_of(scratch / "a_iso.png"), bytes_of(scratch / "b_iso.png"));
@@ -47,7 +47,7 @@ TEST(Batch, goes_on_after_a_file_that_cannot_be_rendered) {
         run(with({"render", "a.vox", "bad.vox", "no.toml", "c.vox", "--json", "r.json"}, kSmall),
             {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 3) << ending.err;
-    EXPECT_EQ(lines_of(ending.err), 2) << ending.err;
+    EXPECT_EQ(line_count(ending.err), 2) << ending.err;
     EXPECT_NE(ending.err.find("voxilux: bad.vox: "), std::string::npos) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.png", "a.vox", "bad.vox", "c.png", "c.vox", "r.json"}));
     EXPECT_EQ(Json::parse(bytes_of(scratch / "r.json")).size(), 2u);
@@ -61,7 +61,7 @@ TEST(Batch, goes_on_after_a_file_without_the_camera) {
     const Ending ending =
         run(with({"render", "a.vox", "b.vox", "--camera", "2", "-q"}, kSmall), {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 2);
-    EXPECT_EQ(lines_of(ending.err), 1) << ending.err;
+    EXPECT_EQ(line_count(ending.err), 1) << ending.err;
     EXPECT_TRUE(ending.err.starts_with("voxilux: a.vox: --camera: there is no '2'")) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.vox", "b.png", "b.vox"}));
 }

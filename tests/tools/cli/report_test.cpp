@@ -7,6 +7,7 @@
 #include "formats/exr.h"
 #include "formats/png.h"
 #include "support/scratch_folder.h"
+#include "support/source_tree.h"
 #include "tools/cli/child_process.h"
 #include "tools/cli/words.h"
 
@@ -263,7 +264,17 @@ TEST(Streams, help_of_every_subcommand_is_on_standard_output) {
     for (const char* code :
          {"0  done", "2  usage", "3  ", "4  ", "5  ", "69  ", "70  ", "71  ", "73  ", "74  ", "130  "})
         EXPECT_NE(ending.out.find(code), std::string::npos) << code;
-    EXPECT_EQ(run({"--version"}).out.find("voxilux "), 0u);
+}
+
+TEST(Streams, version_names_build_and_libraries_and_asks_no_device) {
+    const Ending ending = run({"--version"}, {.environment = {{"VK_DRIVER_FILES", "/nowhere"}}});
+    EXPECT_EQ(ending.code, 0);
+    EXPECT_EQ(ending.err, "");
+    for (const char* part :
+         {"^voxilux [0-9]+\\.[0-9]+\\.[0-9]+\n", "\nbuild +[0-9a-f]{16}, ", "\nvulkan +loader 1\\.[0-9]+\\.",
+          "Vulkan headers 1\\.[0-9]", "glslang [0-9]+\\.", "OpenEXR [0-9]+\\.", "GLFW [0-9]+\\.",
+          "Dear ImGui [0-9]+\\.", "TinyGLTF [0-9]+\\.", "CLI11 [0-9]+\\."})
+        EXPECT_FALSE(Pattern(part).find(ending.out).empty()) << part << ending.out;
 }
 
 }  // namespace

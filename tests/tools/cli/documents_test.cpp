@@ -1,4 +1,4 @@
-// What the README says about the command, against the command.
+// What the documents say about the command, against the command.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kIndent = "    ";
 
-std::string readme() {
-    return read_text(VX_SOURCE_DIR "/README.md");
+std::string document(const std::string& name) {
+    return read_text(VX_SOURCE_DIR "/docs/" + name);
 }
 
 // An indented block "$ voxilux ..." and the output below it.
@@ -59,20 +59,8 @@ std::set<std::string> flags_in(const std::string& text) {
     return flags;
 }
 
-// The part of the README that describes the command.
-std::string usage_of(const std::string& text) {
-    const std::size_t start = text.find("\n## Usage\n");
-    return start == std::string::npos ? "" : text.substr(start, text.find("\n## ", start + 1) - start);
-}
-
 std::set<std::string> real_flags() {
-    std::set<std::string> flags = flags_in(run({"--help"}).out);
-    for (const char* subcommand :
-         {"render", "plan", "info", "devices", "compare", "merge", "farm", "voxelize", "tradeoff", "view"})
-        flags.merge(flags_in(run({subcommand, "--help"}).out));
-    for (const char* part : {"march", "ao", "photons"})
-        flags.merge(flags_in(run({"bench", part, "--help"}).out));
-    return flags;
+    return flags_in(run({"generate", "bash"}).out);  // which offers all of them
 }
 
 std::vector<std::string> invented_flags(const std::string& usage, const std::set<std::string>& real) {
@@ -83,15 +71,15 @@ std::vector<std::string> invented_flags(const std::string& usage, const std::set
     return invented;
 }
 
-TEST(Readme, plan_is_the_real_one) {
-    const std::vector<Example> examples = examples_of(readme(), "plan");
+TEST(Documents, plan_is_the_real_one) {
+    const std::vector<Example> examples = examples_of(document("commands.md"), "plan");
     ASSERT_EQ(examples.size(), 1u);
     const Ending ending = run(examples[0].arguments, {.folder = VX_SOURCE_DIR});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(examples[0].output, ending.out);
 }
 
-TEST(Readme, example_ends_where_its_block_ends) {
+TEST(Documents, example_ends_where_its_block_ends) {
     const std::vector<Example> examples =
         examples_of("    $ voxilux plan a.toml -o a.exr\n    one\n      two\n\nthree\n    four\n", "plan");
     ASSERT_EQ(examples.size(), 1u);
@@ -99,13 +87,13 @@ TEST(Readme, example_ends_where_its_block_ends) {
     EXPECT_EQ(examples[0].output, "one\n  two\n");
 }
 
-TEST(Readme, flags_of_the_usage_exist) {
-    const std::string usage = usage_of(readme());
-    ASSERT_GT(flags_in(usage).size(), 10u);
-    EXPECT_EQ(joined(invented_flags(usage, real_flags())), "");
+TEST(Documents, flags_of_the_usage_exist) {
+    const std::string commands = document("commands.md");
+    ASSERT_GT(flags_in(commands).size(), 50u);
+    EXPECT_EQ(joined(invented_flags(commands + document("window.md"), real_flags())), "");
 }
 
-TEST(Readme, flag_that_does_not_exist_is_found) {
+TEST(Documents, flag_that_does_not_exist_is_found) {
     const std::string usage = "| `--size WxH`, `--sizes` | and (`--progress=never`) | --no-such-flag\n";
     EXPECT_EQ(invented_flags(usage, {"--size", "--progress"}),
               (std::vector<std::string>{"--no-such-flag", "--sizes"}));
