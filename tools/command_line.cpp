@@ -199,7 +199,8 @@ int run_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 
-    Commands commands({argv + std::min(argc, 2), argv + argc});
+    const std::vector<const char*> words = with_transparent(argc, argv);
+    Commands commands({words.begin() + std::min(argc, 2), words.end()});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
     commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
@@ -226,7 +227,6 @@ int run_command_line(int argc, const char* const* argv) {
     app.footer(kFooter);
 
     if (const auto code = check_subcommand(app, argc, argv)) return *code;
-    const std::vector<const char*> words = with_transparent(argc, argv);
     try {
         app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {

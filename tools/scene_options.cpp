@@ -148,6 +148,17 @@ void apply_camera_flags(const SceneOptions& options, Scene& scene) {
     scene.camera = framing_camera(scene, looking);
 }
 
+// --viewpoint, with the lens of the other flags.
+Camera viewpoint_of(const SceneOptions& options) {
+    Camera camera = *options.viewpoint;
+    const Projection scaled = options.pixels_per_voxel ? Projection::orthographic : Projection::perspective;
+    camera.projection = options.projection.value_or(scaled);
+    camera.pixels_per_voxel = options.pixels_per_voxel.value_or(0.0);
+    if (camera.projection == Projection::orthographic && !options.pixels_per_voxel)
+        refuse("--viewpoint with an orthographic --projection needs --pixels-per-voxel");
+    return camera;
+}
+
 void add_turntable_flags(Flags& flags, SceneOptions& options) {
     flags
         .on<std::int64_t>(
@@ -292,7 +303,7 @@ Scene load_scene_with(const SceneOptions& options) {
     }
     apply_camera_flags(options, scene);
     if (options.viewpoint) {
-        scene.camera = options.viewpoint;
+        scene.camera = viewpoint_of(options);
         scene.animation.camera_keys.clear();
         scene.animation.turntable.reset();
     }
