@@ -102,19 +102,15 @@ void set_iterations_of_quality(const SceneOptions& options, Scene& scene) {
 }
 
 void add_projection_flags(Flags& flags, SceneOptions& options) {
-    flags
-        .add_parsed("--projection", fmt::format("{}", fmt::join(kProjectionNames, "|")), options.projection,
-                    parse_projection, "of the camera")
-        .excludes("--viewpoint");
-    flags
-        .on<double>(
-            "--pixels-per-voxel", "N",
-            [&options](double pixels) {
-                options.pixels_per_voxel =
-                    in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
-            },
-            "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given")
-        .excludes("--viewpoint");
+    flags.add_parsed("--projection", fmt::format("{}", fmt::join(kProjectionNames, "|")), options.projection,
+                     parse_projection, "of the camera");
+    flags.on<double>(
+        "--pixels-per-voxel", "N",
+        [&options](double pixels) {
+            options.pixels_per_voxel =
+                in_range<CameraSettings>("--pixels-per-voxel", "pixels_per_voxel", pixels);
+        },
+        "a sprite: an orthographic picture of this scale, as large as the scene unless --size is given");
 }
 
 Camera saved_camera(const Scene& scene, const std::string& name) {
@@ -157,6 +153,17 @@ void apply_camera_flags(const SceneOptions& options, Scene& scene) {
     }
     scene.animation.camera_keys.clear();
     scene.camera = framing_camera(scene, looking);
+}
+
+// --viewpoint, with the lens of the other flags.
+Camera viewpoint_of(const SceneOptions& options) {
+    Camera camera = *options.viewpoint;
+    const Projection scaled = options.pixels_per_voxel ? Projection::orthographic : Projection::perspective;
+    camera.projection = options.projection.value_or(scaled);
+    camera.pixels_per_voxel = options.pixels_per_voxel.value_or(0.0);
+    if (camera.projection == Projection::orthographic && !options.pixels_per_voxel)
+        refuse("--viewpoint with an orthographic --projection needs --pixels-per-voxel");
+    return camera;
 }
 
 void add_turntable_flags(Flags& flags, SceneOptions& options) {
@@ -307,7 +314,7 @@ Scene load_scene_with(const SceneOptions& options) {
     }
     apply_camera_flags(options, scene);
     if (options.viewpoint) {
-        scene.camera = options.viewpoint;
+        scene.camera = viewpoint_of(options);
         scene.animation.camera_keys.clear();
         scene.animation.turntable.reset();
     }

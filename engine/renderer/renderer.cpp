@@ -87,7 +87,12 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
 void Renderer::set_camera(const Camera& camera) {
     Scene scene = scene_;
     scene.camera = camera;
-    VX_ASSERT(camera.projection == prepared_->plan.projection);
+    if (camera.projection != prepared_->plan.projection) {
+        (void)frame_params(prepared_->plan, scene, prepared_->march_world);  // refuses what is too far away
+        replan(std::move(scene), request_);
+        is_framed_ = false;
+        return;
+    }
     // A scene without voxels counts its coordinates from a point near the camera.
     is_framed_ = false;
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request_), scene, request_);
@@ -101,9 +106,14 @@ void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted)
     Scene scene = scene_;
     scene.settings = settings;
     if (is_framed_) scene.camera.reset();
+    replan(std::move(scene), request);
+}
+
+// The plan of a scene with the same voxels; the structure of the world stays.
+void Renderer::replan(Scene scene, const PlanRequest& request) {
     first_radius_.reset();
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request), scene, request);
-    if (is_framed_) scene.camera = framing_camera_of(scene, prepared_->facts.box);
+    if (!scene.camera) scene.camera = framing_camera_of(scene, prepared_->facts.box);
     const bool had_voxels = prepared_->plan.has(Effect::voxels);
     // The structure on the host may be a grown one.
     if (!had_voxels && editing_) return adopt(prepare_again(scene, request), scene, request);

@@ -32,7 +32,7 @@ class Renderer {
     // The same scene with other voxels or another sun, as in an animation. It can no more be edited.
     void set_voxels(const Scene& scene);
 
-    // Another camera on the same scene.
+    // Another camera on the same scene. One of another projection is a change, and throws as one.
     void set_camera(const Camera& camera);
 
     // Other settings, techniques or effects, as a renderer of its own would have them; the structure of the
@@ -83,6 +83,7 @@ class Renderer {
     };
 
     [[nodiscard]] PreparedScene prepare_again(const Scene& scene, const PlanRequest& request) const;
+    void replan(Scene scene, const PlanRequest& request);
     void adopt(PreparedScene next, const Scene& scene, const PlanRequest& request);
     void fetch_boxes();
     [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells);

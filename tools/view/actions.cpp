@@ -21,6 +21,11 @@ void look_from(View side, glm::ivec2 window, ViewState& state) {
     state.view = view_of(framing_camera(state.box, looking, glm::dvec2(glm::max(window, 1))), state.box);
 }
 
+// Turning may bring anything before the camera.
+void orbit(glm::dvec2 way, glm::ivec2 window, ViewState& state) {
+    state.view = orbited(stepped_back(state.view, state.box), way, glm::dvec2(window));
+}
+
 void take_screenshot(const char* ending, ViewState& state) {
     const std::string stem = state.input.empty() ? "voxilux" : state.input.stem().string();
     for (int i = 1;; ++i) {
@@ -52,6 +57,9 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
             return look_from(View::front, window, state);
         case GLFW_KEY_3:
             return look_from(View::right, window, state);
+        case GLFW_KEY_5:
+            state.view = with_other_projection(state.view, state.box, glm::dvec2(window));
+            return;
         case GLFW_KEY_7:
             return look_from(View::top, window, state);
         case GLFW_KEY_9:
@@ -99,16 +107,11 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
     }
 }
 
-void want_command(ViewState& state) {
-    state.wants_command = state.view.camera.projection == Projection::perspective;
-    if (!state.wants_command) state.message = "--viewpoint knows perspective views only";
-}
-
 void take_shortcut(int key, ViewState& state) {
     if (key == GLFW_KEY_Z) return state.held.shift ? redo_edit(state) : undo_edit(state);
     if (key == GLFW_KEY_Y) return redo_edit(state);
-    if (key == GLFW_KEY_C) return want_command(state);
-    if (key == GLFW_KEY_S) save_edits(state.input, state);
+    if (key == GLFW_KEY_S) return save_edits(state.input, state);
+    if (key == GLFW_KEY_C) state.wants_command = true;
 }
 
 void take_move(glm::dvec2 place, glm::ivec2 window, ViewState& state) {
@@ -124,7 +127,7 @@ void take_move(glm::dvec2 place, glm::ivec2 window, ViewState& state) {
     else if (state.held.holds(MouseButton::left) && state.edit.tool != Tool::view)
         move_stroke(state);
     else if (state.held.holds(MouseButton::left))
-        state.view = orbited(state.view, way, glm::dvec2(window));
+        orbit(way, window, state);
 }
 
 // Pixels from the divider within which it is dragged.
@@ -185,13 +188,14 @@ void fly(double seconds, ViewState& state) {
 }
 
 std::span<const std::pair<const char*, const char*>> key_sheet() {
-    static constexpr std::array<std::pair<const char*, const char*>, 22> kSheet{{
+    static constexpr std::array<std::pair<const char*, const char*>, 23> kSheet{{
         {"left drag", "orbit"},
         {"middle or shift drag", "pan"},
         {"right drag", "look around"},
         {"wheel", "zoom to the pointer"},
         {"W A S D Q E", "fly"},
         {"1 3 7 9", "front, right, top, iso"},
+        {"5", "parallel rays or perspective"},
         {"Enter", "the first view again"},
         {"+ -", "exposure"},
         {"C, shift C", "the next channel, the one before"},

@@ -47,7 +47,37 @@ void use_tool(ViewState& state) {
     make_edits({&edit, 1}, state);
 }
 
+// What was saved is no longer among the steps that can be made again; no number of steps leads to it.
+constexpr std::int64_t kUnreachable = std::int64_t{1} << 62;
+
+void remember(std::vector<BoxEdit> made, std::vector<BoxEdit> back, EditState& edit) {
+    if (back.empty()) return;
+    edit.history.add(std::move(made), std::move(back));
+    edit.unsaved = edit.unsaved < 0 ? kUnreachable : edit.unsaved + 1;
+}
+
+void end_brush(EditState& edit) {
+    if (!edit.stroke) return;
+    remember(std::move(edit.stroke->made), std::move(edit.stroke->back), edit);
+    edit.stroke.reset();
+}
+
+void paint(ViewState& state) {
+    if (!state.edit.stroke) state.edit.stroke.emplace();
+    use_tool(state);
+}
+
 }  // namespace
+
+bool is_unsaved(const EditState& edit) {
+    return edit.unsaved != 0 || (edit.stroke && !edit.stroke->back.empty());
+}
+
+void forget_edits(EditState& edit) {
+    edit.stroke.reset();
+    edit.history = {};
+    edit.unsaved = 0;
+}
 
 std::optional<Box> tool_box(const EditState& edit) {
     if (!edit.target || edit.tool == Tool::view) return std::nullopt;
@@ -69,6 +99,7 @@ std::optional<Box> tool_box(const EditState& edit) {
 
 void begin_stroke(ViewState& state) {
     EditState& edit = state.edit;
+    if (edit.tool == Tool::paint) return paint(state);
     if (!edit.target || edit.tool == Tool::view) return;
     if (edit.tool == Tool::pick) {
         edit.material = edit.target->material;
@@ -81,10 +112,11 @@ void begin_stroke(ViewState& state) {
 }
 
 void move_stroke(ViewState& state) {
-    if (state.edit.tool == Tool::paint) use_tool(state);
+    if (state.edit.tool == Tool::paint) paint(state);
 }
 
 void end_stroke(ViewState& state) {
+    end_brush(state.edit);
     if (state.edit.tool != Tool::fill || !state.edit.fill_begin) return;
     use_tool(state);
     state.edit.fill_begin.reset();
@@ -93,15 +125,27 @@ void end_stroke(ViewState& state) {
 void make_edits(std::span<const BoxEdit> edits, ViewState& state) {
     std::vector<BoxEdit> back;
     apply(edits, state, &back);
-    if (!back.empty()) state.edit.history.add({edits.begin(), edits.end()}, std::move(back));
+    if (!state.edit.stroke) return remember({edits.begin(), edits.end()}, std::move(back), state.edit);
+    if (back.empty()) return;
+    Stroke& stroke = *state.edit.stroke;
+    stroke.made.insert(stroke.made.end(), edits.begin(), edits.end());
+    stroke.back.insert(stroke.back.begin(), back.begin(), back.end());  // the last one is taken back first
 }
 
 void undo_edit(ViewState& state) {
-    if (const std::vector<BoxEdit>* const back = state.edit.history.undo()) apply(*back, state, nullptr);
+    end_brush(state.edit);
+    const std::vector<BoxEdit>* const back = state.edit.history.undo();
+    if (back == nullptr) return;
+    --state.edit.unsaved;
+    apply(*back, state, nullptr);
 }
 
 void redo_edit(ViewState& state) {
-    if (const std::vector<BoxEdit>* const made = state.edit.history.redo()) apply(*made, state, nullptr);
+    end_brush(state.edit);
+    const std::vector<BoxEdit>* const made = state.edit.history.redo();
+    if (made == nullptr) return;
+    ++state.edit.unsaved;
+    apply(*made, state, nullptr);
 }
 
 void aim(glm::ivec2 window, ViewState& state) {
@@ -110,12 +154,13 @@ void aim(glm::ivec2 window, ViewState& state) {
     const VoxelWorld* const world = state.picture.renderer().voxels();
     if (world == nullptr) return;
     const Camera& camera = state.view.camera;
-    if (camera.projection != Projection::perspective) return;  // whose rays direction_through() knows
-    state.edit.target = pick_voxel(*world, camera.position,
-                                   direction_through(camera, state.held.pointer + 0.5, glm::dvec2(window)));
+    if (camera.projection != Projection::perspective && camera.projection != Projection::orthographic) return;
+    const ViewRay ray = ray_through(camera, state.held.pointer + 0.5, glm::dvec2(window));
+    state.edit.target = pick_voxel(*world, ray.start, ray.direction);
 }
 
 void save_edits(const std::filesystem::path& file, ViewState& state) {
+    end_brush(state.edit);
     try {
         const VoxelWorld* const world =
             state.picture.is_loaded() ? state.picture.renderer().voxels() : nullptr;
@@ -124,7 +169,12 @@ void save_edits(const std::filesystem::path& file, ViewState& state) {
         const VoxFile saved =
             with_voxels(load_vox(state.input), *world, state.picture.renderer().scene().materials);
         write_file_atomically(file, write_vox(saved));
-        state.has_saved = true;
+        std::error_code ignored;
+        if (std::filesystem::equivalent(file, state.input, ignored)) {
+            state.has_saved = true;
+            state.has_newer_file = false;
+            state.edit.unsaved = 0;
+        }
         state.message = "saved " + file.string();
     } catch (const Error& error) {
         state.message = error.what();

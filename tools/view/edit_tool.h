@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "renderer/edit_history.h"
 #include "world/pick_voxel.h"
@@ -20,14 +22,22 @@ inline constexpr std::array<std::string_view, 6> kToolNames{"view",  "place", "r
 
 inline constexpr int kMaxBrush = 32;
 
+// What the brush changed since the button went down: one step to undo.
+struct Stroke {
+    std::vector<BoxEdit> made;
+    std::vector<BoxEdit> back;
+};
+
 struct EditState {
     Tool tool = Tool::view;
     int brush = 1;  // voxels along the edge of a cube
     std::uint32_t material = 0;
     std::optional<PickedVoxel> target;     // under the pointer
     std::optional<glm::ivec3> fill_begin;  // the cell where a box begins
+    std::optional<Stroke> stroke;          // while the brush paints
     EditHistory history;
-    std::uint64_t edits = 0;  // that were made, taken back or made again
+    std::int64_t unsaved = 0;  // steps of the history from what the file holds; below 0 they are taken back
+    std::uint64_t edits = 0;   // that were made, taken back or made again
 };
 
 // The cells that the tool would change at its target.
@@ -37,6 +47,11 @@ struct EditState {
 void begin_stroke(ViewState& state);
 void move_stroke(ViewState& state);
 void end_stroke(ViewState& state);
+
+// Whether the file holds other voxels.
+[[nodiscard]] bool is_unsaved(const EditState& edit);
+// Other voxels are shown: there is nothing to undo, redo or save.
+void forget_edits(EditState& edit);
 
 // Makes edits that can be taken back. What cannot be done becomes the state's message.
 void make_edits(std::span<const BoxEdit> edits, ViewState& state);

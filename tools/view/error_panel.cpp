@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quality.h"
 #include "view/panels.h"
 
 namespace voxilux {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/clock.h"
-#include "estimators/film_error.h"
 #include "plan/error_law.h"
 
 namespace voxilux {
@@ -39,6 +38,12 @@ RenderSettings moving(RenderSettings settings, const Resolution& resolution) {
     return settings;
 }
 
+// What the image of size `rest` shows, in one of another size.
+Camera resized(Camera camera, glm::ivec2 rest, glm::ivec2 size) {
+    camera.pixels_per_voxel *= static_cast<double>(size.y) / rest.y;
+    return camera;
+}
+
 // Occlusion stands in for indirect light, and frames can share it.
 PlanRequest moving(PlanRequest request) {
     request.frames = kMotionFrames;
@@ -52,11 +57,13 @@ PlanRequest moving(PlanRequest request) {
 void LivePicture::load(const Scene& scene, const PlanRequest& request) {
     Scene coarse = scene;
     coarse.settings = moving(scene.settings, resolution_);
+    coarse.camera = resized(*scene.camera, scene.settings.size, coarse.settings.size);
     if (measure_scene(scene).has_voxels)
         renderer_.prepare_editable(coarse, moving(request));
     else
         renderer_.prepare(coarse, moving(request));
     settings_ = scene.settings;
+    camera_ = *scene.camera;
     request_ = request;
     rest_plan_.reset();
     resolution_.start();
@@ -65,14 +72,21 @@ void LivePicture::load(const Scene& scene, const PlanRequest& request) {
 
 void LivePicture::set_camera(const Camera& camera) {
     begin_motion();
-    renderer_.set_camera(camera);
+    renderer_.set_camera(resized(camera, settings_.size, renderer_.plan().image_size));
+    camera_ = camera;
 }
 
-void LivePicture::set_voxels(const Scene& still) {
+// Where the size of the image says what it shows, a camera is of one size.
+void LivePicture::fit_camera() {
+    if (camera_.projection == Projection::orthographic)
+        renderer_.set_camera(resized(camera_, settings_.size, renderer_.plan().image_size));
+}
+
+void LivePicture::set_frame(const Scene& still) {
     begin_motion();
     Scene coarse = still;
     coarse.settings = moving(settings_, resolution_);
-    coarse.camera = renderer_.scene().camera;
+    coarse.camera = resized(camera_, settings_.size, coarse.settings.size);
     renderer_.set_voxels(coarse);
 }
 
@@ -132,13 +146,15 @@ void LivePicture::apply_motion() {
 // The same scene, coarser, and with what frames can share.
 void LivePicture::replan_motion() {
     renderer_.change(moving(settings_, resolution_), moving(request_));
+    fit_camera();
     resolution_.start();
 }
 
 void LivePicture::end_motion() {
     renderer_.change(settings_, request_);
+    fit_camera();
     rest_plan_ = renderer_.plan();
-    passes_.clear();
+    statistics_ = {};
     errors_.start(error_law(*rest_plan_));
 }
 
@@ -167,10 +183,11 @@ void LivePicture::take_samples(double budget_s, std::uint32_t end_samples) {
     const std::uint32_t look = std::max(errors_.next_look(), samples() + 1);
     const StepResult step = renderer_.step(budget_s, std::min(end_samples, look));
     errors_.add_time(seconds_since(start));
-    add_times(passes_, step.passes);
+    add_step(step, *rest_plan_, statistics_);
     if (step.samples == 0) return;
     has_news_ = true;
-    if (errors_.is_due(samples())) errors_.add(samples(), error_of(renderer_.ready_film().read_for_error()));
+    if (errors_.is_due(samples()))
+        errors_.add(samples(), claimed_error_of(renderer_.ready_film().read_for_error(), statistics_.faults));
 }
 
 // One whole sample, however long it takes.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jobs/live_errors.h"
+#include "jobs/render_outcome.h"
 #include "renderer/renderer.h"
 #include "view/pixel_reading.h"
 #include "view/resolution.h"
@@ -33,12 +34,14 @@ class LivePicture {
   public:
     LivePicture(Device& device, const ExecutorOptions& options) : renderer_(device, options) {}
 
-    // Another scene; its settings name the size. Throws as Renderer::prepare; then the old one stays.
+    // Another scene, with a camera; its settings name the size. Throws as Renderer::prepare; then the old one
+    // stays.
     void load(const Scene& scene, const PlanRequest& request);
+    // Throws as Renderer::set_camera; then the old one stays.
     void set_camera(const Camera& camera);
     void set_size(glm::ivec2 size);
-    // The frame of an animation; its voxels cannot be edited.
-    void set_voxels(const Scene& still);
+    // A frame of an animation, whose voxels or light are others; its voxels cannot be edited.
+    void set_frame(const Scene& still);
     void change(const RenderSettings& settings, const PlanRequest& request);
     // Returns the edits that take it back.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
@@ -72,8 +75,8 @@ class LivePicture {
     [[nodiscard]] const PlanRequest& request() const { return request_; }
     // What the film at rest has claimed so far.
     [[nodiscard]] const LiveErrors& errors() const { return errors_; }
-    // Times of the passes since the picture was changed.
-    [[nodiscard]] std::span<const PassTime> passes() const { return passes_; }
+    // Times of the passes and what the device counted since the picture was changed.
+    [[nodiscard]] const RenderStatistics& statistics() const { return statistics_; }
     [[nodiscard]] Renderer& renderer() { return renderer_; }
     // Of the picture at rest, as far as it was made.
     [[nodiscard]] const RenderPlan& rest_plan() const { return rest_plan_ ? *rest_plan_ : renderer_.plan(); }
@@ -83,6 +86,7 @@ class LivePicture {
     void set_motion_budget(double seconds) { resolution_.set_budget(seconds); }
 
   private:
+    void fit_camera();
     void begin_motion();
     void apply_motion();
     void replan_motion();
@@ -92,6 +96,7 @@ class LivePicture {
 
     Renderer renderer_;
     RenderSettings settings_;
+    Camera camera_;  // of the picture at rest
     PlanRequest request_;
     std::optional<RenderPlan> rest_plan_;
     Resolution resolution_;
@@ -106,7 +111,7 @@ class LivePicture {
     std::vector<float> reference_;
     glm::ivec2 reference_size_{0};
     bool has_sent_reference_ = false;  // to the device
-    std::vector<PassTime> passes_;
+    RenderStatistics statistics_;
 };
 
 }  // namespace voxilux

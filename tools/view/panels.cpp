@@ -52,7 +52,7 @@ void draw_effect(const EffectState& effect, ViewState& state) {
     text(technique_of(plan, effect.effect));
     ImGui::TableNextColumn();
     const double samples = std::max<double>(picture.samples(), 1.0);
-    text(fmt::format("{:.2f}", effect_ms(plan, picture.passes(), effect.effect) / samples));
+    text(fmt::format("{:.2f}", effect_ms(plan, picture.statistics().passes, effect.effect) / samples));
     ImGui::TableNextColumn();
     text(effect.reason);
     if (is_clicked) switch_effect(effect.effect, on, state);
@@ -94,6 +94,7 @@ void draw_status(ViewState& state) {
     } else {
         text("drop a .vox or a .toml file here");
     }
+    if (state.has_newer_file) text("somebody wrote the file: it is loaded when nothing is unsaved");
     if (!state.message.empty()) text(state.message);
     ImGui::End();
 }

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "base/error.h"
+#include "formats/image_file.h"
+#include "view/screenshot.h"
 
 namespace voxilux {
 namespace {
@@ -86,6 +88,18 @@ void read_pixel(ViewState& state) {
 
 bool is_wiping(const ViewState& state) {
     return state.look.comparison != DisplayComparison::none && state.look.channel == DisplayChannel::color;
+}
+
+glm::ivec2 compare_with(const std::string& file, ViewState& state) {
+    const Image image = read_image(file);
+    const std::optional<std::vector<float>> radiance = interleaved_colours(image);
+    if (!radiance) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
+    const glm::ivec2 size(image.width, image.height);
+    state.picture.set_reference(*radiance, size);
+    state.reference_name = std::filesystem::path(file).filename().string();
+    state.look.comparison = DisplayComparison::reference;
+    state.message.clear();
+    return size;
 }
 
 void step_comparison(ViewState& state) {

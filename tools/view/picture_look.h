@@ -24,6 +24,8 @@ void read_pixel(ViewState& state);
 
 // Whether the divider is in the picture.
 [[nodiscard]] bool is_wiping(const ViewState& state);
+// Makes an image the reference and returns its size. Throws Error(input_refused) for one without colours.
+glm::ivec2 compare_with(const std::string& file, ViewState& state);
 // Nothing, the reference, the difference from it.
 void step_comparison(ViewState& state);
 

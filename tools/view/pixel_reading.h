@@ -13,7 +13,7 @@ struct PixelReading {
     glm::vec3 radiance{0.0f};  // the mean
     float error = 0.0f;        // standard error of its luminance
     std::uint32_t samples = 0;
-    std::optional<glm::vec3> channel;  // the mean of the plane `channel_name`; one number three times
+    std::optional<glm::vec3> channel;  // the mean of the channel that is shown; one number three times
 };
 
 }  // namespace voxilux

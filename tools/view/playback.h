@@ -11,14 +11,22 @@ namespace voxilux {
 // Shows the frames of an animated scene.
 class Playback {
   public:
-    // Another scene, which shows `frame`. A still one has no frames.
-    void load(const Scene& scene, std::int64_t frame, ViewState& state);
+    // Another scene; returns what it shows at `frame`, until the next call. A still one has no frames.
+    const Scene& load(const Scene& scene, std::int64_t frame);
+
+    // Tells the state of the frames; the one of load() is shown.
+    void start(ViewState& state) const;
 
     // Goes on by so many seconds while the state says that it plays, and shows the state's frame.
     void advance(double seconds, ViewState& state);
 
   private:
+    void show(std::int64_t frame, ViewState& state);
+
     std::optional<FramePlayer> player_;
+    std::optional<FrameRange> frames_;
+    bool moves_camera_ = false;
+    bool turns_sun_ = false;
     std::int64_t shown_ = 0;
     double left_s_ = 0.0;  // until the next frame
 };

@@ -5,14 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+
 namespace voxilux {
 namespace {
 
-// Flags with a value that only a window has, or that the line says anew.
-constexpr std::array<std::string_view, 14> kDropped{
-    "--script",           "--frames",    "--screenshot", "--report",     "--frame-time", "--error",
-    "--time-limit",       "--size",      "--spp",        "--iterations", "--camera",     "--projection",
-    "--pixels-per-voxel", "--background"};
+// Flags that only a window has, or that the line says anew; those with a value.
+constexpr std::array<std::string_view, 17> kDropped{
+    "--script",           "--frames",     "--screenshot", "--report",     "--frame-time", "--error",
+    "--time-limit",       "--size",       "--spp",        "--iterations", "--camera",     "--projection",
+    "--pixels-per-voxel", "--background", "--frame",      "--turntable",  "--turn"};
+constexpr std::string_view kTransparent = "--transparent";  // which --background undoes
 
 // A word as a shell reads it back.
 std::string quoted(const std::string& word) {
@@ -27,6 +30,13 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
+void check(const ViewState& state) {
+    if (state.view.camera.fov_y_deg >= 180.0)
+        throw Error(ExitCode::usage, "no line: --viewpoint knows fields of view below 180 degrees only");
+    if (state.picture.is_moving() || state.picture.samples() == 0)
+        throw Error(ExitCode::usage, "no line: the picture is not at rest");
+}
+
 // The switches of effects that were thrown in the window.
 void add_switches(const ViewState& state, std::vector<std::string>& line) {
     for (const auto& [effect, choice] : state.picture.request().effects.switches)
@@ -35,13 +45,34 @@ void add_switches(const ViewState& state, std::vector<std::string>& line) {
                 fmt::format("--effect {}={}", name_of(effect), choice == Switch::on ? "on" : "off"));
 }
 
+void add_camera(const Camera& camera, std::vector<std::string>& line) {
+    line.push_back(fmt::format("--viewpoint {},{},{},{},{},{}", camera.position.x, camera.position.y,
+                               camera.position.z, camera.yaw_deg, camera.pitch_deg, camera.fov_y_deg));
+    if (camera.projection == Projection::orthographic)
+        line.push_back(fmt::format("--pixels-per-voxel {}", camera.pixels_per_voxel));
+    else if (camera.projection != Projection::perspective)
+        line.push_back(
+            fmt::format("--projection {}", kProjectionNames[static_cast<std::size_t>(camera.projection)]));
+}
+
+// The frame, and what a window shows otherwise than the file says.
+void add_frame(const ViewState& state, std::vector<std::string>& line) {
+    if (state.frames) line.push_back(fmt::format("--frame {}", state.frame));
+    const auto azimuth_deg = static_cast<double>(state.picture.renderer().scene().sun.azimuth_deg);
+    if (state.turns_sun)  // --viewpoint stops the turntable
+        line.push_back(fmt::format("-D sun.azimuth={}", azimuth_deg));
+    if (state.had_shadow_only) line.emplace_back("-D ground.shadow_only=false");
+    line.emplace_back("--background sky");
+}
+
 }  // namespace
 
 std::string render_command(const std::vector<std::string>& words, const std::string& input,
                            const ViewState& state) {
+    check(state);
     std::vector<std::string> line{"voxilux", "render", quoted(state.input.string())};
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] == input || words[i] == "--transparent") continue;
+        if (words[i] == input || words[i] == kTransparent) continue;
         const std::string_view name = std::string_view(words[i]).substr(0, words[i].find('='));
         if (std::ranges::find(kDropped, name) == kDropped.end())
             line.push_back(quoted(words[i]));
@@ -49,12 +80,10 @@ std::string render_command(const std::vector<std::string>& words, const std::str
             ++i;  // its value is the next word
     }
     add_switches(state, line);
-    const Camera& camera = state.view.camera;
     const glm::ivec2 size = state.picture.settings().size;
     line.push_back(fmt::format("--size {}x{} --spp {}", size.x, size.y, state.picture.samples()));
-    line.push_back(fmt::format("--viewpoint {},{},{},{},{},{}", camera.position.x, camera.position.y,
-                               camera.position.z, camera.yaw_deg, camera.pitch_deg, camera.fov_y_deg));
-    line.emplace_back("--background sky");  // which is what a window shows
+    add_camera(state.view.camera, line);
+    add_frame(state, line);
     line.push_back("-o " + quoted(state.input.stem().string() + ".exr"));
     return fmt::format("{}", fmt::join(line, " "));
 }

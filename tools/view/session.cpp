@@ -7,8 +7,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/print.h"
-#include "film/film_sums.h"
-#include "formats/image_file.h"
 #include "interrupt.h"
 #include "view/actions.h"
 #include "view/file_watch.h"
@@ -31,6 +29,10 @@ using Clock = std::chrono::steady_clock;
 constexpr glm::ivec2 kFirstSize{1280, 720};
 constexpr double kIdleWait_s = 0.1;
 constexpr double kMinStepShare = 0.3;  // of a frame, for samples, however long showing them takes
+
+bool is_same_camera(const std::optional<Camera>& a, const std::optional<Camera>& b) {
+    return a && b ? is_same_view(*a, *b) : a.has_value() == b.has_value();
+}
 
 // One run of the window: events in, frames out.
 class Session {
@@ -74,32 +76,41 @@ class Session {
     }
 
     void load(Scene scene, const std::string& input) {
-        scene.settings.size = window_.size().x > 0 ? window_.size() : scene.settings.size;
-        scene.background = {};  // a window shows the sky, and so the ground
-        scene.ground.shadow_only = false;
-        scene.camera = window_camera(scene);
-        picture_.load(scene, command_.scene.request);
+        const bool had_shadow_only = scene.ground.shadow_only;
+        if (window_.size().x > 0) scene.settings.size = window_.size();
+        const std::optional<Camera> own_camera = scene.camera;
+        scene = window_scene(std::move(scene));
+        Playback playback;
+        const Scene& still = playback.load(scene, frames_to_render(command_.scene, scene).first);
+        picture_.load(still, command_.scene.request);
         picture_.set_max_samples(scene.settings.spp);
         state_.input = input;
         state_.edit = {};
+        state_.had_shadow_only = had_shadow_only;
+        state_.box = scene_bounds(still);
+        state_.view = state_.home = view_of(*still.camera, state_.box);
+        shown_camera_ = *still.camera;
+        own_camera_ = own_camera;
         watch_ = FileWatch(input);
-        playback_.load(scene, frames_to_render(command_.scene, scene).first, state_);
-        state_.box = scene_bounds(scene);
-        state_.view = state_.home = view_of(*scene.camera, state_.box);
-        shown_camera_ = *scene.camera;
+        playback_ = std::move(playback);
+        playback_.start(state_);
         window_.set_title("voxilux " + state_.input.filename().string());
     }
 
-    // Somebody wrote the scene's file; the camera stays.
+    // Somebody wrote the scene's file. The camera stays unless the file has another one, or had.
     void reload() {
+        state_.has_newer_file = false;
         try {
             SceneOptions options = command_.scene;
             options.input = state_.input.string();
             const ViewPoint view = state_.view;
             const ViewPoint home = state_.home;
+            const std::optional<Camera> own = own_camera_;
             load(load_scene_with(options), options.input);
-            state_.view = view;
-            state_.home = home;
+            if (is_same_camera(own, own_camera_)) {
+                state_.view = view;
+                state_.home = home;
+            }
             state_.message = "loaded again";
         } catch (const Error& error) {
             state_.message = error.what();
@@ -107,9 +118,14 @@ class Session {
     }
 
     void copy_command() {
-        const std::string line = render_command(command_.words, command_.scene.input, state_);
-        window_.set_clipboard(line);
-        print_result("{}\n", line);
+        try {
+            const std::string line = render_command(command_.words, command_.scene.input, state_);
+            window_.set_clipboard(line);
+            print_result("{}\n", line);
+            state_.message = is_unsaved(state_.edit) ? "copied, without the unsaved edits" : "copied";
+        } catch (const Error& error) {
+            state_.message = error.what();
+        }
     }
 
     // A file that cannot be shown leaves the picture as it was.
@@ -128,15 +144,8 @@ class Session {
 
     // What is dropped as an image is compared with; the window takes its size.
     void take_reference(const std::string& file) {
-        const Image image = read_image(file);
-        const std::optional<std::vector<float>> radiance = interleaved_colours(image);
-        if (!radiance) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
-        const glm::ivec2 size(image.width, image.height);
-        picture_.set_reference(*radiance, size);
+        const glm::ivec2 size = compare_with(file, state_);
         if (size != window_.size()) window_.resize(size);
-        state_.reference_name = std::filesystem::path(file).filename().string();
-        state_.look.comparison = DisplayComparison::reference;
-        state_.message.clear();
     }
 
     [[nodiscard]] bool is_scripted() const { return !script_.is_empty() || command_.frames.has_value(); }
@@ -171,11 +180,14 @@ class Session {
         if (!picture_.is_loaded()) return;
         if (size.x > 0 && size != picture_.settings().size) picture_.set_size(size);
         const Camera& camera = state_.view.camera;
-        if (camera.position == shown_camera_.position && camera.yaw_deg == shown_camera_.yaw_deg &&
-            camera.pitch_deg == shown_camera_.pitch_deg)
-            return;
-        picture_.set_camera(camera);
-        shown_camera_ = camera;
+        if (is_same_view(camera, shown_camera_)) return;
+        try {
+            picture_.set_camera(camera);
+            shown_camera_ = camera;
+        } catch (const Error& error) {
+            state_.view = view_of(shown_camera_, state_.box);
+            state_.message = error.what();
+        }
     }
 
     void turn() {
@@ -186,7 +198,8 @@ class Session {
         if (is_due) take_events(events, glm::max(size, glm::ivec2(1)));
         fly(seconds, state_);
         if (std::exchange(state_.has_saved, false)) watch_.forgive();
-        if (watch_.has_changed()) reload();
+        state_.has_newer_file |= watch_.has_changed();
+        if (state_.has_newer_file && !is_unsaved(state_.edit)) reload();
         if (picture_.is_loaded()) playback_.advance(seconds, state_);
         apply_changes(size);
         if (std::exchange(state_.wants_command, false) && picture_.is_loaded()) copy_command();
@@ -237,7 +250,7 @@ class Session {
             return;
         }
         shown_size_ = size;
-        write_screenshots(capture);
+        write_screenshots(capture, state_);
         end_of_frame(seconds_since(start));
     }
 
@@ -248,16 +261,6 @@ class Session {
         const DisplayBuffer display = picture_.display(state_.look);
         if (display.size.x == 0) return {};
         return {&picture_.executor(), display.buffer, display.size};
-    }
-
-    void write_screenshots(const WindowCapture& capture) {
-        for (const std::string& file : std::exchange(state_.screenshots, {})) {
-            if (has_ending(file, ".exr")) {
-                if (picture_.is_loaded()) write_image(file, picture_of(picture_.renderer().read_film()));
-            } else {
-                write_image(file, image_of(capture));
-            }
-        }
     }
 
     void end_of_frame(double show_s) {
@@ -281,6 +284,7 @@ class Session {
     LivePicture picture_;
     ViewState state_;
     Camera shown_camera_;
+    std::optional<Camera> own_camera_;  // that the file names
     FileWatch watch_;
     Playback playback_;
     ShowPace pace_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/settings.h"
+
 namespace voxilux {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr double kDegreesPerWindow = 360.0;  // of a drag across the height of t
 constexpr double kMaxPitchDeg = 90.0;
 constexpr double kZoomPerStep = 0.85;
 constexpr double kMinDistance = 0.5;  // voxels, from the centre
+constexpr double kMinScale = 1e-3;    // pixels of a voxel
 
 // Pixels of the height per unit of the picture plane at distance 1.
 double pixels_per_tangent(const Camera& camera, glm::dvec2 size) {
@@ -27,13 +30,58 @@ Camera turned(Camera camera, glm::dvec2 degrees) {
     return camera;
 }
 
+bool is_orthographic(const Camera& camera) {
+    return camera.projection == Projection::orthographic;
+}
+
+// From the middle of a picture to a place in it, in the scene, if its pixels are one voxel wide.
+glm::dvec3 offset_in(const Camera& camera, glm::dvec2 place, glm::dvec2 size) {
+    const glm::dmat3 basis = camera_basis(camera);
+    const glm::dvec2 pixels = place - 0.5 * size;
+    return basis[0] * pixels.x - basis[1] * pixels.y;
+}
+
+double depth_of_centre(const ViewPoint& view) {
+    return std::max(glm::dot(view.centre - view.camera.position, forward_of(view.camera)), kMinDistance);
+}
+
+// Pixels of the plane through the centre that a voxel there takes.
+double scale_at_centre(const ViewPoint& view, glm::dvec2 size) {
+    if (is_orthographic(view.camera)) return view.camera.pixels_per_voxel;
+    return pixels_per_tangent(view.camera, size) / depth_of_centre(view);
+}
+
+double in_scale_range(double pixels_per_voxel) {
+    return std::clamp(pixels_per_voxel, kMinScale, kMaxPixelsPerVoxel);
+}
+
+ViewPoint shifted(ViewPoint view, glm::dvec3 shift) {
+    view.camera.position += shift;
+    view.centre += shift;
+    return view;
+}
+
+// Larger by steps of the wheel; what is under the pointer stays there.
+ViewPoint magnified(ViewPoint view, double steps, glm::dvec2 place, glm::dvec2 size) {
+    const double before = view.camera.pixels_per_voxel;
+    view.camera.pixels_per_voxel = in_scale_range(before * std::pow(kZoomPerStep, -steps));
+    const double shorter = 1.0 / before - 1.0 / view.camera.pixels_per_voxel;
+    return shifted(view, offset_in(view.camera, place, size) * shorter);
+}
+
 }  // namespace
 
-Camera window_camera(const Scene& scene) {
-    Camera camera = camera_of(scene);
-    if (camera.projection != Projection::orthographic) return camera;
-    camera.projection = Projection::perspective;
-    return framing_camera(scene, camera);
+Scene window_scene(Scene scene) {
+    scene.background = {};
+    scene.ground.shadow_only = false;
+    scene.camera = camera_of(scene);
+    return scene;
+}
+
+bool is_same_view(const Camera& a, const Camera& b) {
+    return a.position == b.position && a.yaw_deg == b.yaw_deg && a.pitch_deg == b.pitch_deg &&
+           a.fov_y_deg == b.fov_y_deg && a.projection == b.projection &&
+           a.pixels_per_voxel == b.pixels_per_voxel;
 }
 
 ViewPoint view_of(const Camera& camera, const Box& box) {
@@ -43,17 +91,20 @@ ViewPoint view_of(const Camera& camera, const Box& box) {
     return {camera, camera.position + forward * std::max(ahead, 16.0)};
 }
 
-glm::dvec3 direction_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size) {
-    const glm::dmat3 basis = camera_basis(camera);
-    const glm::dvec2 offset = (place - 0.5 * size) / pixels_per_tangent(camera, size);
-    return glm::normalize(basis[2] + basis[0] * offset.x - basis[1] * offset.y);
+ViewRay ray_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size) {
+    const glm::dvec3 offset = offset_in(camera, place, size);
+    const glm::dvec3 forward = forward_of(camera);
+    if (is_orthographic(camera)) return {camera.position + offset / camera.pixels_per_voxel, forward};
+    return {camera.position, glm::normalize(forward + offset / pixels_per_tangent(camera, size))};
 }
 
 std::optional<glm::dvec2> place_of(const Camera& camera, glm::dvec3 point, glm::dvec2 size) {
     constexpr double kNearest = 1e-3;  // voxels: nearer points lie far outside any picture
     const glm::dvec3 seen = glm::transpose(camera_basis(camera)) * (point - camera.position);
     if (seen.z < kNearest) return std::nullopt;
-    return 0.5 * size + glm::dvec2(seen.x, -seen.y) * (pixels_per_tangent(camera, size) / seen.z);
+    const double scale =
+        is_orthographic(camera) ? camera.pixels_per_voxel : pixels_per_tangent(camera, size) / seen.z;
+    return 0.5 * size + glm::dvec2(seen.x, -seen.y) * scale;
 }
 
 ViewPoint orbited(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size) {
@@ -67,19 +118,14 @@ ViewPoint orbited(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size) {
 
 ViewPoint panned(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size) {
     const glm::dmat3 basis = camera_basis(view.camera);
-    const double depth = std::max(glm::dot(view.centre - view.camera.position, basis[2]), kMinDistance);
-    const double unit = depth / pixels_per_tangent(view.camera, size);
-    const glm::dvec3 shift = unit * (basis[1] * pixels.y - basis[0] * pixels.x);
-    ViewPoint next = view;
-    next.camera.position += shift;
-    next.centre += shift;
-    return next;
+    return shifted(view, (basis[1] * pixels.y - basis[0] * pixels.x) / scale_at_centre(view, size));
 }
 
 ViewPoint zoomed(const ViewPoint& view, double steps, glm::dvec2 place, glm::dvec2 size) {
+    if (is_orthographic(view.camera)) return magnified(view, steps, place, size);
     const double distance = glm::length(view.centre - view.camera.position);
     const double wanted = std::max(distance * std::pow(kZoomPerStep, steps), kMinDistance);
-    const glm::dvec3 way = direction_through(view.camera, place, size) * (distance - wanted);
+    const glm::dvec3 way = ray_through(view.camera, place, size).direction * (distance - wanted);
     ViewPoint next = view;
     next.camera.position += way;
     // The centre stays as far ahead as it is now.
@@ -96,10 +142,35 @@ ViewPoint looked(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size) {
 }
 
 ViewPoint flown(const ViewPoint& view, glm::dvec3 way) {
-    const glm::dvec3 shift = camera_basis(view.camera) * way;
+    return shifted(view, camera_basis(view.camera) * way);
+}
+
+ViewPoint stepped_back(const ViewPoint& view, const Box& box) {
     ViewPoint next = view;
-    next.camera.position += shift;
-    next.centre += shift;
+    if (!is_orthographic(view.camera)) return next;
+    const glm::dvec3 size(box.hi - box.lo);
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
+    const double reach = glm::length(middle - view.centre) + glm::length(size);
+    const double depth = glm::dot(view.centre - view.camera.position, forward_of(view.camera));
+    if (depth < reach) next.camera.position -= forward_of(view.camera) * (reach - depth);
+    return next;
+}
+
+ViewPoint with_other_projection(const ViewPoint& view, const Box& box, glm::dvec2 size) {
+    ViewPoint next = view;
+    Camera& camera = next.camera;
+    if (camera.projection == Projection::perspective) {
+        camera.pixels_per_voxel = in_scale_range(scale_at_centre(view, size));
+        camera.projection = Projection::orthographic;
+        return stepped_back(next, box);
+    }
+    camera.projection = Projection::perspective;
+    camera.pixels_per_voxel = 0.0;
+    camera.fov_y_deg = kDefaultFovYDeg;
+    if (is_orthographic(view.camera)) {
+        const double distance = pixels_per_tangent(camera, size) / view.camera.pixels_per_voxel;
+        camera.position = view.centre - forward_of(camera) * distance;
+    }
     return next;
 }
 

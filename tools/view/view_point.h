@@ -18,15 +18,22 @@ struct ViewPoint {
     glm::dvec3 centre{0.0};
 };
 
-// What a window of a scene begins with: its camera, but no orthographic one. Images in motion are smaller,
-// and the size of an orthographic one says what it shows.
-[[nodiscard]] Camera window_camera(const Scene& scene);
+// What a window shows of a scene: its sky, and so its ground.
+[[nodiscard]] Scene window_scene(Scene scene);
+
+[[nodiscard]] bool is_same_view(const Camera& a, const Camera& b);
 
 // The camera with the centre of `box` in front of it.
 [[nodiscard]] ViewPoint view_of(const Camera& camera, const Box& box);
 
-// The ray through a place of a picture of so many pixels: unit direction.
-[[nodiscard]] glm::dvec3 direction_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size);
+// A ray of the scene; the direction has length 1.
+struct ViewRay {
+    glm::dvec3 start{0.0};
+    glm::dvec3 direction{0.0};
+};
+
+// The ray through a place of a picture of so many pixels, by a perspective or an orthographic camera.
+[[nodiscard]] ViewRay ray_through(const Camera& camera, glm::dvec2 place, glm::dvec2 size);
 
 // Where a point of the scene appears in such a picture; nothing for one behind the camera.
 [[nodiscard]] std::optional<glm::dvec2> place_of(const Camera& camera, glm::dvec3 point, glm::dvec2 size);
@@ -39,6 +46,11 @@ struct ViewPoint {
 [[nodiscard]] ViewPoint zoomed(const ViewPoint& view, double steps, glm::dvec2 place, glm::dvec2 size);
 // Turns the head.
 [[nodiscard]] ViewPoint looked(const ViewPoint& view, glm::dvec2 pixels, glm::dvec2 size);
+// Parallel rays instead of a perspective, or a perspective instead of anything else: the plane through the
+// centre stays as large.
+[[nodiscard]] ViewPoint with_other_projection(const ViewPoint& view, const Box& box, glm::dvec2 size);
+// Parallel rays begin so far back that they see all of the box, however the view turns about its centre.
+[[nodiscard]] ViewPoint stepped_back(const ViewPoint& view, const Box& box);
 // Flies along the camera's axes (right, up, forward), by voxels.
 [[nodiscard]] ViewPoint flown(const ViewPoint& view, glm::dvec3 way);
 

@@ -61,9 +61,11 @@ void ViewReport::write(const std::string& file, const ViewState& state, glm::ive
                           {"pitch", camera.pitch_deg},
                           {"fov_y", camera.fov_y_deg}}},
                         {"channel", name_of(state.look.channel)},
+                        {"frame", state.frames ? Json(state.frame) : Json()},
                         {"pixel", json_of(state)},
                         {"edits", state.edit.edits},
                         {"undo", state.edit.history.undo_count()},
+                        {"newer_file", state.has_newer_file},
                         {"message", state.message}}},
                       {"errors", errors_json(state.picture.errors())},
                       {"messages", messages}});

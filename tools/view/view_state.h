@@ -33,8 +33,11 @@ struct ViewState {
     std::optional<FrameRange> frames;  // of an animation
     std::int64_t frame = 0;
     bool is_playing = false;
-    bool has_saved = false;      // to a file that is watched, maybe
-    bool wants_command = false;  // the line that renders this view
+    bool turns_sun = false;
+    bool had_shadow_only = false;  // the ground, which a window shows whole
+    bool has_saved = false;        // the edits to the scene's file
+    bool has_newer_file = false;   // somebody wrote it, and there are edits that it would replace
+    bool wants_command = false;    // the line that renders this view
     SampleEnds ends;
     bool shows_panels = true;
     bool shows_keys = false;

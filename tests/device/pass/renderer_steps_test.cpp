@@ -150,6 +150,25 @@ TEST_P(RendererSteps, changes_between_steps_end_as_a_fresh_render) {
     EXPECT_NE(renderer.read_film(), fresh_film(scene_)) << "the edits show";
 }
 
+TEST_P(RendererSteps, other_projection_ends_as_a_fresh_render) {
+    Renderer renderer(test_device(), poisoned());
+    prepared(renderer, scene_);
+    (void)renderer.step(0.0);
+    Scene parallel = scene_;
+    parallel.camera = kThere;
+    parallel.camera->projection = Projection::orthographic;
+    parallel.camera->pixels_per_voxel = 2.5;
+    Camera far_away = *parallel.camera;
+    far_away.position = {1e9, 0, 0};
+    EXPECT_THROW(renderer.set_camera(far_away), Error);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene_)) << "what is refused leaves it as it was";
+    renderer.set_camera(*parallel.camera);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(parallel));
+    EXPECT_NE(renderer.read_film(), fresh_film(scene_)) << "the projection shows";
+    renderer.set_camera(*scene_.camera);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene_));
+}
+
 TEST_P(RendererSteps, last_edit_ends_as_a_fresh_render) {
     Renderer renderer(test_device(), poisoned());
     (void)film_after(prepared(renderer, scene_), 2);

@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 #include <span>
-#include <thread>
 
 #include "base/file.h"
 
@@ -38,6 +37,19 @@ TEST(WindowFilm, motion_is_coarser_than_rest) {
         widths.insert(frame["width"].get<int>());
     EXPECT_TRUE(widths.contains(160));
     EXPECT_LT(*widths.begin(), 160);
+}
+
+TEST(WindowFilm, parallel_rays_at_rest_are_those_of_render) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    play_scene(
+        scratch, scene_file("sprite"),
+        film(0, "first.exr") + orbit(5, 20) + film(12, "turned.exr") + key("Enter") + film(22, "again.exr"));
+    EXPECT_EQ(film_of(scratch / "first.exr"),
+              render_of(scratch, scene_file("sprite"), {"--background", "sky"}));
+    EXPECT_EQ(film_of(scratch / "again.exr"), film_of(scratch / "first.exr"));
+    EXPECT_NE(film_of(scratch / "turned.exr"), film_of(scratch / "first.exr")) << "the orbit shows";
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
 }
 
 TEST(WindowEdit, shows_and_its_way_back_is_the_first_picture) {
@@ -76,41 +88,6 @@ TEST(WindowDrop, broken_file_leaves_the_picture) {
     EXPECT_EQ(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
 }
 
-TEST(WindowCommand, copied_line_renders_the_same_film) {
-    SKIP_UNLESS_DISPLAY();
-    const ScratchFolder scratch;
-    const Ending ending =
-        play(scratch, orbit(2, 25) + film(9, "film.exr") + held_key("Control", "c") + pause(11),
-             {"--seed", "5", "--effect", "sky=off", "-D", "sun.elevation=30"});
-    const std::size_t begin = ending.out.find("voxilux render ");
-    ASSERT_NE(begin, std::string::npos) << ending.out;
-    const std::string words = ending.out.substr(begin + 7, ending.out.find('\n', begin) - begin - 7);
-    const std::string line = "cd " + scratch.path().string() + " && " VX_PLAIN_BINARY + words + " -q";
-    ASSERT_EQ(std::system(line.c_str()), 0) << line;
-    EXPECT_EQ(beauty_of(scratch / "first_light.exr"), beauty_of(scratch / "film.exr")) << line;
-}
-
-TEST(WindowAnimation, frame_is_that_of_render) {
-    SKIP_UNLESS_DISPLAY();
-    const ScratchFolder scratch;
-    write_text(scratch / "script.toml", film(0, "first.exr") + key("Period") + key("Period") + key("Period") +
-                                            film(8, "fourth.exr") + key("Comma") + film(16, "third.exr") +
-                                            key("Space") + pause(30) + key("Space"));
-    const Words scene{scene_file("turntable"), "--size", "96x54", "--spp", "3"};
-    const Ending ending = run(
-        with(with({"view"}, scene), {"--script", "script.toml", "--report", "report.json", "--validation"}),
-        {.folder = scratch.path()});
-    ASSERT_EQ(ending.code, 0) << ending.err;
-    for (const auto& [frame, file] : {std::pair{"1", "first.exr"}, {"4", "fourth.exr"}, {"3", "third.exr"}}) {
-        ASSERT_EQ(
-            run(with(with({"render"}, scene), {"--frame", frame, "-q", "-o", scratch / "render.exr"})).code,
-            0);
-        EXPECT_EQ(beauty_of(scratch / file), beauty_of(scratch / "render.exr")) << frame;
-    }
-    EXPECT_NE(beauty_of(scratch / "first.exr"), beauty_of(scratch / "fourth.exr"));
-    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
-}
-
 TEST(WindowReload, file_that_somebody_writes_is_shown) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
@@ -121,13 +98,33 @@ TEST(WindowReload, file_that_somebody_writes_is_shown) {
     ChildProcess child({"view", "scene.toml", "--size", "96x54", "--spp", "3", "--script", "script.toml",
                         "--report", "report.json"},
                        {.folder = scratch.path()});
-    while (!std::filesystem::exists(scratch / "before.exr"))
-        std::this_thread::yield();
+    ASSERT_TRUE(wait_for(scratch / "before.exr"));
     const std::string other = bytes_of(scene_file("emitters"));
     write_file_atomically(scratch.path() / "scene.toml", std::as_bytes(std::span(other)));
     ASSERT_EQ(child.finish().code, 0);
     EXPECT_EQ(report_of(scratch)["shown"]["message"], "loaded again");
     EXPECT_NE(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
+}
+
+TEST(WindowReload, file_with_another_camera_brings_it) {
+    SKIP_UNLESS_DISPLAY();
+    const std::string box =
+        "[material.a]\ncolor = '#cc8844'\n[[shape]]\nshape = 'box'\nfrom = [0, 0, 0]\nto = [5, 4, 3]\n"
+        "material = 'a'\n[render]\nsize = [160, 90]\n[camera]\npreset = 'iso'\n";
+    const ScratchFolder scratch;
+    write_text(scratch / "scene.toml", box);
+    write_text(scratch / "script.toml", orbit(2, 25) + film(4, "before.exr") +
+                                            "[[step]]\nframe = 600\nscreenshot = 'late.png'\n" +
+                                            film(601, "after.exr"));
+    ChildProcess child({"view", "scene.toml", "--size", "160x90", "--spp", "3", "--script", "script.toml",
+                        "--report", "report.json", "--validation"},
+                       {.folder = scratch.path()});
+    ASSERT_TRUE(wait_for(scratch / "before.exr"));
+    const std::string other = box + "projection = 'orthographic'\n";
+    write_file_atomically(scratch.path() / "scene.toml", std::as_bytes(std::span(other)));
+    ASSERT_EQ(child.finish().code, 0);
+    EXPECT_EQ(film_of(scratch / "after.exr"), render_of(scratch, "scene.toml"));
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
 }
 
 TEST(WindowFlags, frames_and_screenshot_need_no_script) {
@@ -156,6 +153,19 @@ TEST(WindowError, samples_end_when_the_target_is_claimed) {
                                std::to_string(samples), "-q", "-o", scratch / "render.exr"});
     EXPECT_EQ(render.code, 0) << render.err;
     EXPECT_EQ(beauty_of(scratch / "film.exr"), beauty_of(scratch / "render.exr"));
+}
+
+TEST(WindowError, nothing_is_claimed_where_light_is_missing) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const auto samples_with = [&](const std::string& sky) {
+        play(scratch, "[[step]]\nframe = 60\nscreenshot = 'film.exr'\n",
+             {"--error", "50%", "-D", "sky.radiance=" + sky});
+        return read_image(scratch / "film.exr").channels.at("sampleCount.Y").pixels[0];
+    };
+    EXPECT_EQ(samples_with("[1, 1, 1]"), 4.0f) << "the first look is enough";
+    EXPECT_GT(samples_with("[1e6, 1e6, 1e6]"), 4.0f) << "brighter than the film holds";
+    EXPECT_EQ(report_of(scratch)["errors"], Json::array());
 }
 
 TEST(WindowError, samples_end_with_the_time) {

@@ -1,46 +1,9 @@
 // Voxels changed in the window, against files that have them.
 
-#include "base/file.h"
-#include "formats/vox_write.h"
-#include "tools/view/view_script.h"
+#include "tools/view/view_hut.h"
 
 namespace voxilux::test {
 namespace {
-
-// A hollow box of two colours in a .vox file.
-std::vector<std::byte> hut() {
-    VoxModel model{.size = {20, 20, 12}};
-    for (int z = 0; z < 12; ++z)
-        for (int y = 0; y < 20; ++y)
-            for (int x = 0; x < 20; ++x)
-                if (z == 0 || x == 0 || y == 19)
-                    model.voxels.push_back({static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y),
-                                            static_cast<std::uint8_t>(z),
-                                            static_cast<std::uint8_t>(z < 6 ? 80 : 140)});
-    VoxFile file;
-    file.models = {std::move(model)};
-    file.nodes = {VoxTransform{.id = 0, .child = 1, .frames = {{}}}, VoxGroup{.id = 1, .children = {2}},
-                  VoxTransform{.id = 2, .child = 3, .frames = {{{"_t", "0 0 6"}}}},
-                  VoxShape{.id = 3, .models = {{0, {}}}}};
-    file.layers = {{.id = 0, .attributes = {{"_name", "walls"}}}};
-    return write_vox(file);
-}
-
-// Plays a script on the hut; its report is report.json.
-void play_hut(const ScratchFolder& scratch, const std::string& script) {
-    write_file_atomically(scratch.path() / "hut.vox", hut());
-    write_text(scratch / "script.toml", script);
-    const Ending ending = run({"view", "hut.vox", "--size", "160x90", "--spp", "3", "--script", "script.toml",
-                               "--report", "report.json", "--validation"},
-                              {.folder = scratch.path()});
-    EXPECT_EQ(ending.code, 0) << ending.err;
-    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
-}
-
-std::string click(int x, int y) {
-    return "[[step]]\nmove = [" + std::to_string(x) + ", " + std::to_string(y) +
-           "]\n[[step]]\npress = 'left'\n[[step]]\nrelease = 'left'\n";
-}
 
 TEST(WindowTools, saved_file_renders_as_the_edited_window) {
     SKIP_UNLESS_DISPLAY();
@@ -76,6 +39,47 @@ TEST(WindowTools, undo_of_all_gives_the_first_picture_and_file) {
     EXPECT_EQ(beauty_of(scratch / "redone.exr"), beauty_of(scratch / "edited.exr"));
     EXPECT_EQ(bytes_of(scratch / "undone.vox"), bytes_of(scratch / "hut.vox"));
     EXPECT_EQ(report_of(scratch)["shown"]["undo"], 4);
+}
+
+TEST(WindowTools, stroke_of_the_brush_is_one_step_to_undo) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    // The upper half of a wall, which has the other colour.
+    std::string dabs = "[[step]]\nmove = [36, 24]\n[[step]]\npress = 'left'\n";
+    for (int x = 38; x <= 64; x += 2)
+        dabs += "[[step]]\nmove = [" + std::to_string(x) + ", 24]\n";
+    play_hut(scratch, key("Tab") + film(0, "before.exr") + key("b") + key("BracketRight") + dabs +
+                          "[[step]]\nrelease = 'left'\n" + film(12, "painted.exr") +
+                          held_key("Control", "z") + film(24, "undone.exr") + held_key("Control", "y") +
+                          film(36, "redone.exr"));
+    EXPECT_NE(film_of(scratch / "painted.exr"), film_of(scratch / "before.exr"));
+    EXPECT_EQ(film_of(scratch / "undone.exr"), film_of(scratch / "before.exr"));
+    EXPECT_EQ(film_of(scratch / "redone.exr"), film_of(scratch / "painted.exr"));
+    EXPECT_EQ(report_of(scratch)["shown"]["undo"], 1);
+    EXPECT_GT(report_of(scratch)["shown"]["edits"], 5) << "several dabs";
+}
+
+TEST(WindowTools, file_that_somebody_writes_waits_for_unsaved_edits) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_file_atomically(scratch.path() / "hut.vox", hut());
+    write_text(scratch / "script.toml",
+               key("Tab") + key("r") + click(80, 60) + film(4, "edited.exr") +
+                   "[[step]]\nframe = 600\nscreenshot = 'late.png'\n" + film(601, "kept.exr") +
+                   held_key("Control", "z") + "[[step]]\nframe = 1200\nscreenshot = 'later.png'\n" +
+                   film(1201, "loaded.exr") + held_key("Control", "c") + pause(1210));
+    ChildProcess child({"view", "hut.vox", "--size", "160x90", "--spp", "3", "--script", "script.toml",
+                        "--report", "report.json"},
+                       {.folder = scratch.path()});
+    ASSERT_TRUE(wait_for(scratch / "edited.exr"));
+    write_file_atomically(scratch.path() / "hut.vox", hut(7));
+    const Ending ending = child.finish();
+    ASSERT_EQ(ending.code, 0);
+    EXPECT_EQ(film_of(scratch / "kept.exr"), film_of(scratch / "edited.exr"));
+    EXPECT_NE(film_of(scratch / "loaded.exr"), film_of(scratch / "kept.exr"));
+    EXPECT_EQ(film_of(scratch / "loaded.exr"), film_of_line(scratch, ending, "hut"))
+        << "once they are taken back";
+    EXPECT_EQ(report_of(scratch)["shown"]["newer_file"], false);
 }
 
 TEST(WindowTools, thousand_edits_equal_a_rebuild_and_their_undo_the_first_file) {
