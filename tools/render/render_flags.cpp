@@ -20,6 +20,9 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     flags.add("--sheet", "FILE.png", command.sheet, "a contact sheet of all pictures, too");
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
+    flags.add_parsed(
+        "--denoise", "on|off", command.denoises, parse_denoise,
+        "filter the noise of a PNG, and say how far the result is off; an EXR gets both (default off)");
     flags.add_switch("--reproducible", command.pictures.reproducible,
                      "no date or times in the files: equal runs, equal bytes");
     add_progress_flag(flags, command.progress);
@@ -161,6 +164,7 @@ RenderOptions render_options(const RenderCommand& command) {
                           .time_limit_s = command.time_limit_s,
                           .error_target = command.error_target};
     options.plan.effects.wants_aov = std::ranges::any_of(command.pictures.files, is_exr);
+    options.plan.wants_denoised = command.denoises;
     options.executor.cache_dir = command.device.cache_dir();
     options.executor.group_size = {static_cast<std::uint32_t>(command.group_size.x),
                                    static_cast<std::uint32_t>(command.group_size.y)};
