@@ -14,7 +14,6 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kStripPixels = std::size_t{1} << 20;  // some 350 bytes each, on the device
 constexpr int kErrorReach = 7;                              // pixels: errors are means over 15 x 15
 constexpr std::array<const char*, 4> kGuidePlanes{"guide_sharp", "guide_albedo", "guide_normal",
                                                   "guide_offset"};
@@ -171,14 +170,14 @@ bool has_guides(const FilmSums& film) {
     });
 }
 
-Denoised denoise_film(const FilmSums& film, Executor& executor) {
+Denoised denoise_film(const FilmSums& film, Executor& executor, std::size_t strip_pixels) {
     VX_ASSERT(has_guides(film));
     Denoised denoised{.claim = unknown_error()};
     if (std::ranges::min(film.even) == 0 || std::ranges::min(film.odd) == 0) {
         denoised.reason = "it takes two samples per pixel at least";
         return denoised;
     }
-    const DenoisedTexels texels = denoise_all_rows(film, kStripPixels, executor);
+    const DenoisedTexels texels = denoise_all_rows(film, strip_pixels, executor);
     denoised.passes = texels.passes;
     const std::vector<float> filtered = component(texels.picture, 3), plain = component(texels.errors, 1);
     const auto sum = [](const std::vector<float>& values) {

@@ -26,8 +26,10 @@ struct Denoised {
 [[nodiscard]] bool has_guides(const FilmSums& film);
 
 // Filters a whole film that has guides. The plain picture stays where a half has no samples, and where the
-// filtered one is claimed to be worse.
-[[nodiscard]] Denoised denoise_film(const FilmSums& film, Executor& executor);
+// filtered one is claimed to be worse. A picture of more pixels is cut into strips, which show nowhere.
+inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1} << 20;  // some 430 bytes each, on the device
+[[nodiscard]] Denoised denoise_film(const FilmSums& film, Executor& executor,
+                                    std::size_t strip_pixels = kDenoiseStripPixels);
 
 // Adds denoised.R .G .B and denoised.error.Y to a picture of the film.
 void add_denoised(const Denoised& denoised, Image& image);

@@ -66,8 +66,9 @@ class Oracle {
             half.normal.push_back(normal);
             half.guide.push_back(cover > 1e-3 ? normal / cover : normal);
             half.weight.push_back(bright < 1e-6 ? 0.0 : bright * bright);
-            half.light[0].push_back(bright < 1e-6 ? glm::dvec3(0.0)
-                                                  : half.plain[i] / glm::max(albedo, glm::dvec3(0.02 * bright)));
+            half.light[0].push_back(bright < 1e-6
+                                        ? glm::dvec3(0.0)
+                                        : half.plain[i] / glm::max(albedo, glm::dvec3(0.02 * bright)));
         }
         return half;
     }
@@ -147,9 +148,11 @@ class Oracle {
         return result;
     }
 
-    [[nodiscard]] double share_around(int px, int py, std::size_t i, const std::vector<glm::dvec2>& terms) const {
+    [[nodiscard]] double share_around(int px, int py, std::size_t i,
+                                      const std::vector<glm::dvec2>& terms) const {
         glm::dvec2 sum(0.0);
-        // Every pixel of a block weighs what the bilinear interpolation between block centres gives its block.
+        // Every pixel of a block weighs what the bilinear interpolation between block centres gives its
+        // block.
         for (int y = std::max(0, py - 2 * kBlock); y < std::min(size_.y, py + 2 * kBlock + 1); ++y) {
             for (int x = std::max(0, px - 2 * kBlock); x < std::min(size_.x, px + 2 * kBlock + 1); ++x) {
                 const std::size_t k = at(x, y);
@@ -175,9 +178,9 @@ class Oracle {
         for (OracleHalf& half : halves_) {
             for (std::size_t i = 0; i < of_middle.size(); ++i) {
                 const auto& light = half.light;
-                half.mixed.push_back(light[1][i] +
-                                     of_middle[i] * (light[2][i] - light[1][i] +
-                                                     of_coarse[i] * (light[3][i] - light[2][i])));
+                half.mixed.push_back(
+                    light[1][i] +
+                    of_middle[i] * (light[2][i] - light[1][i] + of_coarse[i] * (light[3][i] - light[2][i])));
             }
         }
     }
@@ -191,7 +194,8 @@ class Oracle {
         }
         each([&](int x, int y, std::size_t i) {
             glm::dvec3 light = half.mixed[i];
-            if (!sees_one_surface(half.normal[i]) && weights[i] > 0.0) light = edge_light(half, weights, x, y);
+            if (!sees_one_surface(half.normal[i]) && weights[i] > 0.0)
+                light = edge_light(half, weights, x, y);
             half.filtered[i] = weights[i] > 0.0 ? half.albedo[i] * light : half.plain[i];
         });
     }
@@ -227,9 +231,9 @@ class Oracle {
             }
         }
         const glm::dvec4 away = glm::inverse(spread) * mean;
-        return glm::max(light - glm::dvec3(glm::dot(with[0], away), glm::dot(with[1], away),
-                                           glm::dot(with[2], away)),
-                        glm::dvec3(0.0));
+        return glm::max(
+            light - glm::dvec3(glm::dot(with[0], away), glm::dot(with[1], away), glm::dot(with[2], away)),
+            glm::dvec3(0.0));
     }
 
     void blend() {
@@ -247,7 +251,8 @@ class Oracle {
         if (fault_ == OracleFault::claims_without_variance)
             return share_ * (fa - b) * (fa - b) + rest * (fb - a) * (fb - a);
         return share_ * ((fa - b) * (fa - b) - share_ * (a - b) * (a - b)) +
-               rest * ((fb - a) * (fb - a) - rest * (a - b) * (a - b)) - share_ * rest * (fa - fb) * (fa - fb);
+               rest * ((fb - a) * (fb - a) - rest * (a - b) * (a - b)) -
+               share_ * rest * (fa - fb) * (fa - fb);
     }
 
     [[nodiscard]] OracleDenoised judged() const {
@@ -271,7 +276,8 @@ class Oracle {
             all.plain.push_back(glm::dot(squared(raw_a, raw_b, raw_a, raw_b), scale));
             all.variance.push_back(glm::dot(share_ * (1.0 - share_) * apart * apart, scale));
             const auto grey = [](glm::dvec3 v) { return glm::dvec3(luminance_of_colour(v)); };
-            all.luminance.push_back(squared(grey(a.result[i]), grey(b.result[i]), grey(raw_a), grey(raw_b)).x);
+            all.luminance.push_back(
+                squared(grey(a.result[i]), grey(b.result[i]), grey(raw_a), grey(raw_b)).x);
         });
         return all;
     }
