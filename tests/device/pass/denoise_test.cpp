@@ -16,8 +16,8 @@ namespace voxilux::test {
 namespace {
 
 // Floats against doubles: sums of 25 taps, and an inverse of a 4x4 matrix whose condition is below 500. The
-// largest difference seen is 4e-5.
-constexpr double kFloatError = 5e-4;
+// largest difference seen is 8e-6.
+constexpr double kFloatError = 5e-5;
 
 struct PlanesOfLight {
     glm::ivec2 size;
