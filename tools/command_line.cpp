@@ -11,6 +11,7 @@
 #include "base/print.h"
 #include "bench/bench.h"
 #include "compare/compare.h"
+#include "denoise/denoise.h"
 #include "devices/devices.h"
 #include "farm/farm.h"
 #include "info/info.h"
@@ -239,6 +240,9 @@ int run_command_line(int argc, const char* const* argv) {
     commands.add<MergeCommand>(app, "merge",
                                "join parts of one render that render --samples or --shard wrote",
                                add_merge_flags, run_merge);
+    commands.add<DenoiseCommand>(app, "denoise",
+                                 "filter the noise of what render --denoise on --samples wrote",
+                                 add_denoise_flags, run_denoise);
     commands.add<FarmCommand>(app, "farm", "one picture or a film on many machines, by Dask", add_farm_flags,
                               run_farm);
     commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",

@@ -263,6 +263,11 @@ EffectSwitch parse_effect_switch(std::string_view text) {
     refuse(fmt::format("--effect: '{}' must be NAME=on, NAME=off or NAME=auto", text));
 }
 
+bool parse_denoise(std::string_view choice) {
+    static constexpr Names<bool, 2> kNames = {{{"on", true}, {"off", false}}};
+    return parse_word("--denoise", choice, kNames, "on or off");
+}
+
 ToneMap parse_tone(std::string_view name) {
     static constexpr Names<ToneMap, 2> kNames = {{{"filmic", ToneMap::filmic}, {"plain", ToneMap::plain}}};
     return parse_word("--tone", name, kNames, "filmic or plain");

@@ -63,6 +63,7 @@ struct Shard {
 [[nodiscard]] std::optional<float> parse_exposure(std::string_view text);
 
 // filmic or plain; auto, never or json.
+[[nodiscard]] bool parse_denoise(std::string_view choice);
 [[nodiscard]] ToneMap parse_tone(std::string_view name);
 [[nodiscard]] ProgressMode parse_progress(std::string_view name);
 

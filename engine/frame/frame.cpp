@@ -119,6 +119,7 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
                             .direct = sent,
                             .photons = photons};
     record_film_add(plan, tile, inputs, sample, number.keeps_color, rec);
+    if (plan.sums_guides) record_denoise_guide(plan, tile, inputs, sample, rec);
     if (plan.has(Effect::aov) && sample == number.first) record_aov_position(plan, tile, hits, rec);
 }
 

@@ -169,17 +169,19 @@ Json render_key(const Scene& scene, const RenderPlan& plan, const DeviceInfo& de
     for (const EffectState& state : plan.effects) {
         if (state.on) effects.push_back(name_of(state.effect));
     }
-    return {{"version", VX_VERSION},
-            {"build", build_id()},
-            {kDeviceKey, fmt::format("{}, {}", device.name, device.driver)},
-            {"size", {plan.image_size.x, plan.image_size.y}},
-            {"crop", {plan.first_pixel.x, plan.first_pixel.y, settings.size.x, settings.size.y}},
-            {"seed", settings.seed},
-            {"sequence", name_of(settings.sequence)},
-            {"ao_rays", settings.ao_rays},
-            {"ao_radius", settings.ao_radius},
-            {"effects", effects},
-            {"scene_hash", fmt::format("{:016x}", sample_hash(scene))}};
+    Json key{{"version", VX_VERSION},
+             {"build", build_id()},
+             {kDeviceKey, fmt::format("{}, {}", device.name, device.driver)},
+             {"size", {plan.image_size.x, plan.image_size.y}},
+             {"crop", {plan.first_pixel.x, plan.first_pixel.y, settings.size.x, settings.size.y}},
+             {"seed", settings.seed},
+             {"sequence", name_of(settings.sequence)},
+             {"ao_rays", settings.ao_rays},
+             {"ao_radius", settings.ao_radius},
+             {"effects", effects},
+             {"scene_hash", fmt::format("{:016x}", sample_hash(scene))}};
+    if (plan.sums_guides) key["denoise"] = true;
+    return key;
 }
 
 FilmPart part_of(const Scene& scene, RenderOutcome outcome, Json report, const ExrOptions& file,

@@ -12,6 +12,7 @@ struct PictureUse {
     bool writes_png = false;
     bool keeps_film = false;         // for checkpoints
     bool writes_checkpoint = false;  // it is long enough for one
+    bool denoises = false;
 };
 
 struct RenderOptions;

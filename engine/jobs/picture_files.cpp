@@ -108,11 +108,13 @@ ToneMapOptions tone_of(const PictureFiles& pictures, const std::optional<float>&
 void write_pictures(const PictureFiles& pictures, const Scene& scene, RenderOutcome& outcome) {
     outcome.image.attributes[kReportAttribute] = json_text(report_of_picture(pictures, scene, outcome));
     const Image part = pictures.is_part ? image_of(part_to_write(pictures, scene, outcome)) : Image{};
+    if (outcome.denoised) add_denoised(*outcome.denoised, outcome.image);
+    const Image shown = outcome.denoised ? shown_picture(*outcome.denoised, outcome.image) : Image{};
     const ToneMapOptions tone = tone_of(pictures, scene.exposure_ev);
     for (const std::string& file : pictures.files)
         write_picture(file, pictures.is_part ? part : outcome.image,
-                      exr_options(pictures, scene, outcome.plan), outcome.image, tone,
-                      outcome.statistics.faults);
+                      exr_options(pictures, scene, outcome.plan), outcome.denoised ? shown : outcome.image,
+                      tone, outcome.statistics.faults);
 }
 
 FilmPart part_to_write(const PictureFiles& pictures, const Scene& scene, RenderOutcome outcome) {

@@ -9,6 +9,7 @@
 #include "estimators/error_estimate.h"
 #include "film/film_sums.h"
 #include "formats/image.h"
+#include "jobs/denoise_film.h"
 #include "jobs/error_rounds.h"
 #include "jobs/forecast.h"
 #include "jobs/next_minute.h"
@@ -51,6 +52,7 @@ struct RenderOutcome {
     Image image;
     RenderPlan plan;
     RenderStatistics statistics;
+    std::optional<Denoised> denoised;  // where that is asked for, of a whole picture
     std::optional<FilmSums> film;  // see RenderOptions::keeps_film
     std::uint32_t rows_ahead = 0;  // rows from the top that have one sample more than statistics.samples
 };

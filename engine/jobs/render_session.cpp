@@ -49,15 +49,16 @@ constexpr double kShareBudget_s = 1.0;
 // Whether there will be a checkpoint is not known before the render: as if there were one.
 constexpr double kAnyTime_s = std::numeric_limits<double>::infinity();
 
-RenderOptions with_error_wish(RenderOptions options) {
+RenderOptions with_wishes(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
+    options.keeps_film = options.keeps_film || options.plan.wants_denoised;
     return options;
 }
 
 }  // namespace
 
 RenderSession::RenderSession(Scene scene, RenderOptions options)
-    : options_(with_error_wish(std::move(options))),
+    : options_(with_wishes(std::move(options))),
       player_(std::move(scene)),
       device_(open_device(options_.device)),
       renderer_(std::in_place, device_, options_.executor) {}
@@ -74,7 +75,7 @@ void RenderSession::change(const RenderSettings& settings, const PlanRequest& re
 void RenderSession::load(Scene scene, const PlanRequest& request) {
     player_ = FramePlayer(std::move(scene));
     options_.plan = request;
-    options_ = with_error_wish(std::move(options_));
+    options_ = with_wishes(std::move(options_));
     options_.started = Clock::now();
     last_points_.reset();
     forecast_.reset();
@@ -174,15 +175,35 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
                          reserve.take();
                      }};
     if (options_.rehearse_end)
-        calls.rehearse = [&](RenderOutcome strip) { options_.rehearse_end(*scene_, std::move(strip)); };
+        calls.rehearse = [&](RenderOutcome strip) {
+            denoise(strip);
+            options_.rehearse_end(*scene_, std::move(strip));
+        };
     loop.run(calls);
     reserve.release();
     RenderOutcome outcome = loop.outcome();
+    denoise(outcome);
     if (is_first) outcome.statistics.forecast = forecast_;
     last_points_ = loop.own_points();
     complete(outcome, load_s, start);
     outcome.statistics.validation = new_messages();
     return outcome;
+}
+
+// A part is no whole film, and its picture is not what anybody wants to see.
+void RenderSession::denoise(RenderOutcome& outcome) {
+    if (!options_.plan.wants_denoised || !outcome.plan.part.empty()) return;
+    if (outcome.plan.any(&Technique::shares_samples)) {
+        outcome.denoised = Denoised{.claim = unknown_error(), .reason = "pixels share occlusion samples"};
+        return;
+    }
+    VX_ASSERT(outcome.film.has_value());
+    Denoised& denoised = outcome.denoised.emplace(denoise_film(*outcome.film, renderer_->executor()));
+    RenderStatistics& statistics = outcome.statistics;
+    if (lacks_light(statistics.faults)) denoised.claim.high = std::numeric_limits<double>::infinity();
+    add_times(statistics.passes, denoised.passes);
+    for (const PassTime& pass : denoised.passes)
+        statistics.gpu_ms += pass.ms;
 }
 
 // Bytes of the host that a software device has yet to allocate for this plan.

@@ -59,6 +59,7 @@ class RenderSession {
     [[nodiscard]] std::optional<ErrorPilot> run_pilot(const std::function<bool()>& stops);
     [[nodiscard]] ErrorPrior error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                          std::chrono::steady_clock::time_point start);
+    void denoise(RenderOutcome& outcome);
     [[nodiscard]] std::uint64_t bytes_to_come();
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);
     [[nodiscard]] std::vector<std::string> new_messages();

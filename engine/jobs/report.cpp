@@ -135,6 +135,11 @@ constexpr std::array<const char*, 2> kUnrepeatableWork{"ao_probes", "ao_swaps"};
 
 }  // namespace
 
+std::string error_text(const ErrorEstimate& error) {
+    return fmt::format("{:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})", error.estimate, error.metric,
+                       100.0 * error.confidence, error.low, error.high);
+}
+
 Json error_json(const ErrorEstimate& error) {
     if (!error.is_known())
         return {{"metric", error.metric},
@@ -176,12 +181,25 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["error"] = error_json(statistics.error);
     json["error"]["rounds"] = statistics.rounds;
     json["error"]["decided_by"] = name_of(statistics.decided_by);
+    if (outcome.denoised) json["denoised"] = denoised_json(*outcome.denoised);
     json["forecast"] = judged_forecast_json(statistics);
     json["next_minute"] = next_minute_json(statistics.next_minute);
     json["faults"] = statistics.faults;
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
     return json;
+}
+
+Json denoised_json(const Denoised& denoised) {
+    Json json{{"filtered", denoised.is_filtered()}};
+    json["reason"] = denoised.is_filtered() ? Json(nullptr) : Json(denoised.reason);
+    json["error"] = error_json(denoised.claim);
+    return json;
+}
+
+std::string denoised_text(const Denoised& denoised) {
+    if (!denoised.is_filtered()) return fmt::format("denoised  no: {}\n", denoised.reason);
+    return fmt::format("denoised  {}\n", error_text(denoised.claim));
 }
 
 void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std::string>& files,
@@ -203,6 +221,7 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
                              {"work", statistics.work},
                              {"error", error_json(statistics.error)},
                              {"faults", statistics.faults}});
+    if (outcome.denoised) report.frames.back()["denoised"] = denoised_json(*outcome.denoised);
 }
 
 Json sequence_json(const Scene& scene, std::uint64_t scene_hash, const SequenceReport& report) {
@@ -219,7 +238,7 @@ Json reproducible_report_json(const Scene& scene, const RenderOutcome& outcome) 
 Json reproducible_report(const Json& report) {
     Json json;
     for (const char* key : {"version", "command", "scene_hash", "seed", "size", "crop", "sample_ranges",
-                            "samples", "work", "effects", "error", "faults"}) {
+                            "samples", "work", "effects", "error", "denoised", "faults"}) {
         if (report.contains(key)) json[key] = report.at(key);
     }
     for (const char* name : kUnrepeatableWork)
@@ -261,13 +280,9 @@ std::string describe(const RenderOutcome& outcome) {
     if (outcome.plan.photons.runs())
         text += fmt::format("photons   {} per iteration, first radius {:.3g}\n", outcome.plan.photons.count(),
                             outcome.plan.photons.radius);
-    if (s.error.is_known()) {
-        text +=
-            fmt::format("error     {:.3g} ({}, {:.0f} % confidence: {:.3g} to {:.3g})\n", s.error.estimate,
-                        s.error.metric, 100.0 * s.error.confidence, s.error.low, s.error.high);
-    } else {
-        text += "error     unknown: pixels share occlusion samples\n";
-    }
+    text += fmt::format("error     {}\n",
+                        s.error.is_known() ? error_text(s.error) : "unknown: pixels share occlusion samples");
+    if (outcome.denoised) text += denoised_text(*outcome.denoised);
     text += judged_forecast_text(s);
     if (const std::string minute = next_minute_text(s.next_minute); !minute.empty())
         text += fmt::format("next      {}\n", minute);

@@ -39,6 +39,13 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 // The report's `error`.
 [[nodiscard]] nlohmann::ordered_json error_json(const ErrorEstimate& error);
 
+// An error in words for people.
+[[nodiscard]] std::string error_text(const ErrorEstimate& error);
+
+// The report's `denoised`, and the same for people.
+[[nodiscard]] nlohmann::ordered_json denoised_json(const Denoised& denoised);
+[[nodiscard]] std::string denoised_text(const Denoised& denoised);
+
 // The plan in the same terms, before anything ran.
 [[nodiscard]] nlohmann::ordered_json plan_json(const Scene& scene, const RenderPlan& plan);
 

@@ -97,10 +97,11 @@ void decide_techniques(RenderPlan& plan) {
 }
 
 // What the film sums for errors beside the picture.
-void decide_sums(RenderPlan& plan, bool wants_error) {
-    const bool decides = wants_error && plan.has_independent_samples();
+void decide_sums(RenderPlan& plan, const PlanRequest& request) {
+    const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.any(&Technique::shares_samples) && (plan.has(Effect::aov) || decides);
-    plan.sums_bias = plan.any(&Technique::tells_bias) && (plan.has(Effect::aov) || wants_error);
+    plan.sums_bias = plan.any(&Technique::tells_bias) && (plan.has(Effect::aov) || request.wants_error);
+    plan.sums_guides = request.wants_denoised;
 }
 
 // One dispatch takes at most so many rows.
@@ -165,6 +166,13 @@ std::vector<FilmPlane> film_planes(const RenderPlan& plan) {
     if (plan.sums_squares) planes.push_back({"squares", 3});
     if (plan.sums_bias) planes.insert(planes.end(), {{"bias_a", 3}, {"bias_b", 3}});
     if (plan.sums_coverage) planes.push_back({"coverage", 1});
+    if (plan.sums_guides) {
+        for (const std::string half : {"_a", "_b"}) {
+            for (const char* guide : {"guide_sharp", "guide_albedo", "guide_normal"})
+                planes.push_back({guide + half, 3});
+            planes.push_back({"guide_offset" + half, 1});
+        }
+    }
     if (!plan.has(Effect::aov)) return planes;
     planes.push_back({"albedo", 3});
     planes.push_back({"normal", 3});
@@ -233,7 +241,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                                 limits);
     check_paths(plan);
     check_part(plan);
-    decide_sums(plan, request.wants_error);
+    decide_sums(plan, request);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
     add_notes(plan, scene, facts);
@@ -246,7 +254,7 @@ RenderPlan plan_without(RenderPlan plan, Effect effect) {
     leave_out(effect);
     leave_out(Effect::aov);
     decide_techniques(plan);
-    decide_sums(plan, false);
+    decide_sums(plan, {});
     return plan;
 }
 

@@ -81,6 +81,7 @@ struct RenderPlan {
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
     bool sums_bias = false;                // of photons
+    bool sums_guides = false;              // of the denoiser, in two halves
     bool catches_shadows = false;          // the ground, and shows nothing else
     bool sums_coverage = false;            // of the scene, before a background that is not the sky
     std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
@@ -164,6 +165,7 @@ struct PlanRequest {
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop
+    bool wants_denoised = false;            // the picture will be denoised
     bool leaves_room = false;               // worlds have room for what edits add
 };
 

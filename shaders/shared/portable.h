@@ -24,6 +24,7 @@
 namespace voxilux::gpu {
 using glm::ivec2;
 using glm::ivec3;
+using glm::mat4;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
@@ -39,10 +40,12 @@ using glm::distance;
 using glm::dot;
 using glm::exp;
 using glm::floor;
+using glm::inverse;
 using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
+using glm::outerProduct;
 using glm::packHalf2x16;
 using glm::pow;
 using glm::unpackHalf2x16;

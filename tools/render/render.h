@@ -21,6 +21,7 @@ struct RenderCommand {
     SampleSet samples;                   // empty: all of them, or those of the shard
     std::optional<double> checkpoint_s;  // 0: none
     bool resume = false;
+    bool denoises = false;
     std::string sheet;  // a contact sheet of all pictures
 };
 

@@ -20,6 +20,9 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     flags.add("--sheet", "FILE.png", command.sheet, "a contact sheet of all pictures, too");
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
+    flags.add_parsed("--denoise", "on|off", command.denoises, parse_denoise,
+                     "filter the noise of the picture, and tell how far it is off then; an EXR has both "
+                     "pictures (default off)");
     flags.add_switch("--reproducible", command.pictures.reproducible,
                      "no date or times in the files: equal runs, equal bytes");
     add_progress_flag(flags, command.progress);
@@ -83,6 +86,8 @@ void check_part_flags(const RenderCommand& command, bool writes_exr) {
     if (is_part(command) && command.error_target)
         refuse(fmt::format("{} and --error: the error of the whole picture is not known before voxilux merge",
                            part_flag(command)));
+    if (command.denoises && command.error_target)
+        refuse("--denoise on and --error: what ends a render is the error of its plain picture; use --spp");
     if (writes_exr) return;
     if (is_part(command))
         refuse(
@@ -162,6 +167,7 @@ RenderOptions render_options(const RenderCommand& command) {
     const std::vector<std::string> files = pictures_of(command).files;
     options.writes_exr = options.plan.effects.wants_aov = std::ranges::any_of(files, is_exr);
     options.writes_png = std::ranges::any_of(files, is_png);
+    options.plan.wants_denoised = command.denoises;
     options.executor.cache_dir = command.device.cache_dir();
     options.executor.group_size = {static_cast<std::uint32_t>(command.group_size.x),
                                    static_cast<std::uint32_t>(command.group_size.y)};

@@ -22,4 +22,8 @@ struct FilmInputs {
 void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmInputs& inputs,
                      std::uint32_t sample, bool keeps_color, Recording& recording);
 
+// Adds what guides the denoiser to its sums in the half of the film that the sample belongs to.
+void record_denoise_guide(const RenderPlan& plan, const DispatchTile& tile, const FilmInputs& inputs,
+                          std::uint32_t sample, Recording& recording);
+
 }  // namespace voxilux

@@ -9,6 +9,7 @@
 
 #include "embedded.h"
 #include "shared/alias.h"
+#include "shared/denoise.h"
 #include "shared/gpu_types.h"
 #include "shared/photon_types.h"
 #include "shared/sky_view.h"
@@ -87,6 +88,8 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(PathState, surfaces), VX_MEMBER(PathState, vertices),
                   VX_MEMBER(PathState, is_straight), VX_MEMBER(PathState, next_id)),
         VX_LAYOUT(PathPush, VX_MEMBER(PathPush, lanes), VX_MEMBER(PathPush, is_last)),
+        VX_LAYOUT(DenoisePush, VX_MEMBER(DenoisePush, size), VX_MEMBER(DenoisePush, step),
+                  VX_MEMBER(DenoisePush, share)),
         VX_LAYOUT(FilmAddPush, VX_MEMBER(FilmAddPush, first_pixel), VX_MEMBER(FilmAddPush, pixel_count)),
         VX_LAYOUT(DisplayResolvePush, VX_MEMBER(DisplayResolvePush, low), VX_MEMBER(DisplayResolvePush, high),
                   VX_MEMBER(DisplayResolvePush, pixel_count), VX_MEMBER(DisplayResolvePush, width),

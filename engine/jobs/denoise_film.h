@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "estimators/error_estimate.h"
+#include "film/film_sums.h"
+#include "formats/image.h"
+#include "vk/executor.h"
+
+namespace voxilux {
+
+// A denoised picture and what it claims of itself.
+struct Denoised {
+    std::array<std::vector<float>, 3> rgb;  // empty where nothing was filtered
+    std::vector<float> error;               // standard error of the luminance, smoothed over some pixels
+    ErrorEstimate claim;                    // of the picture that is written
+    std::string reason;                     // why it is the plain one; empty where it is not
+    std::vector<PassTime> passes;
+
+    [[nodiscard]] bool is_filtered() const { return reason.empty(); }
+};
+
+// Whether a film has what the denoiser needs: the sums of a plan with `sums_guides`.
+[[nodiscard]] bool has_guides(const FilmSums& film);
+
+// Filters a whole film that has guides. The plain picture stays where a half has no samples, and where the
+// filtered one is claimed to be worse. A picture of more pixels is cut into strips, which show nowhere.
+inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1} << 20;  // some 430 bytes each, on the device
+[[nodiscard]] Denoised denoise_film(const FilmSums& film, Executor& executor,
+                                    std::size_t strip_pixels = kDenoiseStripPixels);
+
+// Adds denoised.R .G .B and denoised.error.Y to a picture of the film.
+void add_denoised(const Denoised& denoised, Image& image);
+
+// What a PNG shows: the picture with the denoised colours.
+[[nodiscard]] Image shown_picture(const Denoised& denoised, const Image& image);
+
+}  // namespace voxilux

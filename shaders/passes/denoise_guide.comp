@@ -1,0 +1,67 @@
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_GOOGLE_include_directive : require
+
+// What guides the denoiser (shared/denoise.h), summed for one half of the film: of what is shaded, the normal, its distance
+// from the camera along the normal (the same all over a face of voxels), the share of light that it reflects to the camera;
+// and the light that is seen without noise, which is that of misses, of emitters and of the sun.
+
+#include "lib/address.glsl"
+
+#include "lib/invocation.glsl"
+
+#include "lib/counters_access.glsl"
+#include "lib/film_group.glsl"
+#include "lib/film_sums.glsl"
+
+VX_SPECIALIZED(uint, has_specular, 1u);
+VX_SPECIALIZED(uint, sums_coverage, 0u);
+
+layout(rgba32ui) readonly uniform uimageBuffer FirstHits;
+VX_SUMS(GuideSharp);
+VX_SUMS(GuideAlbedo);
+VX_SUMS(GuideNormal);
+VX_SUMS(GuideOffset);
+layout(push_constant, scalar) uniform Push {
+    FilmAddPush push;
+};
+
+#include "lib/film_cover.glsl"
+
+// radiance() without light that is found by chance.
+vec3 sharp_radiance(Group group, uint k) {
+    if (is_surface(group.hits[k])) {
+        group.direct[k] = vec3(0.0);
+        group.photons[k] = vec3(0.0);
+        group.sky[k] = vec3(0.0);
+    }
+    return radiance(group, k);
+}
+
+void main() {
+    uint at = linear_id();
+    uint skipped = push.first_pixel % kGroupPixels;
+    if (kGroupPixels * at >= skipped + push.pixel_count) return;
+    uint film_group = push.first_pixel / kGroupPixels + at;
+    Group group = load_group(at, skipped, skipped + push.pixel_count);
+    vec3 sharp[kGroupPixels];
+    vec3 albedo[kGroupPixels];
+    vec3 normal[kGroupPixels];
+    vec4 offset = vec4(0.0);
+    for (uint k = 0u; k < kGroupPixels; ++k) {
+        Hit hit = group.hits[k];
+        bool has_normal = is_surface(hit) && hit.face != kFaceInside;
+        vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
+        sharp[k] = group.inside[k] ? sharp_radiance(group, k) : vec3(0.0);
+        albedo[k] = is_surface(hit) ? group.albedo[k] * group.weights[k] : vec3(0.0);
+        normal[k] = has_normal ? surface_normal(hit) : vec3(0.0);
+        offset[k] = has_normal ? dot(normal[k], from_camera) : 0.0;
+    }
+    if (sums_coverage != 0u) cover(at, group, sharp);
+    VX_ADD_VECTORS(GuideSharp, film_group, add_pair, sharp);
+    VX_ADD_VECTORS(GuideAlbedo, film_group, add_pair, albedo);
+    VX_ADD_VECTORS(GuideNormal, film_group, add_pair, normal);
+    VX_ADD_FLOATS(GuideOffset, film_group, add_pair, offset);
+    count(kFaultFilmClamped, clamped);
+    count(kFaultFilmNonFinite, non_finite);
+}
