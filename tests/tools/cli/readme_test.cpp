@@ -67,8 +67,8 @@ std::string usage_of(const std::string& text) {
 
 std::set<std::string> real_flags() {
     std::set<std::string> flags = flags_in(run({"--help"}).out);
-    for (const char* subcommand :
-         {"render", "plan", "info", "devices", "compare", "merge", "farm", "voxelize", "tradeoff", "view"})
+    for (const char* subcommand : {"render", "plan", "info", "devices", "compare", "merge", "farm",
+                                   "voxelize", "convert", "tradeoff", "view"})
         flags.merge(flags_in(run({subcommand, "--help"}).out));
     for (const char* part : {"march", "ao", "photons"})
         flags.merge(flags_in(run({"bench", part, "--help"}).out));
