@@ -11,6 +11,7 @@
 #include "base/print.h"
 #include "bench/bench.h"
 #include "compare/compare.h"
+#include "convert/convert.h"
 #include "denoise/denoise.h"
 #include "devices/devices.h"
 #include "farm/farm.h"
@@ -247,6 +248,8 @@ int run_command_line(int argc, const char* const* argv) {
                               run_farm);
     commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
                                   add_voxelize_flags, run_voxelize);
+    commands.add<ConvertCommand>(app, "convert", "turn voxels of another format, or a mesh, into a .vox file",
+                                 add_convert_flags, run_convert);
     add_bench(app, commands);
     add_generate(app, commands);
     app.footer(fmt::format("voxilux SUBCOMMAND --help lists its flags.\n\nExit codes:\n{}", kExitCodes));

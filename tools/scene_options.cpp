@@ -13,6 +13,8 @@
 #include "scene/facts.h"
 #include "scene/scene_camera.h"
 #include "scene/settings.h"
+#include "shared_flags.h"
+#include "voxelizer/import_voxels.h"
 
 namespace voxilux {
 namespace {
@@ -183,14 +185,17 @@ constexpr const char* kCameraValue = "front|back|left|right|top|bottom|iso|three
 
 Flag add_input_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     if (pictures != PicturesOf::inputs)
-        return flags.add("INPUT", "", options.input, "a .vox file, or a scene file .toml");
+        return flags.add(
+            "INPUT", "", options.input,
+            "a .vox file, a scene file .toml, a mesh, or voxels of another format (see convert)");
     return flags.on<std::vector<std::string>>(
         "INPUT", "",
         [&options](const std::vector<std::string>& files) {
             options.inputs = files;
             options.input = files.front();
         },
-        "a .vox file, or a scene file .toml; several give a picture of each");
+        "a .vox file, a scene file .toml, a mesh, or voxels of another format (see convert); several give a "
+        "picture of each");
 }
 
 void add_camera_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
@@ -253,6 +258,7 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
             options.names_size = true;
         },
         "picture size in pixels");
+    add_resolution_flag(flags, options.grid);
     add_camera_flag(flags, options, pictures);
     flags
         .add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
@@ -293,13 +299,26 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     return input;
 }
 
-Scene load_scene_with(const SceneOptions& options) {
+namespace {
+
+// The one place where inputs are opened.
+Scene open_input(const SceneOptions& options, const LoadOptions& load, bool says_notes) {
+    if (!is_importable(options.input)) return load_scene(options.input, load);
+    const ImportedVoxels imported = import_voxels(options.input, options.grid);
+    if (says_notes) print_message("note: {}\n", imported.note);
+    return scene_of_file(imported.file, options.input, load);
+}
+
+}  // namespace
+
+Scene load_scene_with(const SceneOptions& options, bool says_notes) {
     // -D comes after the preset, so that it wins.
     std::vector<std::string> overrides;
     if (options.quality != nullptr) overrides = overrides_of(*options.quality);
     overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    Scene scene = load_scene(
-        options.input, {.overrides = overrides, .ignores_file_settings = options.ignores_file_settings});
+    Scene scene =
+        open_input(options, {.overrides = overrides, .ignores_file_settings = options.ignores_file_settings},
+                   says_notes);
     set_iterations_of_quality(options, scene);
     for (const auto& change : options.changes)
         change(scene.settings);

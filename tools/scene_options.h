@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "scene/scene_camera.h"
 #include "technique_flag.h"
+#include "voxelizer/mesh_grid.h"
 
 namespace voxilux {
 
@@ -24,6 +25,7 @@ using SettingsChanges = std::vector<std::function<void(RenderSettings&)>>;
 
 struct SceneOptions {
     std::string input;
+    GridRequest grid;  // of a mesh
     const QualityPreset* quality = nullptr;
     std::vector<std::string> overrides;  // -D: KEY=VALUE of a scene file
     SettingsChanges changes;
@@ -56,7 +58,9 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures = 
 void add_photon_flags(Flags& flags, SettingsChanges& changes);
 
 // The scene with the flags applied. Throws Error(input_refused) for a file.
-[[nodiscard]] Scene load_scene_with(const SceneOptions& options);
+// An input that is neither .vox nor .toml is made voxels; with `says_notes` standard error says what was
+// done.
+[[nodiscard]] Scene load_scene_with(const SceneOptions& options, bool says_notes = false);
 
 // Whether flags ask for a picture of each of several frames: a range, or a whole turntable.
 [[nodiscard]] bool asks_for_frames(const SceneOptions& options);

@@ -40,6 +40,17 @@ Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::
     return flags.on<std::vector<std::string>>("-o,--output", "FILE", take, help);
 }
 
+void add_resolution_flag(Flags& flags, GridRequest& grid) {
+    flags
+        .on<int>(
+            "--resolution", "N",
+            [&grid](int cells) {
+                grid.resolution = static_cast<int>(checked_range("--resolution", cells, 1, kMaxCells));
+            },
+            "voxels along the longest side of a mesh")
+        .shows(fmt::format("{}", grid.resolution));
+}
+
 void add_tone_flags(Flags& flags, ToneMapOptions& tone) {
     flags.add_parsed("--tone", "filmic|plain", tone.curve, parse_tone,
                      "tone curve of a PNG (default filmic)");

@@ -11,6 +11,7 @@
 #include "flags.h"
 #include "progress_line.h"
 #include "vk/device.h"
+#include "voxelizer/mesh_grid.h"
 
 namespace voxilux {
 
@@ -31,6 +32,8 @@ void add_progress_flag(Flags& flags, ProgressMode& mode);
 
 // -o of pictures, each .exr or .png.
 Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::string& help);
+// --resolution, of meshes that become voxels.
+void add_resolution_flag(Flags& flags, GridRequest& grid);
 // --tone and --exposure.
 void add_tone_flags(Flags& flags, ToneMapOptions& tone);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -15,11 +15,18 @@
 namespace voxilux {
 namespace {
 
-std::string suffix_of(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::ranges::transform(suffix, suffix.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
+using LoadMesh = Mesh (*)(std::span<const std::byte>, const std::filesystem::path& folder, const MeshRequest&,
+                          MeshNotes&);
+
+constexpr std::string_view kEndings[] = {".gltf", ".glb", ".obj"};
+constexpr LoadMesh kLoaders[] = {load_gltf, load_gltf, load_obj};
+static_assert(std::size(kEndings) == std::size(kLoaders));
+
+// The place of a file's ending in kEndings, or their number.
+std::size_t kind_of(const std::filesystem::path& path) {
+    const auto found =
+        std::ranges::find_if(kEndings, [&](std::string_view ending) { return has_ending(path, ending); });
+    return static_cast<std::size_t>(found - std::begin(kEndings));
 }
 
 // Texture coordinates that no texture reads would only take memory.
@@ -37,19 +44,25 @@ void drop_unread_coordinates(Mesh& mesh) {
 
 }  // namespace
 
+std::span<const std::string_view> mesh_endings() {
+    return kEndings;
+}
+
+bool is_mesh(const std::filesystem::path& path) {
+    return kind_of(path) < std::size(kEndings);
+}
+
 Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
     const auto refuse = [&](const std::string& reason) {
         return Error(ExitCode::input_refused,
                      fmt::format("{}: {}", printable(path.string(), kUncut), printable(reason)));
     };
-    const std::string suffix = suffix_of(path);
-    const bool is_gltf = suffix == ".gltf" || suffix == ".glb";
-    if (!is_gltf && suffix != ".obj") throw refuse("not a mesh: .gltf, .glb and .obj files are read");
+    if (!is_mesh(path)) throw refuse(fmt::format("not a mesh: {} files are read", fmt::join(kEndings, ", ")));
     const std::vector<std::byte> bytes = read_file(path, request.limits.file_bytes);
     MeshNotes notes;
     Mesh mesh;
     try {
-        mesh = (is_gltf ? load_gltf : load_obj)(bytes, path.parent_path(), request, notes);
+        mesh = kLoaders[kind_of(path)](bytes, path.parent_path(), request, notes);
     } catch (const MeshFault& fault) {
         throw refuse(fault.what());
     }

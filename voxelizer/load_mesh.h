@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "voxelizer/mesh.h"
 
@@ -25,7 +27,11 @@ struct MeshRequest {
     MeshLimits limits;
 };
 
-// The triangles, materials and textures of a .gltf, .glb or .obj file, chosen by its suffix. Vertices that
+// The endings of files that load_mesh reads, and whether a file has one of them.
+[[nodiscard]] std::span<const std::string_view> mesh_endings();
+[[nodiscard]] bool is_mesh(const std::filesystem::path& path);
+
+// The triangles, materials and textures of a mesh file, chosen by its ending. Vertices that
 // are not finite take their triangles with them, counted in the warnings. Throws Error(input_refused) with
 // one line that names the file: unknown suffix, broken or unsupported content, a missing buffer, no
 // triangles, and with is_strict any warning.

@@ -139,6 +139,19 @@ VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
             {"_fov", tidy(camera.fov_y_deg)}};
 }
 
+// All but the models.
+VoxFile file_around(const std::vector<ModelPart>& parts, const VoxelSet& set, const VoxelPalette& palette,
+                    const Mesh& mesh, const std::string& name) {
+    VoxFile rest{.version = 200};
+    add_graph(rest, parts, set.grid, name);
+    add_palette(rest, palette);
+    for (std::size_t i = 0; i < mesh.cameras.size(); ++i) {
+        rest.cameras.push_back({.id = checked_cast<std::int32_t>(i, "camera"),
+                                .attributes = camera_attributes(mesh.cameras[i], set.grid)});
+    }
+    return rest;
+}
+
 // MagicaVoxel's space is a cube of 2000 voxels about the origin.
 constexpr int kLowestPlace = -1000;
 constexpr int kHighestPlace = 999;
@@ -158,20 +171,23 @@ std::optional<std::string> range_warning(const MeshGrid& grid) {
 VoxOutput write_voxels(const std::filesystem::path& file, const VoxelSet& set, const VoxelPalette& palette,
                        const Mesh& mesh, const std::string& name) {
     const std::vector<ModelPart> parts = parts_of(set);
-    VoxFile rest{.version = 200};
-    add_graph(rest, parts, set.grid, name);
-    add_palette(rest, palette);
-    for (std::size_t i = 0; i < mesh.cameras.size(); ++i) {
-        rest.cameras.push_back({.id = checked_cast<std::int32_t>(i, "camera"),
-                                .attributes = camera_attributes(mesh.cameras[i], set.grid)});
-    }
     std::vector<VoxModelHead> heads;
     for (const ModelPart& part : parts)
         heads.push_back({part.size, part.voxels});
     VoxOutput output{.models = parts.size(), .voxels = set.surface + set.interior};
     output.bytes = write_vox_models(
-        file, heads, [&](std::size_t i) { return voxels_of(parts[i], palette); }, rest);
+        file, heads, [&](std::size_t i) { return voxels_of(parts[i], palette); },
+        file_around(parts, set, palette, mesh, name));
     return output;
+}
+
+VoxFile vox_file_of(const VoxelSet& set, const VoxelPalette& palette, const Mesh& mesh,
+                    const std::string& name) {
+    const std::vector<ModelPart> parts = parts_of(set);
+    VoxFile file = file_around(parts, set, palette, mesh, name);
+    for (const ModelPart& part : parts)
+        file.models.push_back({.size = part.size, .voxels = voxels_of(part, palette)});
+    return file;
 }
 
 }  // namespace voxilux

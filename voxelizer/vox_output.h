@@ -25,4 +25,8 @@ struct VoxOutput {
 VoxOutput write_voxels(const std::filesystem::path& file, const VoxelSet& set, const VoxelPalette& palette,
                        const Mesh& mesh, const std::string& name);
 
+// What read_vox would make of that file.
+[[nodiscard]] VoxFile vox_file_of(const VoxelSet& set, const VoxelPalette& palette, const Mesh& mesh,
+                                  const std::string& name);
+
 }  // namespace voxilux

@@ -181,21 +181,18 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file, cons
     return scene;
 }
 
+Scene scene_of_file(const VoxFile& vox, const std::filesystem::path& file, const LoadOptions& options) {
+    Scene scene;
+    place_vox(scene, add_vox(scene, vox, options.frame), Rotation{}, glm::ivec3(0));
+    if (!options.ignores_file_settings) apply_vox_settings(vox, render_objects(vox), scene);
+    toml::table root;
+    read_tree(root, file, options, scene);
+    return scene;
+}
+
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
     const std::string extension = lower_extension(file);
-    if (extension == ".vox") {
-        Scene scene;
-        const VoxFile vox = load_vox(file);
-        place_vox(scene, add_vox(scene, vox, options.frame), Rotation{}, glm::ivec3(0));
-        if (!options.ignores_file_settings) apply_vox_settings(vox, render_objects(vox), scene);
-        toml::table root;
-        read_tree(root, file, options, scene);
-        return scene;
-    }
-    if (extension == ".glb" || extension == ".gltf" || extension == ".obj")
-        throw Error(ExitCode::input_refused,
-                    fmt::format("{0}: a mesh, not voxels; convert it with 'voxilux voxelize {0} -o FILE.vox'",
-                                file.string()));
+    if (extension == ".vox") return scene_of_file(load_vox(file), file, options);
     if (extension != ".toml")
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: unknown kind of scene; give a .vox or a .toml file", file.string()));

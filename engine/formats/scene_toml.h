@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scene/vox_file.h"
 
 namespace voxilux {
 
@@ -21,6 +22,10 @@ struct LoadOptions {
 // Throws Error(input_refused) with one line "FILE:LINE:COLUMN: what is wrong, and what is allowed".
 // Overrides of a .vox file may set [render], [camera], [sun] and [sky], and add what a .toml could add.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+// As load_scene for the voxels of a file of another kind; `file` names it in messages.
+[[nodiscard]] Scene scene_of_file(const VoxFile& vox, const std::filesystem::path& file,
+                                  const LoadOptions& options = {});
 
 // As load_scene for the text of a .toml file; `file` names it in messages and its folder holds the models.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file,

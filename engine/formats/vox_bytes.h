@@ -15,7 +15,7 @@
 
 namespace voxilux {
 
-// Why a file is refused: a rule and the byte where it is broken. Never leaves read_vox.
+// Why a file is refused: a rule and the byte where it is broken. Never leaves read_vox and read_voxel_cells.
 class VoxRefusal : public std::runtime_error {
   public:
     VoxRefusal(std::size_t offset, std::string_view rule)
@@ -34,6 +34,9 @@ class VoxBytes {
     [[nodiscard]] std::size_t left() const { return end_ - at_; }
     [[nodiscard]] const std::string& what() const { return what_; }
 
+    // The same range from an earlier offset on.
+    [[nodiscard]] VoxBytes from(std::size_t offset) const { return {file_, offset, end_, what_}; }
+
     [[nodiscard]] std::span<const std::byte> bytes(std::size_t count, std::string_view name) {
         if (count > left())
             throw VoxRefusal(at_, fmt::format("{} needs {} bytes for its {} but has {} left",
@@ -41,6 +44,16 @@ class VoxBytes {
         const auto part = file_.subspan(at_, count);
         at_ += count;
         return part;
+    }
+
+    [[nodiscard]] std::uint8_t u8(std::string_view name) {
+        return std::to_integer<std::uint8_t>(bytes(1, name)[0]);
+    }
+
+    [[nodiscard]] std::uint16_t u16(std::string_view name) {
+        const auto b = bytes(2, name);
+        return static_cast<std::uint16_t>(std::to_integer<unsigned>(b[0]) | std::to_integer<unsigned>(b[1])
+                                                                                << 8);
     }
 
     [[nodiscard]] std::uint32_t u32(std::string_view name) {

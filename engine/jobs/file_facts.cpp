@@ -114,9 +114,9 @@ SortedJson attribute_json(const std::string& text) {
 }
 
 // What `render` would say of the file: its warnings, and what is shown as something simpler.
-std::vector<std::string> render_warnings(const std::filesystem::path& path) {
+std::vector<std::string> render_warnings(const VoxFile& file, const std::filesystem::path& path) {
     try {
-        const Scene scene = load_scene(path);
+        const Scene scene = scene_of_file(file, path);
         std::vector<std::string> warnings = scene.warnings;
         const std::vector<std::string> simplified = measure_scene(scene).simplified;
         warnings.insert(warnings.end(), simplified.begin(), simplified.end());
@@ -124,15 +124,6 @@ std::vector<std::string> render_warnings(const std::filesystem::path& path) {
     } catch (const Error& refusal) {
         return {fmt::format("render refuses this file: {}", refusal.what())};
     }
-}
-
-FileFacts vox_facts(const std::filesystem::path& path) {
-    auto summary = summarize(load_vox(path));
-    if (!summary)
-        throw Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), summary.reason()));
-    VoxInfo info = std::move(summary).value();
-    info.warnings = render_warnings(path);
-    return {describe(info), to_json(info)};
 }
 
 FileFacts scene_facts(const std::filesystem::path& path) {
@@ -168,8 +159,17 @@ FileFacts image_facts(const std::filesystem::path& path) {
 
 }  // namespace
 
+FileFacts vox_file_facts(const VoxFile& file, const std::filesystem::path& path) {
+    auto summary = summarize(file);
+    if (!summary)
+        throw Error(ExitCode::input_refused, fmt::format("{}: {}", path.string(), summary.reason()));
+    VoxInfo info = std::move(summary).value();
+    info.warnings = render_warnings(file, path);
+    return {describe(info), to_json(info)};
+}
+
 FileFacts file_facts(const std::filesystem::path& path) {
-    if (has_ending(path, ".vox")) return vox_facts(path);
+    if (has_ending(path, ".vox")) return vox_file_facts(load_vox(path), path);
     if (has_ending(path, ".toml")) return scene_facts(path);
     const bool is_checkpoint = has_ending(path, ".part");  // FILE.exr.part
     if (is_exr(path) || is_png(path) || is_checkpoint) return image_facts(path);

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "scene/vox_file.h"
+
 namespace voxilux {
 
 struct FileFacts {
@@ -17,5 +19,8 @@ struct FileFacts {
 // with their ranges and text attributes of an EXR, a checkpoint or a PNG, by the ending of the name. Throws
 // Error(input_refused).
 [[nodiscard]] FileFacts file_facts(const std::filesystem::path& path);
+
+// The same of the voxels of a file of another kind; `path` names it.
+[[nodiscard]] FileFacts vox_file_facts(const VoxFile& file, const std::filesystem::path& path);
 
 }  // namespace voxilux

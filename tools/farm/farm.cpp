@@ -53,7 +53,7 @@ std::string progress_name(ProgressMode mode) {
 }
 
 Json job_of(const FarmCommand& command) {
-    Scene scene = load_scene_with(command.scene);
+    Scene scene = load_scene_with(command.scene, !command.report.quiet);
     if (command.error_target && !command.scene.spp) scene.settings.spp = kMaxSamplesForError;
     const FrameList frames = frames_to_render(command.scene, scene);
     const std::string binary = std::filesystem::read_symlink("/proc/self/exe").string();

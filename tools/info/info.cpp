@@ -5,18 +5,25 @@
 #include "base/print.h"
 #include "jobs/file_facts.h"
 #include "shared_flags.h"
+#include "voxelizer/import_voxels.h"
 #include "write_json.h"
 
 namespace voxilux {
 
 void add_info_flags(Flags& flags, InfoOptions& options) {
-    flags.add("FILE", "", options.file, "a .vox, .toml, .exr or .png file").required();
+    flags
+        .add("FILE", "", options.file,
+             "a .vox, .toml, .exr or .png file, voxels of another format, or a mesh as voxels")
+        .required();
+    add_resolution_flag(flags, options.grid);
     add_json_flag(flags, options.json, "the facts");
 }
 
 int run_info(const InfoOptions& options) {
     check_outputs({options.json}, {options.file});
-    const FileFacts facts = file_facts(options.file);
+    const FileFacts facts = is_importable(options.file)
+                                ? vox_file_facts(import_voxels(options.file, options.grid).file, options.file)
+                                : file_facts(options.file);
     if (options.json != "-") print_result("{}", facts.text);
     write_json(options.json, facts.json);
     return static_cast<int>(ExitCode::done);

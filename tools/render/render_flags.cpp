@@ -154,7 +154,7 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
 }
 
 Scene scene_to_render(const RenderCommand& command) {
-    Scene scene = load_scene_with(command.scene);
+    Scene scene = load_scene_with(command.scene, !command.report.quiet);
     if (command.error_target && !command.scene.spp) scene.settings.spp = kMaxSamplesForError;
     return scene;
 }

@@ -86,7 +86,7 @@ int run_tradeoff(const TradeoffCommand& command) {
     if (command.output.empty())
         throw Error(ExitCode::usage, "tradeoff: -o DIR is missing: where the price list goes");
     ProgressLine line(command.progress, command.report.quiet);
-    const Scene scene = load_scene_with(command.scene);
+    const Scene scene = load_scene_with(command.scene, !command.report.quiet);
     const std::int64_t frame = frames_to_render(command.scene, scene).first;
     prepare_folder(command);
     if (!command.report.quiet) print_frame_note(command.scene, scene);

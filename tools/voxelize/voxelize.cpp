@@ -70,14 +70,7 @@ double checked_scale(double metres) {
 }
 
 void add_grid_flags(Flags& flags, GridRequest& grid) {
-    flags
-        .on<int>(
-            "--resolution", "N",
-            [&grid](int cells) {
-                grid.resolution = static_cast<int>(checked_range("--resolution", cells, 1, kMaxCells));
-            },
-            "voxels along the longest side of the scene")
-        .shows(fmt::format("{}", grid.resolution));
+    add_resolution_flag(flags, grid);
     flags
         .on<double>(
             "--scale", "METRES", [&grid](double metres) { grid.metres_per_voxel = checked_scale(metres); },
@@ -94,7 +87,7 @@ void add_grid_flags(Flags& flags, GridRequest& grid) {
 
 void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
     VoxelizeRequest& request = command.request;
-    flags.add("MESH", "", command.mesh, "a .gltf, .glb or .obj file").required();
+    flags.add("MESH", "", command.mesh, "a mesh: a .gltf, .glb or .obj file").required();
     flags.add_parsed("-o,--output", "FILE", command.output, checked_output,
                      "the .vox file; default: named as MESH, in this folder");
     add_grid_flags(flags, request.grid);

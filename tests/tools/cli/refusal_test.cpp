@@ -294,24 +294,22 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"folder", {"render", ".", "-o", "a.png"}, "."},
         Refused{"broken_vox", {"render", "broken.vox", "-o", "a.png"}, "broken.vox"},
         Refused{"broken_toml", {"render", "broken.toml", "-o", "a.png"}, "broken.toml:2:1"},
-        Refused{"unknown_kind", {"render", "broken.obj", "-o", "a.png"}, "broken.obj"},
+        Refused{"unknown_kind", {"render", "broken.stp", "-o", "a.png"}, "broken.stp: unknown kind"},
         Refused{"unknown_key", one_voxel_with({"-D", "sun.elevaton=3"}), "did you mean 'elevation'?"},
         Refused{"picture_of_nothing", one_voxel_with({"-D", "render.size=[0, 9]"}), "size"},
         Refused{"too_many_pixels", one_voxel_with({"--size", "65536x65536"}), "over 2^32 pixels"},
         Refused{"info_broken_vox", {"info", "broken.vox"}, "broken.vox"},
         Refused{"info_broken_exr", {"info", "broken.exr"}, "broken.exr"},
         Refused{"info_broken_png", {"info", "broken.png"}, "broken.png"},
-        Refused{"info_unknown_kind", {"info", "broken.obj"}, "info reads .vox, .toml, .exr and .png"},
+        Refused{"info_unknown_kind", {"info", "broken.stp"}, "info reads .vox, .toml, .exr and .png"},
+        Refused{"info_broken_mesh", {"info", "broken.obj"}, "broken.obj"},
+        Refused{"render_absent_mesh", {"render", "no.glb", "-o", "a.png"}, "no.glb"},
+        Refused{"convert_broken_vox", {"convert", "broken.vox", "a.vox"}, "broken.vox"},
+        Refused{"convert_unknown_kind", {"convert", "broken.stp", "a.vox"}, ".qb, .kv6, .vxl, .binvox"},
         Refused{"bench_absent", {"bench", "march", "no.vox"}, "no.vox"},
         Refused{"bench_ao_absent", {"bench", "ao", "no.vox"}, "no.vox"},
         Refused{"compare_broken", {"compare", "broken.exr", "broken.png"}, "broken.exr"}),
     name_of_refused);
-
-TEST(InputRefusedOf, a_mesh_points_to_the_voxelizer) {
-    const Ending ending = run({"render", "duck.glb", "-o", "a.png"});
-    EXPECT_EQ(ending.code, 3);
-    EXPECT_NE(ending.err.find("voxilux voxelize duck.glb -o FILE.vox"), std::string::npos) << ending.err;
-}
 
 TEST(InputRefusedOf, pictures_of_two_sizes_cannot_be_compared) {
     const ScratchFolder scratch;

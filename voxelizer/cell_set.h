@@ -1,0 +1,13 @@
+#pragma once
+
+#include "formats/voxel_cells.h"
+#include "voxelizer/voxelize_mesh.h"
+
+namespace voxilux {
+
+// The cells as a set of diffuse voxels that keep their places: cell (0, 0, 0) is at the origin of the scene.
+// `voxels` holds at least one, and they spread over kMaxCellSide at most. Takes them, so that memory holds
+// them once.
+[[nodiscard]] VoxelSet voxel_set_of(VoxelCells&& voxels);
+
+}  // namespace voxilux

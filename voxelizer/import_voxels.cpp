@@ -1,0 +1,72 @@
+#include "voxelizer/import_voxels.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/printable.h"
+#include "formats/voxel_cells.h"
+#include "voxelizer/cell_set.h"
+#include "voxelizer/load_mesh.h"
+#include "voxelizer/vox_output.h"
+#include "voxelizer/voxelize_warnings.h"
+
+namespace voxilux {
+namespace {
+
+std::string shown(const std::filesystem::path& path) {
+    return printable(path.string(), kUncut);
+}
+
+// The set as a file, and what a note says of it.
+ImportedVoxels imported(const std::filesystem::path& path, const VoxelSet& set, const Mesh& mesh,
+                        const std::string& origin) {
+    const VoxelPalette palette(set, false);
+    ImportedVoxels result{.file = vox_file_of(set, palette, mesh, path.stem().string())};
+    result.file.warnings = warnings_of(mesh, set, InsideRule::winding, palette.error());
+    const glm::ivec3 cells = set.grid.cells;
+    result.note = fmt::format("{}: {}{} voxels in {} x {} x {}, {} colours", shown(path), origin, set.surface,
+                              cells.x, cells.y, cells.z, palette.entries().size());
+    if (palette.error().mean > 0.0)
+        result.note += fmt::format(" (dE76 {:.2f} from its own on average)", palette.error().mean);
+    return result;
+}
+
+VoxelCells load_cells(const std::filesystem::path& path, const VoxelFormat& format) {
+    auto voxels = read_voxel_cells(format, read_file(path));
+    if (!voxels) throw Error(ExitCode::input_refused, fmt::format("{}: {}", shown(path), voxels.reason()));
+    return std::move(voxels).value();
+}
+
+ImportedVoxels import_mesh(const std::filesystem::path& path, const GridRequest& grid) {
+    const Mesh mesh = load_mesh(path);
+    const VoxelSet set = voxelize_mesh(mesh, {.grid = grid});
+    const std::string size = grid.metres_per_voxel ? fmt::format("--scale {}", *grid.metres_per_voxel)
+                                                   : fmt::format("--resolution {}", grid.resolution);
+    return imported(path, set, mesh,
+                    fmt::format("{} triangles voxelized ({}): ", mesh.triangles.size(), size));
+}
+
+}  // namespace
+
+bool is_importable(const std::filesystem::path& path) {
+    return voxel_format_of(path) != nullptr || is_mesh(path);
+}
+
+std::string importable_endings() {
+    std::string endings;
+    for (const VoxelFormat& format : voxel_formats())
+        endings += fmt::format("{}, ", format.ending);
+    return endings + fmt::format("{}", fmt::join(mesh_endings(), ", "));
+}
+
+ImportedVoxels import_voxels(const std::filesystem::path& path, const GridRequest& grid) {
+    const VoxelFormat* const format = voxel_format_of(path);
+    if (format == nullptr) return import_mesh(path, grid);
+    VoxelCells voxels = load_cells(path, *format);
+    Mesh rest;  // what else a set may come with: no camera, and warnings
+    rest.warnings = std::move(voxels.warnings);
+    return imported(path, voxel_set_of(std::move(voxels)), rest, "");
+}
+
+}  // namespace voxilux
