@@ -2,50 +2,26 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <span>
 #include <tuple>
 
 #include "base/checked_cast.h"
 #include "world/build_fields.h"
+#include "world/growing_box.h"
 #include "world/leaf_block.h"
 #include "world/world_view.h"
 
 namespace voxilux {
 namespace {
 
-// How far the boxes of a level depend on its cells: the sum of the longest looks of all rounds, 1 + 2 + 4 + 8
-// + 16.
-constexpr int kFarDependence = 31;
 // Words between two that changed which are put into one range with them.
 constexpr std::size_t kMaxGap = 16;
 // In place of a block's number.
 constexpr std::uint32_t kNoBlock = gpu::kCellPayloadMask;
 
-// Cells low <= c < high.
-struct CellBounds {
-    glm::ivec3 low{std::numeric_limits<int>::max()};
-    glm::ivec3 high{std::numeric_limits<int>::min()};
-
-    [[nodiscard]] bool empty() const { return low.x >= high.x || low.y >= high.y || low.z >= high.z; }
-    void include(const CellBounds& other) {
-        if (other.empty()) return;
-        low = glm::min(low, other.low);
-        high = glm::max(high, other.high);
-    }
-    void include(glm::ivec3 cell) { include(CellBounds{cell, cell + 1}); }
-    [[nodiscard]] CellBounds grown(int by) const { return empty() ? *this : CellBounds{low - by, high + by}; }
-    [[nodiscard]] CellBounds children() const { return empty() ? *this : CellBounds{low * 4, high * 4}; }
-    [[nodiscard]] bool contains(glm::ivec3 c) const {
-        return c.x >= low.x && c.y >= low.y && c.z >= low.z && c.x < high.x && c.y < high.y && c.z < high.z;
-    }
-};
-
 template <class Visit>
 void for_each_cell(CellBounds bounds, glm::ivec3 size, const Visit& visit) {
-    if (bounds.empty()) return;
-    const glm::ivec3 low = glm::max(bounds.low, glm::ivec3(0));
-    const glm::ivec3 high = glm::min(bounds.high, size);
+    const auto [low, high] = bounds.inside(size);
     for (int z = low.z; z < high.z; ++z)
         for (int y = low.y; y < high.y; ++y)
             for (int x = low.x; x < high.x; ++x)
@@ -93,8 +69,10 @@ class Edit {
     }
 
     void grow() {
-        if (has_nodes_) bricks_.include(regrow(gpu::kChunkLog2, chunks_.grown(kFarDependence)).children());
-        regrow(gpu::kBrickLog2, bricks_.grown(kFarDependence));
+        if (has_nodes_)
+            bricks_.include(
+                regrow(gpu::kChunkLog2, chunks_.grown(glm::ivec3(GrowingBox::kReach))).children());
+        regrow(gpu::kBrickLog2, bricks_.grown(glm::ivec3(GrowingBox::kReach)));
     }
 
     // Gives a mixed brick the block that its voxels and those of the bricks around it call for.
@@ -191,44 +169,29 @@ class Edit {
         assign(&root, all_empty ? 0 : cells[0]);
     }
 
-    struct Growing {
-        glm::ivec3 cell;
-        std::uint32_t* word;
-        std::uint32_t before;
-        std::uint32_t next;
-    };
-
-    // The empty cells of roots or nodes in the bounds, their boxes set to nothing.
-    std::vector<Growing> take(int log2, CellBounds bounds) {
-        std::vector<Growing> taken;
-        for_each_cell(bounds, built_.size() >> log2, [&](glm::ivec3 cell) {
-            std::uint32_t* word = log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
-            if (word == nullptr || !is_empty(*word)) return;
-            taken.push_back({cell, word, *word, 0});
-            *word = 0;
-        });
-        return taken;
+    std::uint32_t* level_word(int log2, glm::ivec3 cell) {
+        return log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
     }
 
     // Redoes the boxes of the roots or nodes in the bounds and returns the cells whose boxes are others now.
-    // The cells around them take part, so that each sees the steps of all it depends on, and get their boxes
-    // back.
-    CellBounds regrow(int log2, CellBounds bounds) {
+    CellBounds regrow(int log2, const CellBounds& bounds) {
+        const glm::ivec3 level = built_.size() >> log2;
+        GrowingBox box(bounds, level);
+        for_each_cell(box.cells(), level, [&](glm::ivec3 cell) {
+            const std::uint32_t* const word = level_word(log2, cell);
+            if (word != nullptr && is_empty(*word))
+                box.set_empty(cell);
+            else
+                box.set_fixed(cell, gpu::distances_at(built_, cell, log2, built_.chunks_size));
+        });
+        box.grow();
         CellBounds changed;
-        std::vector<Growing> taken = take(log2, bounds.grown(kFarDependence));
-        for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
-            const gpu::GrowthStep step = gpu::growth_step(number);
-            for (Growing& one : taken)
-                one.next = gpu::grown_word(built_, *one.word, one.cell, log2, built_.chunks_size, step);
-            for (const Growing& one : taken)
-                *one.word = one.next;
-        }
-        for (const Growing& one : taken) {
-            if (!bounds.contains(one.cell)) *one.word = one.before;
-            if (*one.word == one.before) continue;
-            changed.include(one.cell);
-            note(one.word);
-        }
+        for_each_cell(bounds, level, [&](glm::ivec3 cell) {
+            std::uint32_t* const word = level_word(log2, cell);
+            if (word == nullptr || !is_empty(*word) || *word == box.distances(cell)) return;
+            assign(word, box.distances(cell));
+            changed.include(cell);
+        });
         return changed;
     }
 
@@ -243,6 +206,24 @@ class Edit {
     CellBounds bricks_;  // the same, and those whose chunk got or lost its nodes
 };
 
+void sort_unique(std::vector<glm::ivec3>& bricks) {
+    std::ranges::sort(bricks, [](glm::ivec3 a, glm::ivec3 b) {
+        return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+    });
+    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+}
+
+// The bricks and those around them, each once.
+std::vector<glm::ivec3> with_neighbours(const std::vector<glm::ivec3>& bricks) {
+    std::vector<glm::ivec3> all;
+    all.reserve(27 * bricks.size());
+    for (const glm::ivec3 brick : bricks)
+        for (int i = 0; i < 27; ++i)
+            all.push_back(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+    sort_unique(all);
+    return all;
+}
+
 }  // namespace
 
 WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits) {
@@ -255,19 +236,13 @@ WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const Vo
         built = build_march_world(world, built.traversal);
         return {.is_rebuilt = true};
     }
-    const auto order = [](glm::ivec3 a, glm::ivec3 b) {
-        return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
-    };
-    std::ranges::sort(bricks, order);
-    bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
+    sort_unique(bricks);
     Edit edit(world, built);
     for (const glm::ivec3 brick : bricks)
         edit.touch(brick);
     edit.grow();
-    for (const glm::ivec3 brick : bricks) {
-        for (int i = 0; i < 27; ++i)
-            edit.store_leaf(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
-    }
+    for (const glm::ivec3 brick : with_neighbours(bricks))
+        edit.store_leaf(brick);
     return edit.changes();
 }
 
