@@ -29,6 +29,14 @@ const QualityPreset& quality_named(std::string_view name) {
     return *found;
 }
 
+std::span<const QualityPreset> quality_presets() {
+    return kPresets;
+}
+
+const QualityPrice& price_of(const QualityPreset& preset, bool sends_photons) {
+    return sends_photons ? preset.emitters : preset.sky;
+}
+
 std::vector<std::string> overrides_of(const QualityPreset& preset) {
     return {fmt::format("render.spp={}", preset.sky.samples),
             fmt::format("render.ao_rays={}", preset.ao_rays)};

@@ -3,6 +3,7 @@
 // Quality presets: settings that belong together, chosen from measured prices.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,12 @@ struct QualityPreset {
 
 // The preset of a name. Throws Error(usage) that lists the names.
 [[nodiscard]] const QualityPreset& quality_named(std::string_view name);
+
+// From the quickest to the finest.
+[[nodiscard]] std::span<const QualityPreset> quality_presets();
+
+// What the preset is for a scene in which photons run, or none do.
+[[nodiscard]] const QualityPrice& price_of(const QualityPreset& preset, bool sends_photons);
 
 // What the preset sets in a scene without photons, as "key=value" of a scene file.
 [[nodiscard]] std::vector<std::string> overrides_of(const QualityPreset& preset);

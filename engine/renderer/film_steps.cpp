@@ -116,8 +116,13 @@ DisplayBuffer FilmSteps::display(const DisplayLook& look) {
     VX_ASSERT(start_ == FilmPosition{});
     clear_film();
     Recording recording;
+    const bool has_cells = look.channel == DisplayChannel::cells && state_.samples_done > 0;
+    DisplayLook seen = look;
+    if (!has_cells && look.channel == DisplayChannel::cells) seen.channel = DisplayChannel::color;
     const DisplayBuffer shown =
-        record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, look, recording);
+        has_cells
+            ? record_display_cells(*plan_, state_.samples_done - 1, look, recording)
+            : record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, seen, recording);
     (void)executor_->run(recording);
     return shown;
 }

@@ -67,7 +67,7 @@ class Renderer {
     // The scene without its voxels, as it is seen now.
     [[nodiscard]] const Scene& scene() const { return scene_; }
     // The film so far as it is shown, in a buffer on the device, for who presents it there. Nothing is read
-    // back. Looks that compare need a reference of the size of the image: [height][width][3] radiance.
+    // back. Looks that compare need a reference of the size of the image, as record_display_reference().
     DisplayBuffer display(const DisplayLook& look);
     void set_reference(std::span<const float> radiance);
 

@@ -79,6 +79,7 @@ vec3 radiance_codes(vec3 mean, uint row, uint column) {
     if (compares != kComparesNothing && column >= push.divider) {
         uint at = 3u * (row * push.width + column);
         vec3 other = vec3(reference[at], reference[at + 1u], reference[at + 2u]);
+        if (compares == kComparesMap) return false_colour(other.x);
         mean = compares == kComparesReference ? other : abs(mean - other);
     }
     return tone(mean);

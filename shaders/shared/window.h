@@ -17,6 +17,7 @@ VX_CONST(uint, kShowsError, 4u);     // of the mean: a false colour of its logar
 VX_CONST(uint, kComparesNothing, 0u);
 VX_CONST(uint, kComparesReference, 1u);
 VX_CONST(uint, kComparesDifference, 2u);  // from the reference, without its sign
+VX_CONST(uint, kComparesMap, 3u);         // numbers in [0,1] in its place, as false colours
 
 // Push constants of display_resolve, for one film tile.
 struct DisplayResolvePush {
@@ -29,6 +30,13 @@ struct DisplayResolvePush {
     uint rows_ahead;   // rows from the top of the image that have one sample more
     float exposure;    // factor
     uint divider;      // column from which on the picture is compared
+};
+
+// Push constants of display_cells.
+struct DisplayCellsPush {
+    uint pixel_count;
+    float low;   // logarithms to base 10 of the samples of a cell that colours begin at
+    float high;  // and end at
 };
 
 // Push constants of what is drawn over the picture in a window.

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "view/mesh_drop.h"
 #include "view/picture_look.h"
+#include "view/quality_choice.h"
 
 namespace voxilux {
 namespace {
@@ -28,12 +30,15 @@ void orbit(glm::dvec2 way, glm::ivec2 window, ViewState& state) {
 
 void take_screenshot(const char* ending, ViewState& state) {
     const std::string stem = state.input.empty() ? "voxilux" : state.input.stem().string();
-    for (int i = 1;; ++i) {
-        const std::string name = fmt::format("{}.{:03}{}", stem, i, ending);
-        if (std::filesystem::exists(name)) continue;
-        state.screenshots.push_back(name);
-        return;
-    }
+    state.screenshots.push_back(unused_name(stem, ending, 1));
+}
+
+void open_other(ViewState& state) {
+    const std::vector<std::string> files = files_to_open(state.memory);
+    if (files.empty())
+        state.message = "no other file was shown";
+    else
+        state.file_to_open = files.front();
 }
 
 // The first frame comes after the last one, and the other way round.
@@ -86,6 +91,10 @@ void take_key(int key, glm::ivec2 window, ViewState& state) {
             return step_channel(state.held.shift ? -1 : 1, state);
         case GLFW_KEY_X:
             return step_comparison(state);
+        case GLFW_KEY_G:
+            return step_quality(state);
+        case GLFW_KEY_O:
+            return open_other(state);
         case GLFW_KEY_SPACE:
             state.is_playing = !state.is_playing && state.frames;
             return;
@@ -188,7 +197,7 @@ void fly(double seconds, ViewState& state) {
 }
 
 std::span<const std::pair<const char*, const char*>> key_sheet() {
-    static constexpr std::array<std::pair<const char*, const char*>, 23> kSheet{{
+    static constexpr std::array<std::pair<const char*, const char*>, 25> kSheet{{
         {"left drag", "orbit"},
         {"middle or shift drag", "pan"},
         {"right drag", "look around"},
@@ -200,6 +209,8 @@ std::span<const std::pair<const char*, const char*>> key_sheet() {
         {"+ -", "exposure"},
         {"C, shift C", "the next channel, the one before"},
         {"X", "compare with the reference"},
+        {"G", "the next quality preset"},
+        {"O", "the file that was shown before"},
         {"V P R B F I", "view, place, remove, paint, fill, pick"},
         {"[ ]", "a smaller, a larger brush"},
         {"Ctrl Z, Ctrl Y", "undo, redo"},

@@ -45,7 +45,7 @@ std::array<glm::dvec3, 8> corners_of(const Box& box) {
 
 void draw_edit_panel(ViewState& state) {
     if (state.picture.renderer().voxels() == nullptr) return;
-    begin_panel("Edit", {8.0f, 220.0f}, true);
+    begin_panel("Edit", PanelSide::right, state);
     EditState& edit = state.edit;
     for (std::size_t i = 0; i < kToolNames.size(); ++i) {
         if (i % 3 != 0) ImGui::SameLine(80.0f * static_cast<float>(i % 3));
@@ -59,7 +59,7 @@ void draw_edit_panel(ViewState& state) {
                                        static_cast<double>(edit.history.bytes()) / kBytesPerMib,
                                        static_cast<double>(EditHistory::kMaxBytes) / kBytesPerMib)
                                .c_str());
-    ImGui::End();
+    end_panel(PanelSide::right, state);
 }
 
 void draw_target(glm::ivec2 window, const ViewState& state) {

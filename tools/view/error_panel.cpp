@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "view/panels.h"
+#include "view/quality_choice.h"
 
 namespace voxilux {
 namespace {
@@ -81,6 +82,21 @@ void draw_plot(const LiveErrors& errors, double target) {
     ImGui::Dummy(kPlotSize);
 }
 
+std::string preset_line(const QualityPreset& preset, bool sends_photons) {
+    const QualityPrice& price = price_of(preset, sends_photons);
+    return fmt::format("{}: {} samples, about {:.2g} %", preset.name, price.samples, 100.0 * price.error);
+}
+
+void draw_quality(ViewState& state) {
+    const bool sends_photons = state.picture.rest_plan().photons.runs();
+    const std::string shown = state.quality != nullptr ? std::string(state.quality->name) : "own";
+    if (!ImGui::BeginCombo("quality", shown.c_str())) return;
+    for (const QualityPreset& preset : quality_presets())
+        if (ImGui::Selectable(preset_line(preset, sends_photons).c_str(), &preset == state.quality))
+            choose_quality(preset, state);
+    ImGui::EndCombo();
+}
+
 void draw_ends(ViewState& state) {
     float percent = static_cast<float>(100.0 * state.ends.error.value_or(0.0));
     if (ImGui::SliderFloat("error target", &percent, 0.0f, 20.0f, percent > 0.0f ? "%.2f %%" : "none",
@@ -111,13 +127,14 @@ std::string forecast_line(const LiveErrors& errors, double target) {
 }
 
 void draw_error_panel(ViewState& state) {
-    begin_panel("Error", {8.0f, 380.0f}, true);
+    begin_panel("Error", PanelSide::right, state);
     const LiveErrors& errors = state.picture.errors();
     const double target = state.ends.error.value_or(kUsualTarget);
     if (!errors.points().empty()) draw_plot(errors, target);
     ImGui::TextUnformatted(forecast_line(errors, target).c_str());
+    draw_quality(state);
     draw_ends(state);
-    ImGui::End();
+    end_panel(PanelSide::right, state);
 }
 
 }  // namespace voxilux

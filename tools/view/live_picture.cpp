@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "plan/error_law.h"
 
 namespace voxilux {
@@ -108,11 +109,45 @@ std::vector<BoxEdit> LivePicture::edit(std::span<const BoxEdit> edits) {
     return renderer_.edit(edits);
 }
 
-void LivePicture::set_reference(std::vector<float> radiance, glm::ivec2 size) {
-    reference_ = std::move(radiance);
-    reference_size_ = size;
-    has_sent_reference_ = false;
+void LivePicture::set_reference(Image image) {
+    const auto planes = colour_planes(image);
+    if (!planes) throw Error(ExitCode::input_refused, "it has no colours");
+    reference_.resize(3 * pixel_count(image));
+    for (std::size_t i = 0; i < reference_.size(); ++i)
+        reference_[i] = (*planes)[i % 3][i / 3];
+    reference_size_ = {image.width, image.height};
+    reference_image_ = std::move(image);
+    flip_.clear();
+    sent_ = DisplayComparison::none;
     has_news_ = true;
+}
+
+bool LivePicture::is_reference_of(glm::ivec2 size) const {
+    return !reference_.empty() && reference_size_ == size;
+}
+
+// Of the picture at rest, while somebody looks at it.
+void LivePicture::compute_flip() {
+    if (flip_.collect(waits_)) {
+        sent_ = DisplayComparison::none;
+        has_news_ = true;
+    }
+    const bool is_wanted =
+        shown_look_.comparison == DisplayComparison::map && is_reference_of(settings_.size) && samples() > 0;
+    if (!is_wanted || !flip_.is_due(samples(), is_done())) return;
+    flip_.start(reference_image_, picture_of(renderer_.read_film()), samples());
+    if (waits_) compute_flip();
+}
+
+void LivePicture::send_reference(DisplayComparison comparison) {
+    const DisplayComparison wanted =
+        comparison == DisplayComparison::map ? comparison : DisplayComparison::reference;
+    if (std::exchange(sent_, wanted) == wanted) return;
+    if (wanted == DisplayComparison::reference) return renderer_.set_reference(reference_);
+    std::vector<float> numbers;
+    for (const float error : flip_.result()->error)
+        numbers.insert(numbers.end(), 3, error);
+    renderer_.set_reference(numbers);
 }
 
 std::optional<PixelReading> LivePicture::read_pixel(glm::ivec2 pixel, DisplayChannel channel) {
@@ -139,6 +174,7 @@ void LivePicture::begin_motion() {
 }
 
 void LivePicture::apply_motion() {
+    flip_.clear();
     replan_motion();
     moving_frames_ = kRestFrames;
 }
@@ -174,6 +210,7 @@ LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t end = std::min(end_samples, max_samples());
     if (samples() < end && !is_done()) take_samples(budget_s, end);
+    compute_flip();
     return {renderer_.plan().settings.size, samples(), seconds_since(start)};
 }
 
@@ -212,9 +249,10 @@ DisplayBuffer LivePicture::display(const DisplayLook& look) {
         shown_look_ = look;
         DisplayLook shown = look;
         if (!has_channel(renderer_.plan(), look.channel)) shown.channel = DisplayChannel::color;
-        if (reference_size_ != renderer_.plan().settings.size) shown.comparison = DisplayComparison::none;
-        if (shown.comparison != DisplayComparison::none && !std::exchange(has_sent_reference_, true))
-            renderer_.set_reference(reference_);
+        const bool has_map = shown.comparison != DisplayComparison::map || flip_.result();
+        if (!is_reference_of(renderer_.plan().settings.size) || !has_map)
+            shown.comparison = DisplayComparison::none;
+        if (shown.comparison != DisplayComparison::none) send_reference(shown.comparison);
         shown_ = renderer_.display(shown);
     }
     return shown_;

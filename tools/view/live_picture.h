@@ -9,6 +9,7 @@
 #include "jobs/live_errors.h"
 #include "jobs/render_outcome.h"
 #include "renderer/renderer.h"
+#include "view/flip_map.h"
 #include "view/pixel_reading.h"
 #include "view/resolution.h"
 
@@ -56,10 +57,13 @@ class LivePicture {
     // Whether a sample has ended since the last display().
     [[nodiscard]] bool has_news() const { return has_news_; }
 
-    // What to compare with: [height][width][3] radiance of so many pixels. It is shown where the picture has
-    // its size.
-    void set_reference(std::vector<float> radiance, glm::ivec2 size);
-    [[nodiscard]] glm::ivec2 reference_size() const { return reference_size_; }
+    // What to compare with. It is shown where the picture has its size. Throws Error(input_refused) for an
+    // image without colours.
+    void set_reference(Image image);
+    // FLIP of the picture at rest against it, while the looks that are shown want it.
+    [[nodiscard]] const FlipMap& flip() const { return flip_; }
+    // Whether advance() waits for what other threads compute, so that it does the same again.
+    void set_waits(bool waits) { waits_ = waits; }
 
     // What the film at rest knows of a pixel and of a channel; nothing while something moves or before the
     // first sample.
@@ -71,6 +75,7 @@ class LivePicture {
     [[nodiscard]] std::uint32_t samples() const { return renderer_.film().position().samples; }
     [[nodiscard]] std::uint32_t max_samples() const { return ends_.error ? kMaxSamples : max_samples_; }
     // Of the picture at rest.
+    [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
     [[nodiscard]] const PlanRequest& request() const { return request_; }
     // What the film at rest has claimed so far.
@@ -93,6 +98,9 @@ class LivePicture {
     void end_motion();
     void take_samples(double budget_s, std::uint32_t end_samples);
     LiveFrame advance_motion(double budget_s);
+    void compute_flip();
+    [[nodiscard]] bool is_reference_of(glm::ivec2 size) const;
+    void send_reference(DisplayComparison comparison);
 
     Renderer renderer_;
     RenderSettings settings_;
@@ -107,10 +115,13 @@ class LivePicture {
     DisplayBuffer shown_;
     DisplayLook shown_look_;
     bool has_news_ = false;
-    bool has_other_size_ = false;  // the resolution of a motion
-    std::vector<float> reference_;
+    bool has_other_size_ = false;   // the resolution of a motion
+    std::vector<float> reference_;  // [height][width][3]
     glm::ivec2 reference_size_{0};
-    bool has_sent_reference_ = false;  // to the device
+    Image reference_image_;
+    FlipMap flip_;
+    bool waits_ = false;
+    DisplayComparison sent_ = DisplayComparison::none;  // to the device: the reference or the map
     RenderStatistics statistics_;
 };
 

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "jobs/effect_time.h"
@@ -17,6 +18,7 @@ constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWin
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
                                     ImGuiWindowFlags_NoMove;
 constexpr float kFontSize = 13.0f;  // on a monitor of scale 1
+constexpr float kPanelGap = 8.0f;   // likewise
 
 void text(const std::string& line) {
     ImGui::TextUnformatted(line.c_str());
@@ -59,7 +61,7 @@ void draw_effect(const EffectState& effect, ViewState& state) {
 }
 
 void draw_prices(ViewState& state) {
-    begin_panel("Effects", {8.0f, 96.0f});
+    begin_panel("Effects", PanelSide::left, state);
     if (ImGui::BeginTable("effects", 4)) {
         ImGui::TableSetupColumn("effect");
         ImGui::TableSetupColumn("technique");
@@ -72,7 +74,7 @@ void draw_prices(ViewState& state) {
             draw_effect(effect, state);
         ImGui::EndTable();
     }
-    ImGui::End();
+    end_panel(PanelSide::left, state);
 }
 
 void draw_frames(ViewState& state) {
@@ -82,25 +84,42 @@ void draw_frames(ViewState& state) {
     ImGui::SliderScalar("frame", ImGuiDataType_S64, &state.frame, &first, &last);
 }
 
+void draw_files(ViewState& state) {
+    if (!ImGui::BeginCombo("open", "recent files and their folder", ImGuiComboFlags_HeightLarge)) return;
+    for (const std::string& file : files_to_open(state.memory))
+        if (ImGui::Selectable(file.c_str())) state.file_to_open = file;
+    ImGui::EndCombo();
+}
+
+void draw_frame_time(ViewState& state) {
+    float ms = static_cast<float>(state.memory.frame_ms);
+    if (ImGui::SliderFloat("frame time", &ms, 5.0f, 500.0f, "%.0f ms", ImGuiSliderFlags_Logarithmic))
+        state.memory.frame_ms = static_cast<double>(std::round(ms));
+}
+
 void draw_status(ViewState& state) {
-    begin_panel("voxilux", {8.0f, 8.0f});
+    begin_panel("voxilux", PanelSide::left, state);
     if (state.picture.is_loaded()) {
         const glm::ivec2 size = state.picture.renderer().plan().settings.size;
         text(fmt::format("{}  {}x{}  {} of {} samples  {:.0f} ms", state.input.filename().string(), size.x,
                          size.y, state.picture.samples(), state.picture.max_samples(),
                          1000.0 * state.frame_s));
         if (state.frames) draw_frames(state);
+        draw_frame_time(state);
         text("H: keys");
     } else {
-        text("drop a .vox or a .toml file here");
+        text("drop a .vox, a .toml or a mesh here");
     }
+    if (!files_to_open(state.memory).empty()) draw_files(state);
     if (state.has_newer_file) text("somebody wrote the file: it is loaded when nothing is unsaved");
     if (!state.message.empty()) text(state.message);
-    ImGui::End();
+    end_panel(PanelSide::left, state);
 }
 
 void draw_keys() {
-    begin_panel("Keys", {400.0f, 200.0f});
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * window.x, 0.5f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Keys", nullptr, kStill);
     if (ImGui::BeginTable("keys", 2)) {
         for (const auto& [keys, what] : key_sheet()) {
             ImGui::TableNextColumn();
@@ -115,13 +134,21 @@ void draw_keys() {
 
 }  // namespace
 
-void begin_panel(const char* title, glm::vec2 place, bool is_right) {
+void begin_panel(const char* title, PanelSide side, const ViewState& state) {
     const float scale = ImGui::GetFontSize() / kFontSize;
-    const float x = is_right ? ImGui::GetIO().DisplaySize.x - scale * place.x : scale * place.x;
-    ImGui::SetNextWindowPos({x, scale * place.y}, ImGuiCond_Always, {is_right ? 1.0f : 0.0f, 0.0f});
+    const float gap = scale * kPanelGap;
+    const bool is_right = side == PanelSide::right;
+    const float x = is_right ? ImGui::GetIO().DisplaySize.x - gap : gap;
+    const float y = state.panel_ends[static_cast<std::size_t>(side)] + gap;
+    ImGui::SetNextWindowPos({x, y}, ImGuiCond_Always, {is_right ? 1.0f : 0.0f, 0.0f});
     ImGui::SetNextWindowBgAlpha(0.75f);
     ImGui::Begin(title, nullptr, kStill);
     ImGui::PushItemWidth(200.0f * scale);
+}
+
+void end_panel(PanelSide side, ViewState& state) {
+    state.panel_ends[static_cast<std::size_t>(side)] = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
+    ImGui::End();
 }
 
 void draw_panels(glm::ivec2 window, ViewState& state) {
@@ -131,6 +158,7 @@ void draw_panels(glm::ivec2 window, ViewState& state) {
         draw_divider(window, state);
     }
     if (!state.shows_panels) return;
+    state.panel_ends = {};
     draw_status(state);
     if (!state.picture.is_loaded()) return;
     draw_prices(state);

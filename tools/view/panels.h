@@ -4,8 +4,9 @@
 
 namespace voxilux {
 
-// Begins a panel at a place of the window, from its left or right edge; ImGui::End() ends it.
-void begin_panel(const char* title, glm::vec2 place, bool is_right = false);
+// Begins a panel below those that its side of the window has already; end_panel() ends it.
+void begin_panel(const char* title, PanelSide side, const ViewState& state);
+void end_panel(PanelSide side, ViewState& state);
 
 // The panels over the picture, in the current frame of ImGui.
 void draw_panels(glm::ivec2 window, ViewState& state);

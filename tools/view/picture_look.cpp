@@ -6,16 +6,17 @@
 
 #include "base/error.h"
 #include "formats/image_file.h"
-#include "view/screenshot.h"
 
 namespace voxilux {
 namespace {
 
 constexpr float kLowError = -3.0f;  // powers of ten of radiance
 constexpr float kHighError = 0.0f;
+constexpr float kHighCells = 5.0f;  // powers of ten of samples in an occlusion cell
 
 bool is_aov(DisplayChannel channel) {
-    return channel != DisplayChannel::color && channel != DisplayChannel::error;
+    return channel != DisplayChannel::color && channel != DisplayChannel::error &&
+           channel != DisplayChannel::cells;
 }
 
 // Depths of the nearest and the farthest corner of the scene.
@@ -68,6 +69,7 @@ void fit_range(ViewState& state) {
         look.low = glm::vec3(kLowError);
         look.high = glm::vec3(kHighError);
     }
+    if (look.channel == DisplayChannel::cells) look.high = glm::vec3(kHighCells);
     if (state.box.empty()) return;
     if (look.channel == DisplayChannel::position) {
         look.low = glm::vec3(state.box.lo);
@@ -91,11 +93,9 @@ bool is_wiping(const ViewState& state) {
 }
 
 glm::ivec2 compare_with(const std::string& file, ViewState& state) {
-    const Image image = read_image(file);
-    const std::optional<std::vector<float>> radiance = interleaved_colours(image);
-    if (!radiance) throw Error(ExitCode::input_refused, fmt::format("{}: it has no colours", file));
+    Image image = read_image(file);
     const glm::ivec2 size(image.width, image.height);
-    state.picture.set_reference(*radiance, size);
+    state.picture.set_reference(std::move(image));
     state.reference_name = std::filesystem::path(file).filename().string();
     state.look.comparison = DisplayComparison::reference;
     state.message.clear();
@@ -107,7 +107,7 @@ void step_comparison(ViewState& state) {
         state.message = "drop an .exr or .png to compare with";
         return;
     }
-    state.look.comparison = static_cast<DisplayComparison>((static_cast<int>(state.look.comparison) + 1) % 3);
+    state.look.comparison = static_cast<DisplayComparison>((static_cast<int>(state.look.comparison) + 1) % 4);
 }
 
 }  // namespace voxilux

@@ -26,7 +26,7 @@ void read_pixel(ViewState& state);
 [[nodiscard]] bool is_wiping(const ViewState& state);
 // Makes an image the reference and returns its size. Throws Error(input_refused) for one without colours.
 glm::ivec2 compare_with(const std::string& file, ViewState& state);
-// Nothing, the reference, the difference from it.
+// Nothing, the reference, the difference from it, FLIP.
 void step_comparison(ViewState& state);
 
 }  // namespace voxilux

@@ -37,7 +37,8 @@ void draw_legend(const std::string& low, const std::string& high) {
     ImGui::TextUnformatted(high.c_str());
 }
 
-void draw_legend(const DisplayLook& look) {
+void draw_legend(const ViewState& state) {
+    const DisplayLook& look = state.look;
     switch (look.channel) {
         case DisplayChannel::depth:
             return draw_legend(fmt::format("{:.1f} voxels", look.low.x), fmt::format("{:.1f}", look.high.x));
@@ -48,6 +49,10 @@ void draw_legend(const DisplayLook& look) {
         case DisplayChannel::error:
             return draw_legend(fmt::format("{:.3g}", std::pow(10.0f, look.low.x)),
                                fmt::format("{:.3g}", std::pow(10.0f, look.high.x)));
+        case DisplayChannel::cells:
+            if (has_channel(state.picture.renderer().plan(), look.channel))
+                return draw_legend("1 ray in the cell", fmt::format("{:.0e}", std::pow(10.0f, look.high.x)));
+            return ImGui::TextUnformatted("this picture keeps no occlusion in cells");
         default:
             return;
     }
@@ -103,23 +108,29 @@ void draw_wipe(ViewState& state) {
     ImGui::TextUnformatted(fmt::format("reference {}", state.reference_name).c_str());
     for (const auto& [name, comparison] : {std::pair{"off", DisplayComparison::none},
                                            {"wipe", DisplayComparison::reference},
-                                           {"difference", DisplayComparison::difference}}) {
+                                           {"difference", DisplayComparison::difference},
+                                           {"FLIP", DisplayComparison::map}}) {
         if (ImGui::RadioButton(name, state.look.comparison == comparison)) state.look.comparison = comparison;
         ImGui::SameLine();
     }
     ImGui::NewLine();
+    if (state.look.comparison != DisplayComparison::map) return;
+    const FlipMap& flip = state.picture.flip();
+    if (!flip.result()) return ImGui::TextUnformatted("FLIP comes when nothing moves");
+    draw_legend("0 alike", "1");
+    ImGui::TextUnformatted(fmt::format("mean FLIP {:.4f}", flip.mean()).c_str());
 }
 
 }  // namespace
 
 void draw_picture_panel(ViewState& state) {
-    begin_panel("Picture", {8.0f, 8.0f}, true);
+    begin_panel("Picture", PanelSide::right, state);
     draw_channels(state);
-    draw_legend(state.look);
+    draw_legend(state);
     if (state.look.channel == DisplayChannel::color) draw_tone(state);
     draw_wipe(state);
     draw_reading(state);
-    ImGui::End();
+    end_panel(PanelSide::right, state);
 }
 
 void draw_divider(glm::ivec2 window, const ViewState& state) {

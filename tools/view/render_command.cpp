@@ -11,10 +11,10 @@ namespace voxilux {
 namespace {
 
 // Flags that only a window has, or that the line says anew; those with a value.
-constexpr std::array<std::string_view, 15> kDropped{
+constexpr std::array<std::string_view, 18> kDropped{
     "--script",           "--frames",     "--screenshot", "--report",     "--frame-time", "--error",
     "--time-limit",       "--size",       "--spp",        "--iterations", "--camera",     "--projection",
-    "--pixels-per-voxel", "--background", "--frame"};
+    "--pixels-per-voxel", "--background", "--frame",      "--state",      "--quality",    "--ao-rays"};
 constexpr std::string_view kTransparent = "--transparent";  // which --background undoes
 
 // A word as a shell reads it back.
@@ -81,7 +81,8 @@ std::string render_command(const std::vector<std::string>& words, const std::str
     }
     add_switches(state, line);
     const glm::ivec2 size = state.picture.settings().size;
-    line.push_back(fmt::format("--size {}x{} --spp {}", size.x, size.y, state.picture.samples()));
+    line.push_back(fmt::format("--size {}x{} --spp {} --ao-rays {}", size.x, size.y, state.picture.samples(),
+                               state.picture.settings().ao_rays));
     add_camera(state.view.camera, line);
     add_frame(state, line);
     line.push_back("-o " + quoted(state.input.stem().string() + ".exr"));

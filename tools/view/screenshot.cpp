@@ -39,13 +39,4 @@ void write_screenshots(const WindowCapture& capture, ViewState& state) {
     }
 }
 
-std::optional<std::vector<float>> interleaved_colours(const Image& image) {
-    const auto planes = colour_planes(image);
-    if (!planes) return std::nullopt;
-    std::vector<float> values(3 * pixel_count(image));
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = (*planes)[i % 3][i / 3];
-    return values;
-}
-
 }  // namespace voxilux

@@ -5,15 +5,13 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "base/file.h"
 #include "base/print.h"
 #include "interrupt.h"
 #include "view/actions.h"
-#include "view/file_watch.h"
 #include "view/panels.h"
 #include "view/picture_look.h"
-#include "view/playback.h"
 #include "view/render_command.h"
+#include "view/scene_files.h"
 #include "view/screenshot.h"
 #include "view/script_player.h"
 #include "view/show_pace.h"
@@ -26,13 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr glm::ivec2 kFirstSize{1280, 720};
 constexpr double kIdleWait_s = 0.1;
 constexpr double kMinStepShare = 0.3;  // of a frame, for samples, however long showing them takes
-
-bool is_same_camera(const std::optional<Camera>& a, const std::optional<Camera>& b) {
-    return a && b ? is_same_view(*a, *b) : a.has_value() == b.has_value();
-}
 
 // One run of the window: events in, frames out.
 class Session {
@@ -40,16 +33,22 @@ class Session {
     explicit Session(const ViewCommand& command)
         : command_(command),
           script_(command.script.empty() ? ViewScript{} : read_script(command.script)),
-          scene_(scene_of(command)),
+          memory_file_(memory_file_of(command)),
+          memory_(read_memory(memory_file_)),
+          scene_(first_scene(command, memory_)),
           window_("voxilux", scene_.settings.size),
           device_(open_device(device_request())),
           presenter_(device_, window_.surface(), window_shaders()),
           interface_(presenter_, window_.scale()),
           picture_(device_, {.cache_dir = command.device.cache_dir()}),
-          state_(picture_) {
+          state_(picture_),
+          files_(command, memory_file_, window_, state_) {
         state_.ends = {command.error_target, command.time_limit_s};
         picture_.set_ends(state_.ends);
-        if (!command.scene.input.empty()) load(scene_, command.scene.input);
+        picture_.set_waits(is_scripted());
+        state_.memory = std::move(memory_);
+        state_.memory.frame_ms = command.frame_ms.value_or(state_.memory.frame_ms);
+        if (!command.scene.input.empty()) files_.show(std::move(scene_), command.scene.input);
     }
 
     int run() {
@@ -58,63 +57,15 @@ class Session {
             turn();
         if (!command_.report.empty())
             report_.write(command_.report, state_, window_.size(), device_.messages());
+        files_.remember();
         return static_cast<int>(ExitCode::done);
     }
 
   private:
-    static Scene scene_of(const ViewCommand& command) {
-        if (!command.scene.input.empty()) return load_scene_with(command.scene);
-        Scene scene;
-        scene.settings.size = kFirstSize;
-        return scene;
-    }
-
     [[nodiscard]] DeviceRequest device_request() const {
         DeviceRequest request = command_.device.request();
         request.surface = &window_.surface();
         return request;
-    }
-
-    void load(Scene scene, const std::string& input) {
-        const bool had_shadow_only = scene.ground.shadow_only;
-        if (window_.size().x > 0) scene.settings.size = window_.size();
-        const std::optional<Camera> own_camera = scene.camera;
-        scene = window_scene(std::move(scene));
-        Playback playback;
-        const Scene& still = playback.load(scene, frames_to_render(command_.scene, scene).first);
-        picture_.load(still, command_.scene.request);
-        picture_.set_max_samples(scene.settings.spp);
-        state_.input = input;
-        state_.edit = {};
-        state_.had_shadow_only = had_shadow_only;
-        state_.box = scene_bounds(still);
-        state_.view = state_.home = view_of(*still.camera, state_.box);
-        shown_camera_ = *still.camera;
-        own_camera_ = own_camera;
-        watch_ = FileWatch(input);
-        playback_ = std::move(playback);
-        playback_.start(state_);
-        window_.set_title("voxilux " + state_.input.filename().string());
-    }
-
-    // Somebody wrote the scene's file. The camera stays unless the file has another one, or had.
-    void reload() {
-        state_.has_newer_file = false;
-        try {
-            SceneOptions options = command_.scene;
-            options.input = state_.input.string();
-            const ViewPoint view = state_.view;
-            const ViewPoint home = state_.home;
-            const std::optional<Camera> own = own_camera_;
-            load(load_scene_with(options), options.input);
-            if (is_same_camera(own, own_camera_)) {
-                state_.view = view;
-                state_.home = home;
-            }
-            state_.message = "loaded again";
-        } catch (const Error& error) {
-            state_.message = error.what();
-        }
     }
 
     void copy_command() {
@@ -128,30 +79,10 @@ class Session {
         }
     }
 
-    // A file that cannot be shown leaves the picture as it was.
-    void take_drop(const DropEvent& drop) {
-        try {
-            if (has_ending(drop.files.at(0), ".exr") || has_ending(drop.files.at(0), ".png"))
-                return take_reference(drop.files.at(0));
-            SceneOptions options = command_.scene;
-            options.input = drop.files.at(0);
-            load(load_scene_with(options), options.input);
-            state_.message.clear();
-        } catch (const Error& error) {
-            state_.message = error.what();
-        }
-    }
-
-    // What is dropped as an image is compared with; the window takes its size.
-    void take_reference(const std::string& file) {
-        const glm::ivec2 size = compare_with(file, state_);
-        if (size != window_.size()) window_.resize(size);
-    }
-
     [[nodiscard]] bool is_scripted() const { return !script_.is_empty() || command_.frames.has_value(); }
 
     [[nodiscard]] bool is_idle() const {
-        return !is_scripted() && (!picture_.is_loaded() || picture_.is_done());
+        return !is_scripted() && !files_.is_busy() && (!picture_.is_loaded() || picture_.is_done());
     }
 
     std::vector<InputEvent> take_input() {
@@ -180,12 +111,11 @@ class Session {
         if (!picture_.is_loaded()) return;
         if (size.x > 0 && size != picture_.settings().size) picture_.set_size(size);
         const Camera& camera = state_.view.camera;
-        if (is_same_view(camera, shown_camera_)) return;
+        if (is_same_view(camera, picture_.camera())) return;
         try {
             picture_.set_camera(camera);
-            shown_camera_ = camera;
         } catch (const Error& error) {
-            state_.view = view_of(shown_camera_, state_.box);
+            state_.view = view_of(picture_.camera(), state_.box);
             state_.message = error.what();
         }
     }
@@ -197,10 +127,8 @@ class Session {
         const bool is_due = is_frame_due(events, size);
         if (is_due) take_events(events, glm::max(size, glm::ivec2(1)));
         fly(seconds, state_);
-        if (std::exchange(state_.has_saved, false)) watch_.forgive();
-        state_.has_newer_file |= watch_.has_changed();
-        if (state_.has_newer_file && !is_unsaved(state_.edit)) reload();
-        if (picture_.is_loaded()) playback_.advance(seconds, state_);
+        files_.follow();
+        files_.play(seconds);
         apply_changes(size);
         if (std::exchange(state_.wants_command, false) && picture_.is_loaded()) copy_command();
         if (picture_.is_loaded()) take_samples();
@@ -214,7 +142,7 @@ class Session {
 
     // Whether somebody waits for a frame, or there is something new to see.
     [[nodiscard]] bool is_frame_due(const std::vector<InputEvent>& events, glm::ivec2 size) const {
-        if (!events.empty() || !picture_.is_loaded() || picture_.is_moving()) return true;
+        if (!events.empty() || files_.is_busy() || !picture_.is_loaded() || picture_.is_moving()) return true;
         if (shown_frames_ == 0 || size != shown_size_ || !state_.screenshots.empty()) return true;
         const bool is_waiting = picture_.samples() >= script_.awaited_samples() || picture_.is_done();
         if (is_scripted() && is_waiting) return true;
@@ -225,13 +153,13 @@ class Session {
     void take_events(const std::vector<InputEvent>& events, glm::ivec2 size) {
         interface_.begin(events, size, seconds_since(std::exchange(frame_began_, Clock::now())));
         for (const InputEvent& event : events) {
-            if (const auto* drop = std::get_if<DropEvent>(&event)) take_drop(*drop);
+            if (const auto* drop = std::get_if<DropEvent>(&event)) files_.open(drop->files.at(0));
             if (!interface_.wants(event)) take_event(event, size, state_);
         }
     }
 
     void take_samples() {
-        const double frame_s = command_.frame_ms / 1000.0;
+        const double frame_s = state_.memory.frame_ms / 1000.0;
         picture_.set_motion_budget(std::max(frame_s - pace_.show_s(), kMinStepShare * frame_s));
         report_.add_step(picture_.advance(frame_s, script_.awaited_samples()));
     }
@@ -271,11 +199,14 @@ class Session {
         const bool is_over = command_.frames && shown_frames_ >= *command_.frames;
         const bool has_played = !script_.is_empty() && script_.has_ended();
         if (is_over || (has_played && !command_.frames)) state_.wants_close = true;
+        files_.finish_open();
     }
 
     const Clock::time_point start_ = Clock::now();
     const ViewCommand& command_;
     ScriptPlayer script_;
+    std::filesystem::path memory_file_;
+    WindowMemory memory_;  // of the last run, until there is a state
     Scene scene_;
     Window window_;
     Device device_;
@@ -283,10 +214,7 @@ class Session {
     UserInterface interface_;
     LivePicture picture_;
     ViewState state_;
-    Camera shown_camera_;
-    std::optional<Camera> own_camera_;  // that the file names
-    FileWatch watch_;
-    Playback playback_;
+    SceneFiles files_;
     ShowPace pace_;
     ViewReport report_;
     Clock::time_point turn_began_ = Clock::now();

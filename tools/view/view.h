@@ -18,7 +18,8 @@ struct ViewCommand {
     std::string screenshot;
     std::string report;
     std::optional<std::int64_t> frames;
-    double frame_ms = 33.0;
+    std::string state;  // the file that the window remembers in; empty: that of the user
+    std::optional<double> frame_ms;
     std::optional<double> error_target;
     std::optional<double> time_limit_s;
 };

@@ -1,5 +1,8 @@
 #include "view/view_report.h"
 
+#include <unistd.h>
+
+#include <fstream>
 #include <utility>
 
 #include "view/picture_look.h"
@@ -19,6 +22,15 @@ Json errors_json(const LiveErrors& errors) {
                         {"error", point.error},
                         {"high", point.high}});
     return json;
+}
+
+// Memory of this process that is in use; 0 where the system does not say.
+double resident_mib() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t all_pages = 0;
+    std::uint64_t pages = 0;
+    statm >> all_pages >> pages;
+    return static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 // What the readout says; null where there is none.
@@ -44,7 +56,8 @@ void ViewReport::add_frame(double seconds, double show_s) {
                        {"show_ms", 1000.0 * show_s},
                        {"samples", last_.samples},
                        {"width", last_.size.x},
-                       {"height", last_.size.y}});
+                       {"height", last_.size.y},
+                       {"resident_mib", resident_mib()}});
 }
 
 void ViewReport::write(const std::string& file, const ViewState& state, glm::ivec2 window,
@@ -61,6 +74,9 @@ void ViewReport::write(const std::string& file, const ViewState& state, glm::ive
                           {"pitch", camera.pitch_deg},
                           {"fov_y", camera.fov_y_deg}}},
                         {"channel", name_of(state.look.channel)},
+                        {"samples", state.picture.is_loaded() ? state.picture.samples() : 0},
+                        {"quality", state.quality != nullptr ? Json(state.quality->name) : Json()},
+                        {"flip", state.picture.flip().result() ? Json(state.picture.flip().mean()) : Json()},
                         {"frame", state.frames ? Json(state.frame) : Json()},
                         {"pixel", json_of(state)},
                         {"edits", state.edit.edits},

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "quality.h"
 #include "scene/animation.h"
 #include "view/edit_tool.h"
 #include "view/input_event.h"
 #include "view/live_picture.h"
 #include "view/pixel_reading.h"
 #include "view/view_point.h"
+#include "view/window_memory.h"
 
 namespace voxilux {
+
+enum class PanelSide : std::uint8_t { left, right };
 
 // What the panels show and change, and what input does.
 struct ViewState {
@@ -39,10 +44,14 @@ struct ViewState {
     bool has_newer_file = false;   // somebody wrote it, and there are edits that it would replace
     bool wants_command = false;    // the line that renders this view
     SampleEnds ends;
+    const QualityPreset* quality = nullptr;  // that was chosen
+    WindowMemory memory;
+    std::string file_to_open;  // that somebody chose
     bool shows_panels = true;
     bool shows_keys = false;
-    double frame_s = 0.0;  // of the last frame
-    std::string message;   // of what went wrong last; empty: nothing
+    std::array<float, 2> panel_ends{};  // pixels from the top, by side
+    double frame_s = 0.0;               // of the last frame
+    std::string message;                // of what went wrong last; empty: nothing
     bool wants_close = false;
     std::vector<std::string> screenshots;  // to be taken of this frame
 };

@@ -205,6 +205,11 @@ void empty_table(const RenderPlan& plan, Recording& recording) {
 
 }  // namespace
 
+SeenCells seen_cells(const RenderPlan& plan, std::uint64_t sample, Recording& recording) {
+    const gpu::AoParams params{.pass_number = static_cast<gpu::uint>(sample)};
+    return {slot_planes(plan, params, recording).now, table_array(plan, "ao.samples", recording)};
+}
+
 Plane record_ao_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                       Recording& recording) {
     return record_surface_pass(

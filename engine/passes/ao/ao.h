@@ -27,6 +27,14 @@ struct AoStep {
 [[nodiscard]] Plane record_ao(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                               const AoStep& step, Recording& recording);
 
+// Buffers of the cells as a sample left them, counted from 0 since the table was empty: the slot of each
+// pixel, and the samples of each slot.
+struct SeenCells {
+    std::string slots;
+    std::string samples;
+};
+[[nodiscard]] SeenCells seen_cells(const RenderPlan& plan, std::uint64_t sample, Recording& recording);
+
 // How long cells stay unseen, frames, when so many are in the table: kCellMaxAge while they take up to a
 // quarter of it, then in proportion less, but not below kCellMinAge.
 [[nodiscard]] std::uint32_t cell_age(const RenderPlan& plan, std::uint64_t live_cells);

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/assert.h"
+#include "base/checked_cast.h"
+#include "passes/ao/ao.h"
 #include "passes/plane.h"
 #include "shared/window.h"
 
@@ -34,6 +36,7 @@ ChannelSource source_of(DisplayChannel channel) {
         case DisplayChannel::error:
             return {.plane = {"beauty_a", 3}, .has_halves = true, .shows = gpu::kShowsError};
         case DisplayChannel::color:
+        case DisplayChannel::cells:
             break;
     }
     return {.plane = {"beauty_a", 3}, .has_halves = true};
@@ -46,6 +49,11 @@ std::uint64_t pixels_of(const RenderPlan& plan) {
 
 std::string reference_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<float>(recording, "display.reference", 3 * pixels_of(plan), Lifetime::persistent);
+}
+
+DisplayBuffer display_buffer(const RenderPlan& plan, Recording& recording) {
+    return {declare<std::uint32_t>(recording, "display.codes", pixels_of(plan), Lifetime::persistent),
+            plan.settings.size};
 }
 
 std::vector<Constant> display_constants(const ChannelSource& source, const DisplayLook& look) {
@@ -69,6 +77,7 @@ std::string values_of(const RenderPlan& plan, const ChannelSource& source, std::
 
 bool has_channel(const RenderPlan& plan, DisplayChannel channel) {
     if (channel == DisplayChannel::color || channel == DisplayChannel::error) return true;
+    if (channel == DisplayChannel::cells) return plan.has(Effect::ao) && plan.ao.uses_cells();
     if (channel == DisplayChannel::ao && !plan.has(Effect::ao)) return false;
     if (channel == DisplayChannel::sun && !plan.has(Effect::sun)) return false;
     return plan.has(Effect::aov);
@@ -76,11 +85,9 @@ bool has_channel(const RenderPlan& plan, DisplayChannel channel) {
 
 DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts& counts,
                                      const DisplayLook& look, Recording& recording) {
-    VX_ASSERT(has_channel(plan, look.channel));
+    VX_ASSERT(has_channel(plan, look.channel) && look.channel != DisplayChannel::cells);
     const ChannelSource source = source_of(look.channel);
-    const DisplayBuffer display{
-        declare<std::uint32_t>(recording, "display.codes", pixels_of(plan), Lifetime::persistent),
-        plan.settings.size};
+    const DisplayBuffer display = display_buffer(plan, recording);
     const bool compares = look.comparison != DisplayComparison::none;
     const std::string reference =
         compares ? reference_buffer(plan, recording) : placeholder_buffer(recording);
@@ -111,6 +118,23 @@ DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts&
                             .constants = display_constants(source, look),
                             .push = to_bytes(push)});
     }
+    return display;
+}
+
+DisplayBuffer record_display_cells(const RenderPlan& plan, std::uint64_t sample, const DisplayLook& look,
+                                   Recording& recording) {
+    VX_ASSERT(has_channel(plan, DisplayChannel::cells) && plan.film_tile_count == 1);
+    const DisplayBuffer display = display_buffer(plan, recording);
+    const SeenCells cells = seen_cells(plan, sample, recording);
+    const auto pixels = checked_cast<std::uint32_t>(pixels_of(plan), "pixels");
+    const gpu::DisplayCellsPush push{.pixel_count = pixels, .low = look.low.x, .high = look.high.x};
+    recording.dispatch(
+        {.label = "display.cells",
+         .shader = "display_cells",
+         .extent = {pixels, 1, 1},
+         .bindings = {{"Slots", cells.slots}, {"Samples", cells.samples}, {"Display", display.buffer}},
+         .constants = {{"is_bgr", look.is_bgr ? 1u : 0u}},
+         .push = to_bytes(push)});
     return display;
 }
 

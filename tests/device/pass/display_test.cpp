@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "film/film.h"
+#include "film/film_sums.h"
+#include "passes/ao/ao.h"
 #include "renderer/renderer.h"
+#include "shared/cell_age.h"
 #include "shared/false_colour.h"
 #include "shared/tone_curve.h"
 #include "support/device_fixture.h"
@@ -113,6 +117,49 @@ TEST(Display, shows_numbers_between_their_ends_as_false_colours) {
     }
 }
 
+TEST(Display, shows_the_samples_of_the_cells_that_the_last_sample_saw) {
+    Scene scene = display_scene({40, 24});
+    scene.settings.ao.method = AoMethod::hash;
+    PlanRequest request;
+    request.effects.switches[Effect::indirect] = Switch::off;
+    request.effects.switches[Effect::ao] = Switch::on;
+    request.effects.wants_aov = true;
+    const DisplayLook look{.channel = DisplayChannel::cells, .low = glm::vec3(0.0f), .high = glm::vec3(3.0f)};
+    Renderer renderer(test_device(), {.poison_transients = true});
+    renderer.prepare(scene, request);
+    ASSERT_TRUE(has_channel(renderer.plan(), DisplayChannel::cells));
+    const std::uint32_t none = displayed(renderer, look).front();
+    EXPECT_EQ(none, 0xFF000000u) << "no sample";
+    // One, two and three samples: the slots of two of them lie in another plane than the first one's.
+    for (const glm::vec3 from : {glm::vec3(20, -40, 25), glm::vec3(-30, -30, 20), glm::vec3(5, -35, 40)}) {
+        renderer.set_camera(camera_towards(glm::dvec3(from), {5, 0, 0}));
+        take_samples(renderer, 1);
+        const auto shown = displayed(renderer, look);
+        const std::vector<float> depths = picture_of(renderer.read_film()).channels.at("Z").pixels;
+        std::set<std::uint32_t> colours;
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            EXPECT_EQ(shown[i] == none, !(depths[i] < 1e6f)) << i << " " << depths[i];
+            colours.insert(shown[i]);
+        }
+        EXPECT_GT(colours.size(), 2u) << "cells differ";
+    }
+    Recording recording;
+    const SeenCells cells = seen_cells(renderer.plan(), 2, recording);
+    recording.readback(cells.slots);
+    recording.readback(cells.samples);
+    const auto shown = displayed(renderer, look);
+    const RunResult result = renderer.executor().run(recording);
+    const auto slots = values_of<std::uint32_t>(result, cells.slots);
+    const auto samples = values_of<std::uint64_t>(result, cells.samples);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (slots[i] == gpu::kNoSlot) continue;
+        const auto taken = static_cast<float>(samples[slots[i] & ~gpu::kSlotRests]);
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(code_of(shown[i], c),
+                        255.0f * gpu::false_colour(std::log10(taken) / 3.0f)[static_cast<int>(c)], 1.0f);
+    }
+}
+
 TEST(Display, shows_the_reference_and_the_difference_from_the_divider_on) {
     Renderer renderer(test_device(), {.poison_transients = true});
     renderer.prepare(display_scene({39, 24}), {});
@@ -133,6 +180,10 @@ TEST(Display, shows_the_reference_and_the_difference_from_the_divider_on) {
                         1.0f);
         }
     }
+    const auto map = displayed(renderer, {.comparison = DisplayComparison::map, .divider = 0});
+    for (std::size_t i = 0; i < reference.size(); ++i)
+        EXPECT_NEAR(code_of(map[i / 3], i % 3),
+                    255.0f * gpu::false_colour(reference[i / 3 * 3])[static_cast<int>(i % 3)], 1.0f);
 }
 
 }  // namespace

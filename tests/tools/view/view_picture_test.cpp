@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "estimators/flip.h"
 #include "formats/scene_toml.h"
 #include "scene/scene_bounds.h"
 #include "shared/false_colour.h"
@@ -147,6 +148,29 @@ TEST(WindowPicture, shows_every_channel_as_the_film_has_it) {
     EXPECT_EQ(report_of(scratch)["messages"], Json::array());
 }
 
+TEST(WindowPicture, shows_the_cells_of_occlusion) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const std::string last_channel =
+        "[[step]]\npress = 'Shift'\n" + key("c") + "[[step]]\nrelease = 'Shift'\n";
+    const std::string script = key("Tab") + film(0, "color.png") + last_channel + film(12, "cells.png");
+    play(scratch, script, {"--effect", "ao=on", "--technique", "ao=hash"});
+    EXPECT_EQ(report_of(scratch)["shown"]["channel"], "cells");
+    EXPECT_EQ(report_of(scratch)["messages"], Json::array());
+    // The colours of numbers have an order that no picture of the scene has: red is never below green.
+    const auto cells = beauty_of(scratch / "cells.png");
+    int black = 0, lit = 0;
+    for (std::size_t i = 0; i < cells.at("R").size(); ++i) {
+        EXPECT_GE(cells.at("R")[i], 0.5f * cells.at("G")[i]) << i;
+        const bool is_black = cells.at("R")[i] + cells.at("G")[i] + cells.at("B")[i] == 0.0f;
+        (is_black ? black : lit) += 1;
+    }
+    EXPECT_GT(black, 1000) << "the sky has no cell";
+    EXPECT_GT(lit, 1000);
+    play(scratch, script, {"--effect", "ao=on", "--technique", "ao=brute"});
+    EXPECT_EQ(beauty_of(scratch / "cells.png"), beauty_of(scratch / "color.png")) << "there are none";
+}
+
 TEST(WindowPicture, reads_out_what_the_film_has_under_the_pointer) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
@@ -211,6 +235,32 @@ TEST(WindowWipe, shows_the_reference_beyond_the_divider) {
         return codes;
     };
     EXPECT_EQ(wrong_pixels(scratch / "difference.png", difference, is_line), 0);
+}
+
+TEST(WindowWipe, shows_flip_beyond_the_divider) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const Image reference = rendered_image(scratch, {"-D", "sun.elevation=20"});
+    play(scratch, "[[step]]\ndrop = 'render.exr'\n" + key("Tab") + key("x") + key("x") +
+                      "[[step]]\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [40, 45]\n" +
+                      "[[step]]\nrelease = 'left'\n[[step]]\nmove = [3, 3]\n" + film(12, "film.exr") +
+                      "[[step]]\nframe = 20\nscreenshot = 'flip.png'\n");
+    const auto film_planes = beauty_of(scratch / "film.exr");
+    const std::optional<FlipResult> flip = hdr_flip(reference, read_image(scratch / "film.exr"));
+    ASSERT_TRUE(flip);
+    const auto is_line = [](std::size_t i) { return i % 160 == 39 || i % 160 == 40; };
+    const auto left = filmic(film_planes);
+    const auto wipe = [&](std::size_t i) {
+        return i % 160 < 40 ? left(i) : codes_of(gpu::false_colour(flip->error[i]));
+    };
+    EXPECT_EQ(wrong_pixels(scratch / "flip.png", wipe, is_line), 0);
+    EXPECT_GT(wrong_pixels(scratch / "flip.png", left, is_line), 1000) << "the map shows";
+    double sum = 0.0;
+    for (const float error : flip->error)
+        sum += static_cast<double>(error);
+    // The window has the film itself, this test the halves of an EXR. FLIP raises distances to the power 0.7,
+    // so the rounding of a half, 2^-12 of a value, is up to 0.003 where two images are alike.
+    EXPECT_NEAR(report_of(scratch)["shown"]["flip"].get<double>(), sum / (160.0 * 90.0), 3e-3);
 }
 
 }  // namespace

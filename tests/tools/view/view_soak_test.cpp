@@ -1,0 +1,71 @@
+// A long afternoon in the window.
+
+#include <algorithm>
+
+#include "tools/view/view_hut.h"
+
+namespace voxilux::test {
+namespace {
+
+constexpr int kFrames = 10000;
+// Memory of the last tenth over that of the second: by then all pipelines are made.
+constexpr double kMaxGrowth = 1.02;
+
+// What happens every twelve frames: each number is another thing.
+std::string act(int number) {
+    const auto text = [](int i) { return std::to_string(i); };
+    switch (number % 8) {
+        case 0:
+            return "[[step]]\nmove = [80, 45]\n[[step]]\npress = 'left'\n[[step]]\nmove = [" +
+                   text(60 + number % 50) + ", 40]\n[[step]]\nrelease = 'left'\n";
+        case 1:
+            return "[[step]]\nedit = { from = [" + text(number % 9 - 5) + ", -4, 2], to = [" +
+                   text(number % 9 - 3) + ", 1, 9], material = " + text(number % 2) + " }\n";
+        case 2:
+            return "[[step]]\nscroll = " + text(number % 2 == 0 ? 1 : -1) + "\n" + key("5");
+        case 3:
+            return held_key("Control", "z");
+        case 4:
+            return "[[step]]\nresize = [" + text(100 + number * 7 % 90) + ", " + text(60 + number * 5 % 50) +
+                   "]\n";
+        case 5:
+            return (number % 16 == 5 ? key("c") : key("g"));
+        case 6:
+            return number % 16 == 6 ? "[[step]]\ndrop = 'other.vox'\n" : "[[step]]\ndrop = 'hut.vox'\n";
+        default:
+            return key("Enter") + key("t") + key("7");
+    }
+}
+
+TEST(WindowSoakNightly, ten_thousand_frames_keep_memory_and_messages_flat) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_file_atomically(scratch.path() / "other.vox", hut(7));
+    std::string script;
+    for (int frame = 10; frame < kFrames; frame += 12)
+        script += "[[step]]\nframe = " + std::to_string(frame) + "\nmove = [5, 5]\n" + act(frame / 12);
+    write_file_atomically(scratch.path() / "hut.vox", hut());
+    write_text(scratch / "script.toml",
+               script + "[[step]]\nframe = " + std::to_string(kFrames) + "\nclose = true\n");
+    ChildProcess child({"view", "hut.vox", "--size", "160x90", "--spp", "8", "--script", "script.toml",
+                        "--report", "report.json", "--validation"},
+                       {.folder = scratch.path()});
+    const Ending ending = child.finish();
+    EXPECT_EQ(ending.code, 0) << ending.err;
+    const Json report = report_of(scratch);
+    EXPECT_EQ(report["messages"], Json::array());
+    ASSERT_GE(report["frames"].size(), static_cast<std::size_t>(kFrames));
+    const auto resident_mib = [&](std::size_t tenth) {
+        std::vector<double> mib;
+        for (std::size_t i = tenth * kFrames / 10; i < (tenth + 1) * kFrames / 10; ++i)
+            mib.push_back(report["frames"][i]["resident_mib"].get<double>());
+        std::ranges::sort(mib);
+        return mib[mib.size() / 2];
+    };
+    EXPECT_GT(resident_mib(1), 10.0) << "the system says";
+    EXPECT_LE(resident_mib(9), kMaxGrowth * resident_mib(1));
+    EXPECT_GT(report["shown"]["edits"].get<int>() + report["shown"]["undo"].get<int>(), 0);
+}
+
+}  // namespace
+}  // namespace voxilux::test
