@@ -38,7 +38,7 @@ std::span<const QualityPreset> quality_presets() {
 }
 
 const QualityPrice& price_of(const QualityPreset& preset, bool sends_photons) {
-    return sends_photons ? preset.emitters : preset.sky;
+    return sends_photons ? preset.photons : preset.plain;
 }
 
 std::vector<std::string> overrides_of(const QualityPreset& preset) {

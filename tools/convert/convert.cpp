@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-std::string checked_output(const std::string& file) {
+std::string vox_output(const std::string& file) {
     if (!has_ending(file, ".vox")) refuse(fmt::format("convert: {} must end in .vox", file));
     return file;
 }
@@ -33,7 +33,7 @@ VoxFile read_input(const ConvertCommand& command) {
 void add_convert_flags(Flags& flags, ConvertCommand& command) {
     flags.add("INPUT", "", command.input, fmt::format("a file {}", importable_endings() + " or .vox"))
         .required();
-    flags.add_parsed("OUTPUT", "", command.output, checked_output, "the .vox file").required();
+    flags.add_parsed("OUTPUT", "", command.output, vox_output, "the .vox file").required();
     add_resolution_flag(flags, command.grid);
     flags.add_switch("-q,--quiet", command.quiet, "print warnings and errors only");
 }

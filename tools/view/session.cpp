@@ -194,7 +194,7 @@ class Session {
     void end_of_frame(double show_s) {
         state_.frame_s = seconds_since(std::exchange(frame_ended_, Clock::now()));
         if (shown_frames_ == 0) report_.set_first(seconds_since(start_));
-        report_.add_frame(state_.frame_s, show_s);
+        if (!command_.report.empty()) report_.add_frame(state_.frame_s, show_s);
         ++shown_frames_;
         const bool is_over = command_.frames && shown_frames_ >= *command_.frames;
         const bool has_played = !script_.is_empty() && script_.has_ended();

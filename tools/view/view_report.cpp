@@ -51,20 +51,28 @@ Json json_of(const ViewState& state) {
 }  // namespace
 
 void ViewReport::add_frame(double seconds, double show_s) {
-    frames_.push_back({{"ms", 1000.0 * seconds},
-                       {"step_ms", 1000.0 * std::exchange(step_s_, 0.0)},
-                       {"show_ms", 1000.0 * show_s},
-                       {"samples", last_.samples},
-                       {"width", last_.size.x},
-                       {"height", last_.size.y},
-                       {"resident_mib", resident_mib()}});
+    frames_.push_back({.ms = 1000.0 * seconds,
+                       .step_ms = 1000.0 * std::exchange(step_s_, 0.0),
+                       .show_ms = 1000.0 * show_s,
+                       .resident_mib = resident_mib(),
+                       .samples = last_.samples,
+                       .size = last_.size});
 }
 
 void ViewReport::write(const std::string& file, const ViewState& state, glm::ivec2 window,
                        const std::vector<std::string>& messages) const {
     const Camera& camera = state.view.camera;
+    Json frames = Json::array();
+    for (const Frame& frame : frames_)
+        frames.push_back({{"ms", frame.ms},
+                          {"step_ms", frame.step_ms},
+                          {"show_ms", frame.show_ms},
+                          {"samples", frame.samples},
+                          {"width", frame.size.x},
+                          {"height", frame.size.y},
+                          {"resident_mib", frame.resident_mib}});
     write_json(file, {{"first_picture_ms", 1000.0 * first_s_},
-                      {"frames", frames_},
+                      {"frames", frames},
                       {"shown",
                        {{"input", state.input.string()},
                         {"window", {window.x, window.y}},

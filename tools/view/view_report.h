@@ -1,8 +1,7 @@
 #pragma once
 
 #include <string>
-
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "view/view_state.h"
 
@@ -24,7 +23,18 @@ class ViewReport {
                const std::vector<std::string>& messages) const;
 
   private:
-    nlohmann::ordered_json frames_ = nlohmann::ordered_json::array();
+    // Of a frame that was shown; times in milliseconds. As JSON, thousands of them would take the memory that
+    // they are to watch.
+    struct Frame {
+        double ms = 0.0;
+        double step_ms = 0.0;
+        double show_ms = 0.0;
+        double resident_mib = 0.0;
+        std::uint32_t samples = 0;
+        glm::ivec2 size{0};
+    };
+
+    std::vector<Frame> frames_;
     LiveFrame last_;
     double step_s_ = 0.0;  // since the last frame
     double first_s_ = 0.0;

@@ -32,6 +32,14 @@ TEST(WindowCommand, copied_line_has_the_lens) {
     EXPECT_EQ(film_of_line(scratch, round, "first_light"), film_of(scratch / "film.exr"));
 }
 
+TEST(WindowCommand, parallel_viewpoint_needs_its_scale) {
+    SKIP_UNLESS_DISPLAY();
+    const Ending ending = run({"render", scene_file("first_light"), "--viewpoint", "0,0,0,0,0,45",
+                               "--projection", "orthographic", "-o", "never.png"});
+    EXPECT_EQ(ending.code, 2);
+    EXPECT_NE(ending.err.find("--pixels-per-voxel"), std::string::npos) << ending.err;
+}
+
 TEST(WindowCommand, copied_line_renders_the_frame_of_an_animation) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
