@@ -29,7 +29,7 @@ void write_model(const std::filesystem::path& file, const vox_builder::Pairs& ba
     write_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-long line_count(const std::string& text) {
+long lines_of(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
 }
 
@@ -43,7 +43,7 @@ TEST(Batch, renders_every_input_from_every_camera_with_one_line_each) {
                               {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 0) << ending.err;
     EXPECT_EQ(ending.err, "");
-    EXPECT_EQ(line_count(ending.out), 6) << ending.out;
+    EXPECT_EQ(lines_of(ending.out), 6) << ending.out;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.vox", "a_2.png", "a_front.png", "a_iso.png", "b.vox",
                                                "b_2.png", "b_front.png", "b_iso.png"}));
     EXPECT_EQ(bytes_of(scratch / "a_iso.png"), bytes_of(scratch / "b_iso.png"));
@@ -64,7 +64,7 @@ TEST(Batch, goes_on_after_a_file_that_cannot_be_rendered) {
         run(with({"render", "a.vox", "bad.vox", "no.toml", "c.vox", "--json", "r.json"}, kSmall),
             {.folder = scratch.path()});
     EXPECT_EQ(ending.code, 3) << ending.err;
-    EXPECT_EQ(line_count(ending.err), 2) << ending.err;
+    EXPECT_EQ(lines_of(ending.err), 2) << ending.err;
     EXPECT_NE(ending.err.find("voxilux: bad.vox: "), std::string::npos) << ending.err;
     EXPECT_EQ(names_in(scratch.path()), (Words{"a.png", "a.vox", "bad.vox", "c.png", "c.vox", "r.json"}));
     EXPECT_EQ(Json::parse(bytes_of(scratch / "r.json")).size(), 2u);
