@@ -90,6 +90,10 @@ class Manual(unittest.TestCase):
             if path != ("bench",):
                 self.assertEqual(documented[path], flags, path)
 
+    def test_page_tells_defaults(self):
+        self.assertIn("\n\\fB--resolution\\fR \\fIN\\fR\n", generated("man").replace("\\-", "-"))
+        self.assertRegex(generated("man"), r"resolution.*\n.*\(default 256\)\n")
+
     def test_flag_that_the_page_lacks_is_found(self):
         page = generated("man").replace(".TP\n\\fB\\-\\-crop", "\n\\fB\\-\\-crop", 1)
         self.assertNotEqual(man_flags(page)[("render",)], commands()[("render",)])

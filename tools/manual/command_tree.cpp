@@ -20,9 +20,10 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 ManualFlag flag_of(const CLI::Option& option) {
     const bool has_value = option.get_items_expected_max() > 0;
+    const std::string value = option.get_default_str();
     return {.names = names_of(option),
             .value = has_value ? option.get_type_name() : "",
-            .help = option.get_description(),
+            .help = option.get_description() + (value.empty() ? "" : " (default " + value + ")"),
             .group = option.get_group(),
             .repeats = option.get_items_expected_max() > 1};
 }

@@ -76,7 +76,9 @@ void add_grid_flags(Flags& flags, GridRequest& grid) {
             "--scale", "METRES", [&grid](double metres) { grid.metres_per_voxel = checked_scale(metres); },
             "metres per voxel, instead of --resolution")
         .excludes("--resolution");
-    flags.add_parsed("--up", "x|y|z|-x|-y|-z", grid.up, checked_up, "the mesh's axis that points up")
+    flags
+        .add_parsed("--up", "AXIS", grid.up, checked_up,
+                    "the mesh's axis that points up: x, y, z, -x, -y or -z")
         .shows(std::string(name_of(grid.up)));
     flags.on<int>(
         "--turn", "DEG", [&grid](int degrees) { grid.quarter_turns = quarter_turns(degrees); },
