@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/gltf_builder.h"
+#include "support/mesh_file_builder.h"
 
 namespace {
 
@@ -58,6 +59,7 @@ std::string materials() {
 }
 
 std::map<std::string, std::string> seeds() {
+    using mesh_file_builder::PlyWriting;
     return {
         {"square.gltf", gltf_builder::square().gltf()},
         {"square.glb", gltf_builder::square().glb()},
@@ -69,6 +71,11 @@ std::map<std::string, std::string> seeds() {
          "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 nan\nvt 0 1\nvt 1 1\nusemtl a\n"
          "f 1/1 2/2 3//1\nf -4 -3 \\\n-2 -1\nl 1 2\n"},
         {"concave.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\nf 5 4 3 2 1\n"},
+        {"text.stl", mesh_file_builder::stl_text(mesh_file_builder::random_mesh(1))},
+        {"binary.stl", mesh_file_builder::stl_binary(mesh_file_builder::random_mesh(2))},
+        {"text.ply", mesh_file_builder::ply(mesh_file_builder::random_mesh(1), PlyWriting::text)},
+        {"little.ply", mesh_file_builder::ply(mesh_file_builder::random_mesh(2), PlyWriting::little_endian)},
+        {"big.ply", mesh_file_builder::ply_points(mesh_file_builder::random_mesh(3), PlyWriting::big_endian)},
         {"a.mtl",
          "newmtl a\nKd 0.5 0.5 1\nKe 1 1 1\nd 0.5\nNs 9\nNi 1.4\nillum 7\nPm 1\nPr 0.2\n"
          "map_Kd -s 2 2 -o 0.5 0 -clamp on a b.png\nmap_Ke a.png\nmap_d x.png\nTr 0.1\n"},

@@ -1,6 +1,6 @@
-// libFuzzer target of the mesh readers: glTF, GLB, OBJ and MTL. Property: whatever the bytes, the reader
-// keeps its memory bound and either refuses with one line or gives a mesh whose numbers are finite and whose
-// indices lie inside its lists.
+// libFuzzer target of the mesh readers: glTF, GLB, OBJ, MTL, STL and PLY. Property: whatever the bytes, the
+// reader keeps its memory bound and either refuses with one line or gives a mesh whose numbers are finite and
+// whose indices lie inside its lists.
 
 #include <cmath>
 #include <cstdio>
@@ -11,6 +11,8 @@
 #include "voxelizer/load_gltf.h"
 #include "voxelizer/load_mtl.h"
 #include "voxelizer/load_obj.h"
+#include "voxelizer/load_ply.h"
+#include "voxelizer/load_stl.h"
 #include "voxelizer/texture_sample.h"
 
 namespace {
@@ -74,6 +76,8 @@ Mesh load(std::span<const std::byte> bytes, MeshNotes& notes) {
     const MeshRequest request{.limits = kLimits};
     const bool is_gltf = text.starts_with('{') || text.starts_with("glTF");
     if (is_gltf) return load_gltf(bytes, "no-such-folder", request, notes);
+    if (text.starts_with("ply")) return load_ply(bytes, "no-such-folder", request, notes);
+    if (text.starts_with("solid")) return load_stl(bytes, "no-such-folder", request, notes);
     Mesh materials;
     MtlLibrary library{
         .folder = "no-such-folder", .budget = {.limits = kLimits}, .materials = {}, .textures = {}};

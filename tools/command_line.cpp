@@ -246,9 +246,10 @@ int run_command_line(int argc, const char* const* argv) {
                                  add_denoise_flags, run_denoise);
     commands.add<FarmCommand>(app, "farm", "one picture or a film on many machines, by Dask", add_farm_flags,
                               run_farm);
-    commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, GLB, OBJ) into a .vox file",
+    commands.add<VoxelizeCommand>(app, "voxelize", "turn a mesh (glTF, OBJ, STL, PLY) into a .vox file",
                                   add_voxelize_flags, run_voxelize);
-    commands.add<ConvertCommand>(app, "convert", "turn voxels of another format, or a mesh, into a .vox file",
+    commands.add<ConvertCommand>(app, "convert",
+                                 "turn voxels or a mesh into a .vox file, or voxels into a .glb mesh",
                                  add_convert_flags, run_convert);
     add_bench(app, commands);
     add_generate(app, commands);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/print.h"
 #include "formats/scene_toml.h"
+#include "formats/vox_read.h"
 #include "in_range.h"
 #include "parse_values.h"
 #include "plan/techniques.h"
@@ -14,6 +15,7 @@
 #include "scene/scene_camera.h"
 #include "scene/settings.h"
 #include "shared_flags.h"
+#include "standard_streams.h"
 #include "voxelizer/import_voxels.h"
 
 namespace voxilux {
@@ -185,16 +187,17 @@ constexpr const char* kCameraValue = "front|back|left|right|top|bottom|iso|three
 
 Flag add_input_flag(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     if (pictures != PicturesOf::inputs)
-        return flags.add(
-            "INPUT", "", options.input,
-            "a .vox file, a scene file .toml, a mesh, or voxels of another format (see convert)");
+        return flags.add("INPUT", "", options.input,
+                         "a .vox file, a scene file .toml, a mesh, voxels of another format (see convert), "
+                         "or - for standard input");
     return flags.on<std::vector<std::string>>(
         "INPUT", "",
         [&options](const std::vector<std::string>& files) {
             options.inputs = files;
             options.input = files.front();
         },
-        "a .vox file, a scene file .toml, a mesh, or voxels of another format (see convert); several give a "
+        "a .vox file, a scene file .toml, a mesh, voxels of another format (see convert), or - for standard "
+        "input; several give a "
         "picture of each");
 }
 
@@ -258,7 +261,7 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
             options.names_size = true;
         },
         "picture size in pixels");
-    add_resolution_flag(flags, options.grid);
+    add_mesh_flags(flags, options.grid);
     add_camera_flag(flags, options, pictures);
     flags
         .add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
@@ -301,8 +304,20 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
 
 namespace {
 
+// Standard input: a .vox file by its first bytes, else the text of a scene, whose files lie in this folder.
+Scene open_standard_input(const LoadOptions& load) {
+    constexpr std::string_view kName = "standard input";
+    const std::vector<std::byte> bytes = read_standard_input();
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (!text.starts_with("VOX ")) return parse_scene(text, kName, load);
+    const auto vox = read_vox(bytes);
+    if (!vox) throw Error(ExitCode::input_refused, fmt::format("{}: {}", kName, vox.reason()));
+    return scene_of_file(vox.value(), kName, load);
+}
+
 // The one place where inputs are opened.
 Scene open_input(const SceneOptions& options, const LoadOptions& load, bool says_notes) {
+    if (options.input == kStandardStream) return open_standard_input(load);
     if (!is_importable(options.input)) return load_scene(options.input, load);
     const ImportedVoxels imported = import_voxels(options.input, options.grid);
     if (says_notes) print_message("note: {}\n", imported.note);

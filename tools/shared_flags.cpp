@@ -13,6 +13,11 @@ namespace {
 
 constexpr std::int64_t kMaxMib = std::int64_t{1} << 40;
 
+UpAxis checked_up(const std::string& word) {
+    if (const auto up = parse_up(word)) return *up;
+    refuse(fmt::format("--up: '{}' is not x, y, z, -x, -y or -z", word));
+}
+
 }  // namespace
 
 void add_json_flag(Flags& flags, std::string& json, const std::string& what) {
@@ -40,7 +45,7 @@ Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::
     return flags.on<std::vector<std::string>>("-o,--output", "FILE", take, help);
 }
 
-void add_resolution_flag(Flags& flags, GridRequest& grid) {
+void add_mesh_flags(Flags& flags, GridRequest& grid) {
     flags
         .on<int>(
             "--resolution", "N",
@@ -49,6 +54,9 @@ void add_resolution_flag(Flags& flags, GridRequest& grid) {
             },
             "voxels along the longest side of a mesh")
         .shows(fmt::format("{}", grid.resolution));
+    flags.add_parsed(
+        "--up", "AXIS", grid.up, checked_up,
+        "the axis of a mesh that points up: x, y, z, -x, -y or -z; default: y, or z in .stl, .ply and .xyz");
 }
 
 void add_tone_flags(Flags& flags, ToneMapOptions& tone) {

@@ -32,8 +32,8 @@ void add_progress_flag(Flags& flags, ProgressMode& mode);
 
 // -o of pictures, each .exr or .png.
 Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::string& help);
-// --resolution, of meshes that become voxels.
-void add_resolution_flag(Flags& flags, GridRequest& grid);
+// --resolution and --up, of meshes and clouds of points that become voxels.
+void add_mesh_flags(Flags& flags, GridRequest& grid);
 // --tone and --exposure.
 void add_tone_flags(Flags& flags, ToneMapOptions& tone);
 

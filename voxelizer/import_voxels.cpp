@@ -9,6 +9,7 @@
 #include "voxelizer/cell_set.h"
 #include "voxelizer/load_mesh.h"
 #include "voxelizer/vox_output.h"
+#include "voxelizer/voxelize_points.h"
 #include "voxelizer/voxelize_warnings.h"
 
 namespace voxilux {
@@ -38,13 +39,19 @@ VoxelCells load_cells(const std::filesystem::path& path, const VoxelFormat& form
     return std::move(voxels).value();
 }
 
+std::string size_text(const GridRequest& grid) {
+    return grid.metres_per_voxel ? fmt::format("--scale {}", *grid.metres_per_voxel)
+                                 : fmt::format("--resolution {}", grid.resolution);
+}
+
 ImportedVoxels import_mesh(const std::filesystem::path& path, const GridRequest& grid) {
-    const Mesh mesh = load_mesh(path);
+    const Mesh mesh = load_mesh(path, {.allows_points = true});
+    if (mesh.triangles.empty())
+        return imported(path, voxelize_points(mesh, grid), mesh,
+                        fmt::format("{} points ({}): ", mesh.positions.size(), size_text(grid)));
     const VoxelSet set = voxelize_mesh(mesh, {.grid = grid});
-    const std::string size = grid.metres_per_voxel ? fmt::format("--scale {}", *grid.metres_per_voxel)
-                                                   : fmt::format("--resolution {}", grid.resolution);
     return imported(path, set, mesh,
-                    fmt::format("{} triangles voxelized ({}): ", mesh.triangles.size(), size));
+                    fmt::format("{} triangles voxelized ({}): ", mesh.triangles.size(), size_text(grid)));
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 #include "base/printable.h"
 #include "voxelizer/load_gltf.h"
 #include "voxelizer/load_obj.h"
+#include "voxelizer/load_ply.h"
+#include "voxelizer/load_stl.h"
+#include "voxelizer/load_xyz.h"
 #include "voxelizer/mesh_notes.h"
 
 namespace voxilux {
@@ -18,8 +21,8 @@ namespace {
 using LoadMesh = Mesh (*)(std::span<const std::byte>, const std::filesystem::path& folder, const MeshRequest&,
                           MeshNotes&);
 
-constexpr std::string_view kEndings[] = {".gltf", ".glb", ".obj"};
-constexpr LoadMesh kLoaders[] = {load_gltf, load_gltf, load_obj};
+constexpr std::string_view kEndings[] = {".gltf", ".glb", ".obj", ".stl", ".ply", ".xyz"};
+constexpr LoadMesh kLoaders[] = {load_gltf, load_gltf, load_obj, load_stl, load_ply, load_xyz};
 static_assert(std::size(kEndings) == std::size(kLoaders));
 
 // The place of a file's ending in kEndings, or their number.
@@ -68,7 +71,10 @@ Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
     }
     drop_unread_coordinates(mesh);
     mesh.warnings = note_lines(notes);
-    if (mesh.triangles.empty())
+    const bool may_be_cloud = has_ending(path, ".ply") || has_ending(path, ".xyz");
+    if (mesh.triangles.empty() && may_be_cloud && !request.allows_points)
+        throw refuse("a cloud of points; 'voxilux convert' makes it voxels");
+    if (mesh.triangles.empty() && !may_be_cloud)
         throw refuse(mesh.warnings.empty() ? "no triangles"
                                            : "no triangles are left: " + mesh.warnings.front());
     if (request.is_strict && !mesh.warnings.empty()) throw refuse(mesh.warnings.front() + " (--strict)");

@@ -14,8 +14,9 @@ namespace voxilux {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// A mesh file as the voxelizer reads it: triangles in the world space of the file (glTF: right handed, y up,
-// metres), after all node transforms. Vertex attributes are shared by index.
+// A mesh file as the voxelizer reads it (a cloud of points has no triangle): triangles in the world space of
+// the file (glTF: right handed, y up, metres), after all node transforms. Vertex attributes are shared by
+// index.
 
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
@@ -75,6 +76,7 @@ struct Mesh {
     std::vector<MeshMaterial> materials;  // at least one
     std::vector<Texture> textures;
     std::vector<MeshCamera> cameras;
+    bool is_z_up = false;               // else y points up
     std::vector<std::string> warnings;  // what was dropped or replaced while loading, one counted line each
 };
 

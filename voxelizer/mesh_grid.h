@@ -31,9 +31,9 @@ enum class UpAxis : std::uint8_t { x, y, z, minus_x, minus_y, minus_z };
 struct GridRequest {
     int resolution = 256;                    // cells along the longest side, unless metres_per_voxel is given
     std::optional<double> metres_per_voxel;  // > 0
-    UpAxis up = UpAxis::y;
-    int quarter_turns = 0;     // about the vertical, counter-clockwise seen from above
-    bool is_on_floor = false;  // the lowest cells at z = 0 of the scene, instead of the middle
+    std::optional<UpAxis> up;                // else that of the mesh
+    int quarter_turns = 0;                   // about the vertical, counter-clockwise seen from above
+    bool is_on_floor = false;                // the lowest cells at z = 0 of the scene, instead of the middle
 };
 
 // Cell c of the grid covers [c, c + 1) of (axes * p - low) * scale, p in the mesh's space.
@@ -47,11 +47,17 @@ struct MeshGrid {
     [[nodiscard]] glm::dvec3 to_grid(glm::dvec3 p) const { return (axes * p - low) * scale; }
 };
 
+// Which axis a mesh has up in a grid.
+[[nodiscard]] UpAxis up_of(const Mesh& mesh, const GridRequest& request);
+
 // The grid around all triangles whose vertices are finite. Rule: scale = resolution / longest side; the low
 // corner of the box is the grid's; cells = ceil(extent * scale), at least 1. A mesh y up turns by (x, -z, y).
 // The middle of the grid is the origin of the scene. Throws Error(input_refused) without a triangle or with a
 // box that doubles cannot span, Error(usage) for a grid of more than kMaxCells on an axis.
 [[nodiscard]] MeshGrid grid_of(const Mesh& mesh, const GridRequest& request);
+
+// The same around all finite points of a cloud. Throws the same.
+[[nodiscard]] MeshGrid grid_of_points(const Mesh& mesh, const GridRequest& request);
 
 // Every position on the grid's lattice, in [0, cells * kUnit - 1]; positions that are not finite give zero.
 [[nodiscard]] std::vector<glm::ivec3> lattice_positions(const Mesh& mesh, const MeshGrid& grid);

@@ -32,8 +32,9 @@ std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set, Insi
                                      const PaletteError& error) {
     std::vector<std::string> warnings = mesh.warnings;
     if (set.dropped != 0)
-        warnings.push_back(
-            fmt::format("{} triangles with a vertex that is not finite are left out", set.dropped));
+        warnings.push_back(fmt::format(
+            "{} {} not finite are left out", set.dropped,
+            mesh.triangles.empty() ? "points whose place is" : "triangles with a vertex that is"));
     warn_of_solid(set.solid, inside, warnings);
     if (const auto range = range_warning(set.grid)) warnings.push_back(*range);
     if (error.radiances_off > 0) {

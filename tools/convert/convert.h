@@ -15,8 +15,8 @@ struct ConvertCommand {
 
 void add_convert_flags(Flags& flags, ConvertCommand& command);
 
-// Reads voxels or a mesh and writes a .vox file. Returns the exit code. Throws Error: usage, input_refused,
-// cannot_write.
+// Reads voxels or a mesh and writes a .vox file, or voxels as a .glb mesh. Returns the exit code. Throws
+// Error: usage, input_refused, cannot_write.
 int run_convert(const ConvertCommand& command);
 
 }  // namespace voxilux

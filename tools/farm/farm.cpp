@@ -12,6 +12,7 @@
 #include "render/render.h"
 #include "renderer/prepared_scene.h"
 #include "scene/animation.h"
+#include "standard_streams.h"
 
 namespace voxilux {
 namespace {
@@ -53,6 +54,7 @@ std::string progress_name(ProgressMode mode) {
 }
 
 Json job_of(const FarmCommand& command) {
+    if (command.scene.input == kStandardStream) refuse("farm: the machines need a file, not standard input");
     Scene scene = load_scene_with(command.scene, !command.report.quiet);
     if (command.error_target && !command.scene.spp) scene.settings.spp = kMaxSamplesForError;
     const FrameList frames = frames_to_render(command.scene, scene);

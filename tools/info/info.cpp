@@ -15,7 +15,7 @@ void add_info_flags(Flags& flags, InfoOptions& options) {
         .add("FILE", "", options.file,
              "a .vox, .toml, .exr or .png file, voxels of another format, or a mesh as voxels")
         .required();
-    add_resolution_flag(flags, options.grid);
+    add_mesh_flags(flags, options.grid);
     add_json_flag(flags, options.json, "the facts");
 }
 

@@ -6,6 +6,7 @@
 #include "base/print.h"
 #include "parse_values.h"
 #include "render/render.h"
+#include "standard_streams.h"
 
 namespace voxilux {
 namespace {
@@ -130,7 +131,8 @@ void request_samples(const RenderCommand& command, const Scene& scene, PlanReque
 
 PictureFiles pictures_of(const RenderCommand& command) {
     PictureFiles pictures = command.pictures;
-    const std::filesystem::path input = command.scene.input;
+    const bool is_stream = command.scene.input == kStandardStream;
+    const std::filesystem::path input = is_stream ? "stdin" : command.scene.input;
     pictures.is_part = is_part(command);
     pictures.scene_name = input.filename().string();
     if (pictures.files.empty())

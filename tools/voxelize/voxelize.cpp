@@ -54,11 +54,6 @@ std::string checked_output(const std::string& file) {
     return file;
 }
 
-UpAxis checked_up(const std::string& word) {
-    if (const auto up = parse_up(word)) return *up;
-    refuse(fmt::format("--up: '{}' is not x, y, z, -x, -y or -z", word));
-}
-
 int quarter_turns(int degrees) {
     if (degrees % 90 != 0) refuse(fmt::format("--turn: {} is not a multiple of 90", degrees));
     return degrees / 90;
@@ -70,16 +65,12 @@ double checked_scale(double metres) {
 }
 
 void add_grid_flags(Flags& flags, GridRequest& grid) {
-    add_resolution_flag(flags, grid);
+    add_mesh_flags(flags, grid);
     flags
         .on<double>(
             "--scale", "METRES", [&grid](double metres) { grid.metres_per_voxel = checked_scale(metres); },
             "metres per voxel, instead of --resolution")
         .excludes("--resolution");
-    flags
-        .add_parsed("--up", "AXIS", grid.up, checked_up,
-                    "the mesh's axis that points up: x, y, z, -x, -y or -z")
-        .shows(std::string(name_of(grid.up)));
     flags.on<int>(
         "--turn", "DEG", [&grid](int degrees) { grid.quarter_turns = quarter_turns(degrees); },
         "turn about the vertical by a multiple of 90 degrees, counter-clockwise from above");
@@ -89,7 +80,7 @@ void add_grid_flags(Flags& flags, GridRequest& grid) {
 
 void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
     VoxelizeRequest& request = command.request;
-    flags.add("MESH", "", command.mesh, "a mesh: a .gltf, .glb or .obj file").required();
+    flags.add("MESH", "", command.mesh, "a .gltf, .glb, .obj, .stl or .ply file").required();
     flags.add_parsed("-o,--output", "FILE", command.output, checked_output,
                      "the .vox file; default: named as MESH, in this folder");
     add_grid_flags(flags, request.grid);

@@ -27,7 +27,7 @@ Json grid_json(const VoxelizeFacts& facts) {
     return {{"cells", {grid.cells.x, grid.cells.y, grid.cells.z}},
             {"metres_per_voxel", 1.0 / grid.scale},
             {"low", {grid.low.x, grid.low.y, grid.low.z}},
-            {"up", name_of(facts.command.request.grid.up)},
+            {"up", name_of(up_of(facts.mesh, facts.command.request.grid))},
             {"turn_deg", 90 * facts.command.request.grid.quarter_turns}};
 }
 

@@ -89,7 +89,7 @@ TEST(VoxelFormats, map_without_a_header_is_512_by_512_by_64) {
 
 TEST(VoxelFormats, mutated_files_are_refused_with_an_offset_or_load_in_bounded_memory) {
     constexpr std::size_t kMost = 4096;
-    constexpr std::size_t kTextBytes = 4096;  // texts
+    constexpr std::size_t kBytesOfTexts = 4096;  // texts
     for (const auto& [ending, make] : kSampledFormats) {
         std::mt19937 random(kMutationSeed);
         std::size_t refused = 0, loaded = 0;
@@ -107,7 +107,7 @@ TEST(VoxelFormats, mutated_files_are_refused_with_an_offset_or_load_in_bounded_m
             }
             const PeakAllocation peak;
             const auto voxels = read_voxel_cells(format_of(ending), as_bytes_of(bytes), kMost);
-            EXPECT_LE(peak.bytes(), 2 * sizeof(ColouredCell) * kMost + kTextBytes) << ending << round;
+            EXPECT_LE(peak.bytes(), 2 * sizeof(ColouredCell) * kMost + kBytesOfTexts) << ending << round;
             ++(voxels ? loaded : refused);
             EXPECT_TRUE(voxels || voxels.reason().starts_with("at byte "));
         }

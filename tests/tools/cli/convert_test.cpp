@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <map>
 
 #include "formats/vox_read.h"
 #include "scene/vox_instances.h"
+#include "support/mesh_file_builder.h"
 #include "support/scratch_folder.h"
 #include "support/voxel_file_builder.h"
 #include "tools/cli/child_process.h"
@@ -130,6 +133,62 @@ TEST(Convert, broken_files_are_one_line_and_leave_nothing) {
         std::filesystem::remove(input);
     }
     EXPECT_TRUE(names_in(folder.path()).empty());
+}
+
+TEST(Convert, each_mesh_and_cloud_becomes_voxels) {
+    const ScratchFolder folder;
+    const mesh_file_builder::PlainMesh mesh = mesh_file_builder::random_mesh(8);
+    using mesh_file_builder::PlyWriting;
+    const std::pair<const char*, std::string> files[] = {
+        {"a.stl", mesh_file_builder::stl_binary(mesh)},
+        {"b.stl", mesh_file_builder::stl_text(mesh)},
+        {"a.ply", mesh_file_builder::ply(mesh, PlyWriting::big_endian)},
+        {"b.ply", mesh_file_builder::ply_points(mesh, PlyWriting::text)},
+        {"a.xyz", mesh_file_builder::xyz(mesh)},
+    };
+    std::map<std::string, Cells> cells;
+    for (const auto& [name, bytes] : files) {
+        const std::string input = written(folder, name, bytes), output = (folder / "a.vox").string();
+        const Ending end = run({"convert", input, output, "--resolution", "40"});
+        EXPECT_EQ(end.code, 0) << end.err;
+        EXPECT_NE(end.err.find("(--resolution 40)"), std::string::npos) << end.err;
+        cells[name] = cells_of_vox(output);
+    }
+    EXPECT_EQ(cells["a.stl"], cells["b.stl"]);
+    EXPECT_EQ(cells["b.ply"], cells["a.xyz"]);
+    EXPECT_LE(cells["a.xyz"].size(), mesh.positions.size());
+    EXPECT_GT(cells["a.ply"].size(), 100u);
+    EXPECT_EQ(run({"voxelize", (folder / "a.xyz").string(), "-o", (folder / "b.vox").string()}).code, 3);
+}
+
+TEST(Convert, mesh_of_voxels_is_read_as_a_mesh) {
+    const ScratchFolder folder;
+    const Sample sample = voxel_file_builder::qb_sample(1);
+    const std::string input = written(folder, "a.qb", sample.bytes), mesh = (folder / "a.glb").string();
+    const Ending end = run({"convert", input, mesh});
+    EXPECT_EQ(end.code, 0) << end.err;
+    EXPECT_NE(end.err.find("rectangles"), std::string::npos) << end.err;
+    EXPECT_EQ(run({"convert", mesh, (folder / "b.vox").string(), "--resolution", "30", "-q"}).code, 0);
+}
+
+TEST(Convert, standard_streams_hold_vox_files_and_scenes) {
+    const ScratchFolder folder;
+    const std::string input = written(folder, "a.vox", vox_builder::rich_file_text());
+    const std::string direct = (folder / "b.vox").string(), piped = (folder / "c.vox").string();
+    ASSERT_EQ(run({"convert", input, direct}).code, 0);
+    const auto shell = [&](const std::string& command) {
+        return std::system(("cd '" + folder.path().string() + "' && " + command + " 2>err").c_str());
+    };
+    EXPECT_EQ(shell("'" VX_BINARY "' convert - - < a.vox > c.vox"), 0);
+    EXPECT_EQ(bytes_of(piped), bytes_of(direct));
+    EXPECT_EQ(
+        shell("'" VX_BINARY "' plan - < a.vox > plan_piped && '" VX_BINARY "' plan a.vox > plan_direct"), 0);
+    EXPECT_EQ(bytes_of(folder / "plan_piped"), bytes_of(folder / "plan_direct"));
+    EXPECT_EQ(shell("printf '[[model]]\\nfile = \"a.vox\"\\n' | '" VX_BINARY "' plan - > plan_scene"), 0);
+    EXPECT_NE(shell("printf 'nonsense' | '" VX_BINARY "' plan -"), 0);
+    EXPECT_EQ(bytes_of(folder / "err").find("voxilux: standard input:1:"), 0u) << bytes_of(folder / "err");
+    EXPECT_NE(shell("printf 'VOX x' | '" VX_BINARY "' convert - x.vox"), 0);
+    EXPECT_EQ(bytes_of(folder / "err").find("voxilux: standard input: at byte "), 0u);
 }
 
 TEST(Convert, outputs_that_cannot_be_are_refused) {

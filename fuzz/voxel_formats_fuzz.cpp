@@ -1,0 +1,40 @@
+// libFuzzer target of the readers of other voxel formats. Property: whatever the bytes, each reader keeps its
+// memory bound and either refuses with a byte offset or gives cells that spread no further than promised.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+
+#include "formats/voxel_cells.h"
+#include "support/allocation_counter.h"
+
+namespace {
+
+// Small, so that small inputs can show a breach.
+constexpr std::size_t kMost = std::size_t{1} << 16;
+constexpr std::size_t kTextBytes = 4096;
+
+void require(bool holds, const char* what) {
+    if (holds) return;
+    std::fprintf(stderr, "property broken: %s\n", what);
+    std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const auto bytes = std::as_bytes(std::span(data, size));
+    for (const voxilux::VoxelFormat& format : voxilux::voxel_formats()) {
+        const PeakAllocation peak;
+        const auto voxels = voxilux::read_voxel_cells(format, bytes, kMost);
+        require(peak.bytes() <= 2 * sizeof(voxilux::ColouredCell) * kMost + kTextBytes,
+                "a reader takes more memory than it promises");
+        if (voxels)
+            require(!voxels.value().cells.empty() && voxels.value().cells.size() <= kMost,
+                    "a number of cells");
+        else
+            require(voxels.reason().starts_with("at byte "), "a refusal names no byte");
+    }
+    return 0;
+}

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "voxelizer/load_mesh.h"
+#include "voxelizer/mesh_notes.h"
+
+namespace voxilux {
+
+// A .ply file: vertices with colours, and faces. Without faces it is a cloud of points: positions and no
+// triangle. z up. `folder` is not used. Throws MeshFault.
+[[nodiscard]] Mesh load_ply(std::span<const std::byte> bytes, const std::filesystem::path& folder,
+                            const MeshRequest& request, MeshNotes& notes);
+
+}  // namespace voxilux

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "voxelizer/load_mesh.h"
+#include "voxelizer/mesh_notes.h"
+
+namespace voxilux {
+
+// A cloud of points as text, a point a line: x y z, or x y z red green blue with colours from 0 to 255; what
+// else follows is left out. A first line of one number, the number of points, is skipped. z up. `folder` is
+// not used. Throws MeshFault.
+[[nodiscard]] Mesh load_xyz(std::span<const std::byte> bytes, const std::filesystem::path& folder,
+                            const MeshRequest& request, MeshNotes& notes);
+
+}  // namespace voxilux
