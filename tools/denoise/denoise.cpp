@@ -2,6 +2,8 @@
 
 #include <limits>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -47,7 +49,7 @@ void add_denoise_flags(Flags& flags, DenoiseCommand& command) {
                      "no date or times in the files: equal runs, equal bytes");
     add_tone_flags(flags, command.pictures.tone);
     add_report_flags(flags, command.report);
-    add_device_flags(flags, command.device, command.memory_budget_bytes, "the pipeline cache");
+    add_device_flag(flags, command.device.selector);
 }
 
 int run_denoise(const DenoiseCommand& command) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "jobs/picture_files.h"
@@ -13,7 +12,6 @@ struct DenoiseCommand {
     PictureFiles pictures;
     ReportOptions report;
     DeviceOptions device;
-    std::uint64_t memory_budget_bytes = 0;
 };
 
 void add_denoise_flags(Flags& flags, DenoiseCommand& command);
