@@ -2,17 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "base/file.h"
 #include "base/print.h"
 #include "voxelizer/load_mesh.h"
 #include "voxelizer/vox_output.h"
 #include "voxelizer/voxelize_warnings.h"
 
 namespace voxilux {
-
-bool is_mesh(const std::filesystem::path& file) {
-    return has_ending(file, ".gltf") || has_ending(file, ".glb") || has_ending(file, ".obj");
-}
 
 std::string unused_name(const std::string& stem, const std::string& ending, int first) {
     for (int i = first;; ++i) {

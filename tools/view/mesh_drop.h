@@ -5,8 +5,6 @@
 
 namespace voxilux {
 
-[[nodiscard]] bool is_mesh(const std::filesystem::path& file);
-
 // What became of a mesh.
 struct VoxelizedMesh {
     std::string file;  // a new .vox in the current folder, named after the mesh

@@ -8,6 +8,7 @@
 #include "view/mesh_drop.h"
 #include "view/picture_look.h"
 #include "view/quality_choice.h"
+#include "voxelizer/load_mesh.h"
 
 namespace voxilux {
 namespace {
