@@ -105,6 +105,7 @@ CellPiece PieceCutter::next_cell(int x) {
         rest_ = rest;
     } else {
         piece = measure(rest_);
+        rest_.count = 0;  // a triangle that ends on the next cell's face only touches that cell
     }
     if (piece.area == 0.0f) piece.centre = point_near(glm::vec3(x, row_.x, row_.y) + 0.5f);
     return piece;

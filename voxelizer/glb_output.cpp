@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json.h"
 #include "scene/vox_material.h"
 #include "voxelizer/greedy_mesh.h"
 
@@ -161,7 +162,7 @@ class GlbWriter {
         root_["buffers"][0]["byteLength"] = data_.size();
         root_["bufferViews"] = views_;
         if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
-        std::string text = root_.dump();
+        std::string text = json_text(root_);
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::uint64_t total = 12 + 8 + text.size() + 8 + data_.size();
         if (total > 0xFFFFFFFF)

@@ -124,6 +124,16 @@ CellColours voxelized(const std::vector<std::byte>& glb) {
     return cells;
 }
 
+// Cells of which the colour differs, or that one of the two lacks.
+std::vector<std::array<int, 3>> different(const CellColours& a, const CellColours& b) {
+    std::vector<std::array<int, 3>> cells;
+    for (const auto& [cell, colour] : a)
+        if (!b.contains(cell) || b.at(cell) != colour) cells.push_back(cell);
+    for (const auto& [cell, colour] : b)
+        if (!a.contains(cell)) cells.push_back(cell);
+    return cells;
+}
+
 VoxFile file_of(const std::vector<IndexedCell>& cells, glm::ivec3 size) {
     VoxFile file;
     VoxModel model{.size = size};
@@ -159,10 +169,11 @@ TEST(GlbOutput, voxelized_again_it_has_the_same_cells_and_colours) {
         const glm::ivec3 size(6 + seed, 5, 9);
         const VoxFile file = file_of(random_indexed(size, seed, 200, 1 + seed % 7), size);
         const CellColours expected = surface_of(file);
-        EXPECT_EQ(voxelized(glb_of(file).bytes), expected) << seed;
+        EXPECT_EQ(different(voxelized(glb_of(file).bytes), expected), (std::vector<std::array<int, 3>>{}))
+            << seed;
         VoxFile changed = file;
         changed.models[0].voxels[0].index ^= 1;
-        EXPECT_NE(voxelized(glb_of(changed).bytes), expected) << "the comparison sees a colour";
+        EXPECT_FALSE(different(voxelized(glb_of(changed).bytes), expected).empty()) << "it sees a colour";
     }
 }
 
@@ -171,8 +182,7 @@ TEST(GlbOutput, instances_overlap_hide_and_turn_as_in_a_picture) {
     ASSERT_TRUE(file);
     const CellColours expected = surface_of(file.value());
     ASSERT_FALSE(expected.empty());
-    const CellColours cells = voxelized(glb_of(file.value()).bytes);
-    EXPECT_EQ(cells.size(), expected.size());
+    EXPECT_EQ(voxelized(glb_of(file.value()).bytes).size(), expected.size());
 }
 
 TEST(GlbOutput, looks_come_back) {

@@ -65,7 +65,7 @@ TEST(Convert, each_voxel_format_becomes_the_same_cells) {
     }
 }
 
-// 300 models of which most would be empty if cells were sorted wrongly.
+// Matrices of one voxel in many models of 256^3 cells, each place twice.
 TEST(Convert, cells_far_apart_and_twice_named_keep_their_places) {
     const ScratchFolder folder;
     Cells expected;
