@@ -41,7 +41,7 @@ prepare_build_folder
 install_packages picture tests
 
 if [ "$*" = --nightly ]; then
-    build sanitize unit_tests vox_fuzz mesh_fuzz
+    build sanitize unit_tests vox_fuzz mesh_fuzz voxel_formats_fuzz
     check "unit tests under sanitizers" run_tests build/sanitize --label-regex unit --label-exclude nightly
     check "long fuzzing" run_tests build/sanitize --label-regex fuzz-nightly
     build release
@@ -49,7 +49,7 @@ if [ "$*" = --nightly ]; then
     check "newer Mesa" test_newer_mesa
 else
     check "format (clang-format-14 -i mends it)" check_format
-    build sanitize reader_tests vox_fuzz mesh_fuzz
+    build sanitize reader_tests vox_fuzz mesh_fuzz voxel_formats_fuzz
     check "readers of files under sanitizers" run_tests build/sanitize --label-regex 'unit|fuzz' --label-exclude nightly
     build release
     check "all tests" run_tests build/release --label-exclude nightly

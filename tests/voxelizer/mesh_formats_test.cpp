@@ -19,7 +19,7 @@ namespace {
 using namespace mesh_file_builder;
 
 using MeshLoader = Mesh (*)(std::span<const std::byte>, const std::filesystem::path&, const MeshRequest&,
-                        MeshNotes&);
+                            MeshNotes&);
 
 Mesh loaded_by(MeshLoader load, const std::string& text, const MeshRequest& request = {}) {
     MeshNotes notes;
@@ -121,11 +121,11 @@ TEST(MeshFormats, mutated_files_are_refused_or_load_in_bounded_memory) {
     constexpr std::size_t kFixedMeshBytes = std::size_t{1} << 20;
     const PlainMesh mesh = random_mesh(9);
     const std::pair<MeshLoader, std::string> files[] = {{load_stl, stl_binary(mesh)},
-                                                    {load_stl, stl_text(mesh)},
-                                                    {load_ply, ply(mesh, PlyWriting::text)},
-                                                    {load_ply, ply(mesh, PlyWriting::little_endian)},
-                                                    {load_ply, ply(mesh, PlyWriting::big_endian)},
-                                                    {load_xyz, xyz(mesh)}};
+                                                        {load_stl, stl_text(mesh)},
+                                                        {load_ply, ply(mesh, PlyWriting::text)},
+                                                        {load_ply, ply(mesh, PlyWriting::little_endian)},
+                                                        {load_ply, ply(mesh, PlyWriting::big_endian)},
+                                                        {load_xyz, xyz(mesh)}};
     std::mt19937 random(77);
     for (const auto& [load, text] : files) {
         int refused = 0, loaded = 0;
@@ -182,8 +182,8 @@ TEST(PointClouds, cells_hold_the_mean_of_their_points_in_linear_light) {
         const PlainMesh mesh = random_mesh(seed * 20);
         const int resolution = 3 + static_cast<int>(seed);
         auto expected = averaged(mesh, resolution);
-        const std::pair<MeshLoader, std::string> files[] = {{load_xyz, xyz(mesh)},
-                                                        {load_ply, ply_points(mesh, PlyWriting::big_endian)}};
+        const std::pair<MeshLoader, std::string> files[] = {
+            {load_xyz, xyz(mesh)}, {load_ply, ply_points(mesh, PlyWriting::big_endian)}};
         for (const auto& [load, text] : files) {
             const VoxelSet set = voxelize_points(loaded_by(load, text), {.resolution = resolution});
             EXPECT_EQ(set.surface, expected.size());

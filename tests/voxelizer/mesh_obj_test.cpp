@@ -232,12 +232,16 @@ std::string refusal_of_text(const std::filesystem::path& path) {
 TEST(LoadMesh, refusals_name_the_file_and_the_reason) {
     const ScratchFolder folder;
     write(folder / "a.stl", "solid");
+    write(folder / "a.xyz", "1 2 3\n");
     write(folder / "a.obj", kSquare);
     write(folder / "b.obj", "v nan 0 0\nf 1 1 1\n");
     write(folder / "a.GLTF", "{");
     const std::string place = folder.path().string();
-    EXPECT_EQ(refusal_of_text(folder / "a.stl"),
-              place + "/a.stl: not a mesh: .gltf, .glb and .obj files are read");
+    EXPECT_EQ(refusal_of_text(folder / "a.stp"),
+              place + "/a.stp: not a mesh: .gltf, .glb, .obj, .stl, .ply, .xyz files are read");
+    EXPECT_EQ(refusal_of_text(folder / "a.stl"), place + "/a.stl: no triangles");
+    EXPECT_EQ(refusal_of_text(folder / "a.xyz"),
+              place + "/a.xyz: a cloud of points; 'voxilux convert' makes it voxels");
     EXPECT_EQ(refusal_of_text(folder / "a.obj"), place + "/a.obj: no triangles");
     EXPECT_EQ(refusal_of_text(folder / "b.obj"),
               place + "/b.obj: no triangles are left: a triangle is left out: a vertex is not finite");
