@@ -150,7 +150,9 @@ TEST_P(RendererSteps, changes_between_steps_end_as_a_fresh_render) {
     EXPECT_NE(renderer.read_film(), fresh_film(scene_)) << "the edits show";
 }
 
-TEST_P(RendererSteps, other_projection_ends_as_a_fresh_render) {
+class RendererLens : public RendererSteps {};
+
+TEST_P(RendererLens, other_projection_ends_as_a_fresh_render) {
     Renderer renderer(test_device(), poisoned());
     prepared(renderer, scene_);
     (void)renderer.step(0.0);
@@ -184,6 +186,14 @@ TEST_P(RendererSteps, last_edit_ends_as_a_fresh_render) {
 INSTANTIATE_TEST_SUITE_P(scenes, RendererSteps,
                          testing::Values(Case{"yard", &yard}, Case{"cells", &yard_of_cells},
                                          Case{"photons", &lit_room}, Case{"radii", &per_pixel_radii},
+                                         Case{"spheres", &spheres}),
+                         [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(scenes, RendererLens,
+                         testing::Values(Case{"yard", &yard}, Case{"cells", &yard_of_cells}),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Nightly, RendererLens,
+                         testing::Values(Case{"photons", &lit_room}, Case{"radii", &per_pixel_radii},
                                          Case{"spheres", &spheres}),
                          [](const auto& test) { return test.param.name; });
 

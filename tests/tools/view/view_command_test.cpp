@@ -17,7 +17,7 @@ TEST(WindowCommand, copied_line_renders_the_same_film) {
     EXPECT_EQ(film_of_line(scratch, ending, "first_light"), film_of(scratch / "film.exr"));
 }
 
-TEST(WindowCommand, copied_line_has_the_lens) {
+TEST(WindowCommandNightly, copied_line_has_the_lens) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const std::string view = orbit(2, 25) + key("5") + "[[step]]\nscroll = 2\n";
@@ -63,7 +63,7 @@ TEST(WindowCommand, copied_line_has_the_sun_of_a_frame) {
     EXPECT_NE(line.find("sun.azimuth="), std::string::npos) << line;
 }
 
-TEST(WindowCommand, copied_line_shows_the_sky_where_the_scene_does_not) {
+TEST(WindowCommandNightly, copied_line_shows_the_sky_where_the_scene_does_not) {
     SKIP_UNLESS_DISPLAY();
     for (const char* const flag : {"--transparent", "--alpha", "--background=#20a0ff"}) {
         const ScratchFolder scratch;

@@ -96,7 +96,7 @@ TEST(WindowDrop, unsaved_edits_keep_a_file_away_once) {
     EXPECT_EQ(report_of(scratch)["shown"]["input"], scene_file("one_voxel")) << "saved ones do not";
 }
 
-TEST(WindowQuality, preset_is_that_of_render) {
+TEST(WindowQualityNightly, preset_is_that_of_render) {
     SKIP_UNLESS_DISPLAY();
     const std::string at_end = "[[step]]\nframe = 120\nscreenshot = 'film.exr'\n";
     const Words plain{"--effect", "indirect=off"};

@@ -41,7 +41,7 @@ TEST(WindowAnimation, path_of_parallel_rays_is_followed) {
     EXPECT_NE(film_of(scratch / "third.exr"), film_of(scratch / "first.exr"));
 }
 
-TEST(WindowAnimation, first_frame_is_the_one_that_is_asked_for) {
+TEST(WindowAnimationNightly, first_frame_is_the_one_that_is_asked_for) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     write_file_atomically(scratch.path() / "hut.vox", shrinking_hut());
@@ -67,7 +67,7 @@ TEST(WindowAnimation, light_turns) {
     }
 }
 
-TEST(WindowAnimation, camera_stays_where_no_key_moves_it) {
+TEST(WindowAnimationNightly, camera_stays_where_no_key_moves_it) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     write_file_atomically(scratch.path() / "hut.vox", shrinking_hut());

@@ -155,7 +155,7 @@ TEST(WindowError, samples_end_when_the_target_is_claimed) {
     EXPECT_EQ(beauty_of(scratch / "film.exr"), beauty_of(scratch / "render.exr"));
 }
 
-TEST(WindowError, nothing_is_claimed_where_light_is_missing) {
+TEST(WindowErrorNightly, nothing_is_claimed_where_light_is_missing) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const auto samples_with = [&](const std::string& sky) {
