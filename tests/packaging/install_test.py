@@ -32,12 +32,25 @@ def chunk(name, content, children=b""):
     return name + struct.pack("<ii", len(content), len(children)) + content + children
 
 
-def vox_file():
-    """A solid block of 24^3 voxels."""
-    cells = [(x, y, z) for x in range(24) for y in range(24) for z in range(24)]
+def transform(node, child, place=None):
+    words = struct.pack("<i2si", 2, b"_t", len(place)) + place.encode() if place else b""
+    frame = struct.pack("<i", 1 if place else 0) + words
+    return chunk(b"nTRN", struct.pack("<iiiiii", node, 0, child, -1, -1, 1) + frame)
+
+
+def vox_file(side=24, instances=0):
+    """A solid block of voxels, once or as so many instances beside each other."""
+    cells = [(x, y, z) for x in range(side) for y in range(side) for z in range(side)]
     voxels = struct.pack("<i", len(cells)) + b"".join(struct.pack("4B", *cell, 79) for cell in cells)
-    model = chunk(b"SIZE", struct.pack("<iii", 24, 24, 24)) + chunk(b"XYZI", voxels)
-    return b"VOX " + struct.pack("<i", 150) + chunk(b"MAIN", b"", model)
+    model = chunk(b"SIZE", struct.pack("<iii", side, side, side)) + chunk(b"XYZI", voxels)
+    nodes = b""
+    if instances:
+        names = [2 + 2 * i for i in range(instances)]
+        nodes = transform(0, 1) + chunk(b"nGRP", struct.pack(f"<iii{instances}i", 1, 0, instances, *names))
+        for i, name in enumerate(names):
+            nodes += transform(name, name + 1, f"{side * (i % 50)} {side * (i // 50)} 0")
+            nodes += chunk(b"nSHP", struct.pack("<iiiii", name + 1, 0, 1, 0, 0))
+    return b"VOX " + struct.pack("<i", 150) + chunk(b"MAIN", b"", model + nodes)
 
 
 def cpu_seconds():
@@ -68,7 +81,7 @@ class Installed(unittest.TestCase):
         program = str(self.prefix / "bin" / "voxilux")
         return subprocess.run([program, *words], capture_output=True, text=True, check=False, cwd=self.folder)
 
-    def thumbnail(self, vox):
+    def thumbnail(self, vox, cpu="10"):
         """Runs what the thumbnailer entry says, as file managers do: into a file that is there already."""
         entry = configparser.RawConfigParser()
         entry.read(self.prefix / "share/thumbnailers/voxilux.thumbnailer")
@@ -76,9 +89,11 @@ class Installed(unittest.TestCase):
         picture.write_bytes(b"")
         values = {"%i": str(vox), "%o": str(picture), "%sx%s": "128x128"}
         words = [values.get(word, word) for word in entry["Thumbnailer Entry"]["Exec"].split()]
-        self.assertEqual(words[0], "voxilux")
+        limits = ["prlimit", "--cpu=10", "--as=4294967296"]
+        self.assertEqual(words[:4], [*limits, "voxilux"])
+        words = ["prlimit", f"--cpu={cpu}", limits[2], str(self.prefix / "bin" / "voxilux"), *words[4:]]
         before = cpu_seconds()
-        done = self.run_voxilux(*words[1:])
+        done = subprocess.run(words, capture_output=True, text=True, check=False, cwd=self.folder)
         return done, picture, cpu_seconds() - before
 
     def test_everything_is_there(self):
@@ -109,6 +124,14 @@ class Installed(unittest.TestCase):
         done, picture, seconds = self.thumbnail(vox)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         self.assertEqual(size_of_png(picture), (128, 128))
+        self.assertLess(seconds, LONGEST_THUMBNAIL_S)
+
+    def test_file_that_takes_too_long_has_no_thumbnail(self):
+        vox = self.folder / "crowd.vox"
+        vox.write_bytes(vox_file(side=100, instances=2000))
+        done, picture, seconds = self.thumbnail(vox, cpu="1")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(picture.read_bytes(), b"")
         self.assertLess(seconds, LONGEST_THUMBNAIL_S)
 
     def test_broken_file_has_no_thumbnail(self):

@@ -233,7 +233,8 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedWords{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
     [](const testing::TestParamInfo<RefusedWords>& one) { return one.param.name; });
 
-// Interrupted when the runs are measured and their rows of pictures are not: what is there is written.
+// Interrupted when all have a sixteenth of their samples, where runs are from 0.5 to 0.78 of the work: what
+// is there is written.
 TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
     const ScratchFolder folder;
     Words words = small_list(folder / "list", "4096");
@@ -241,7 +242,7 @@ TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
     words.insert(words.end(), {"--progress", "json"});
     *std::ranges::find(words, "60s") = "12s";
     ChildProcess child(words);
-    ASSERT_TRUE(child.wait_for_error("\"done\":0.85"));
+    ASSERT_TRUE(child.wait_for_error("\"done\":0.5175"));
     child.send(SIGINT);
     const Ending ending = child.finish();
     EXPECT_EQ(ending.code, 130) << ending.err;
