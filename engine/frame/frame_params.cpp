@@ -52,10 +52,10 @@ void place_image(gpu::FrameParams& params, const Camera& camera, glm::dvec3 loca
     const glm::dmat3 basis = camera_basis(camera);
     const double scale = camera.pixels_per_voxel;
     VX_ASSERT(scale > 0.0);
-    const glm::dvec3 half = (size.y * basis[1] - size.x * basis[0]) / (2.0 * scale);
-    for (const double side : {-1.0, 1.0})
-        check_place("a corner of the image of the camera at", camera, local + side * half);
-    glm::dvec3 corner = local + half;
+    const glm::dvec3 right = size.x / (2.0 * scale) * basis[0], up = size.y / (2.0 * scale) * basis[1];
+    for (const glm::dvec3& corner : {up - right, up + right, -up - right, -up + right})
+        check_place("a corner of the image of the camera at", camera, local + corner);
+    glm::dvec3 corner = local + (size.y * basis[1] - size.x * basis[0]) / (2.0 * scale);
     const bool has_grid = has_pixel_grid(camera);
     if (has_grid) params.camera_pixel = split_corner(corner, basis, scale);
     params.camera_block = has_grid ? static_cast<gpu::uint>(scale) : 1u;

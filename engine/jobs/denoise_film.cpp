@@ -16,7 +16,7 @@
 namespace voxilux {
 namespace {
 
-constexpr int kErrorReach = 7;                              // pixels: errors are means over 15 x 15
+constexpr int kErrorReach = 7;  // pixels: errors are means over 15 x 15
 constexpr std::array<const char*, 4> kGuidePlanes{"guide_sharp", "guide_albedo", "guide_normal",
                                                   "guide_offset"};
 
@@ -71,7 +71,8 @@ class HalfReader {
     std::size_t half_;
 };
 
-// Share of the samples that the even half has.
+// Share of the samples that the even half has. Where a time limit has left rows with unlike counts, it is
+// that of all: near enough for a claim of some samples.
 float share_of_even(const FilmSums& film) {
     const auto sum = [](const std::vector<std::uint32_t>& rows) {
         return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::uint64_t{0}));
@@ -105,11 +106,15 @@ void denoise_rows(const FilmSums& film, int first, int count, Executor& executor
     add_times(result.passes, run.passes);
 }
 
-DenoisedTexels denoise_all_rows(const FilmSums& film, std::size_t strip_pixels, Executor& executor) {
+// Whole blocks, so that with the rows around them about so many pixels are filtered at once.
+int strip_rows(int width, std::size_t strip_pixels) {
     const int block = static_cast<int>(gpu::kDenoiseBlock);
-    const int rows =
-        static_cast<int>(strip_pixels / static_cast<std::size_t>(film.width)) - 2 * kDenoiseApron;
-    const int strip = std::max(rows / block, 1) * block;
+    const int rows = static_cast<int>(strip_pixels / static_cast<std::size_t>(width)) - 2 * kDenoiseApron;
+    return std::max(rows / block, 1) * block;
+}
+
+DenoisedTexels denoise_all_rows(const FilmSums& film, std::size_t strip_pixels, Executor& executor) {
+    const int strip = strip_rows(film.width, strip_pixels);
     DenoisedTexels result;
     for (int first = 0; first < film.height; first += strip)
         denoise_rows(film, first, std::min(strip, film.height - first), executor, result);
@@ -172,11 +177,16 @@ bool has_guides(const FilmSums& film) {
     });
 }
 
+std::uint64_t denoise_strip_pixels(int width) {
+    return static_cast<std::uint64_t>(width) *
+           static_cast<std::uint64_t>(strip_rows(width, kDenoiseStripPixels) + 2 * kDenoiseApron);
+}
+
 Denoised denoise_film(const FilmSums& film, Executor& executor, std::size_t strip_pixels) {
     VX_ASSERT(has_guides(film));
     Denoised denoised{.claim = unknown_error()};
     if (std::ranges::min(film.even) == 0 || std::ranges::min(film.odd) == 0) {
-        denoised.reason = "it takes two samples per pixel at least";
+        denoised.reason = "it takes samples with even and with odd numbers";
         return denoised;
     }
     const DenoisedTexels texels = denoise_all_rows(film, strip_pixels, executor);
@@ -185,7 +195,7 @@ Denoised denoise_film(const FilmSums& film, Executor& executor, std::size_t stri
     const auto sum = [](const std::vector<float>& values) {
         return std::accumulate(values.begin(), values.end(), 0.0);
     };
-    if (sum(filtered) > sum(plain)) {
+    if (!(sum(filtered) <= sum(plain))) {
         denoised.reason = "the filtered picture is claimed to be worse than the plain one";
         return denoised;
     }

@@ -27,7 +27,10 @@ struct Denoised {
 
 // Filters a whole film that has guides. The plain picture stays where a half has no samples, and where the
 // filtered one is claimed to be worse. A picture of more pixels is cut into strips, which show nowhere.
-inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1} << 20;  // some 430 bytes each, on the device
+inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1}
+                                                   << 20;  // some 430 bytes each, on the device
+// Those of a strip of an image of this width, with what lies around it.
+[[nodiscard]] std::uint64_t denoise_strip_pixels(int width);
 [[nodiscard]] Denoised denoise_film(const FilmSums& film, Executor& executor,
                                     std::size_t strip_pixels = kDenoiseStripPixels);
 

@@ -43,12 +43,13 @@ PixelBytes bytes_of_pixel(const RenderPlan& plan) {
             .making = 2 * kCountBytes + (plan.sums_bias ? 3 * kSumBytes : 0)};
 }
 
-// What the denoiser takes: of a strip what it uploads, its buffers, which may be in the host's memory, and what
-// comes back; of the picture the result.
-std::uint64_t denoise_bytes(std::uint64_t pixels) {
+// What the denoiser takes: of a strip what it uploads, its buffers, which may be in the host's memory, and
+// what comes back; of the picture the result.
+std::uint64_t denoise_bytes(glm::ivec2 size) {
+    const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     constexpr std::uint64_t kOfStrip = 2 * 8 * 16 + 27 * 16 + 2 * 16;  // texels of 16 bytes
     constexpr std::uint64_t kOfPicture = 2 * 16 + 6 * kValueBytes + 2 * kSumBytes;
-    return std::min<std::uint64_t>(pixels, kDenoiseStripPixels) * kOfStrip + pixels * kOfPicture;
+    return std::min<std::uint64_t>(pixels, denoise_strip_pixels(size.x)) * kOfStrip + pixels * kOfPicture;
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ std::uint64_t denoise_bytes(std::uint64_t pixels) {
 PictureUse picture_use(const RenderOptions& options, double seconds) {
     return {.writes_exr = options.writes_exr,
             .writes_png = options.writes_png,
-            .keeps_film = options.keeps_film,
+            .keeps_film = options.needs_film(),
             .writes_checkpoint = options.checkpoint_s > 0.0 && seconds > options.checkpoint_s,
             .denoises = options.plan.wants_denoised};
 }
@@ -70,9 +71,9 @@ std::uint64_t end_bytes(const RenderPlan& plan, const PictureUse& use) {
     if (use.writes_exr) most = std::max(most, kept + bytes.picture + stored);
     if (use.writes_png) most = std::max(most, kept + bytes.picture + display * kValueBytes + 2 * display);
     if (use.writes_checkpoint) most = std::max(most, bytes.film + bytes.picture + stored);
-    const std::uint64_t pixels = static_cast<std::uint64_t>(plan.settings.size.x) *
-                                 static_cast<std::uint64_t>(plan.settings.size.y);
-    return most * pixels + (use.denoises ? denoise_bytes(pixels) : 0);
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(plan.settings.size.x) * static_cast<std::uint64_t>(plan.settings.size.y);
+    return most * pixels + (use.denoises && plan.sums_guides ? denoise_bytes(plan.settings.size) : 0);
 }
 
 ResidentBytes resident_bytes() {

@@ -63,10 +63,14 @@ nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Sce
 // In linear light, as colours that are multiplied by their A add up.
 Image laid_over(Image image, glm::vec3 background) {
     const std::vector<float>& alpha = image.channels.at("A").pixels;
-    for (int c = 0; c < 3; ++c) {
-        std::vector<float>& pixels = image.channels.at(std::string(1, "RGB"[c])).pixels;
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            pixels[i] += (1.0f - alpha[i]) * background[c];
+    for (const std::string prefix : {"", "denoised."}) {
+        for (int c = 0; c < 3; ++c) {
+            const auto channel = image.channels.find(prefix + "RGB"[c]);
+            if (channel == image.channels.end()) continue;
+            std::vector<float>& pixels = channel->second.pixels;
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] += (1.0f - alpha[i]) * background[c];
+        }
     }
     image.channels.erase("A");
     return image;

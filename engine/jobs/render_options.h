@@ -43,6 +43,7 @@ struct RenderOptions {
     std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
     bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
+    [[nodiscard]] bool needs_film() const { return keeps_film || plan.wants_denoised; }
     // Which files will be written of the picture: memory for that is kept while samples are taken.
     bool writes_exr = false;
     bool writes_png = false;

@@ -53,8 +53,8 @@ struct RenderOutcome {
     RenderPlan plan;
     RenderStatistics statistics;
     std::optional<Denoised> denoised;  // where that is asked for, of a whole picture
-    std::optional<FilmSums> film;  // see RenderOptions::keeps_film
-    std::uint32_t rows_ahead = 0;  // rows from the top that have one sample more than statistics.samples
+    std::optional<FilmSums> film;      // see RenderOptions::keeps_film
+    std::uint32_t rows_ahead = 0;      // rows from the top that have one sample more than statistics.samples
 };
 
 // Adds what a step of this plan did: times, counters and faults.

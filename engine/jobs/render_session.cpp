@@ -51,7 +51,6 @@ constexpr double kAnyTime_s = std::numeric_limits<double>::infinity();
 
 RenderOptions with_wishes(RenderOptions options) {
     options.plan.wants_error = options.error_target.has_value();
-    options.keeps_film = options.keeps_film || options.plan.wants_denoised;
     return options;
 }
 
@@ -198,7 +197,13 @@ void RenderSession::denoise(RenderOutcome& outcome) {
         return;
     }
     VX_ASSERT(outcome.film.has_value());
-    Denoised& denoised = outcome.denoised.emplace(denoise_film(*outcome.film, renderer_->executor()));
+    try {
+        outcome.denoised = denoise_film(*outcome.film, renderer_->executor());
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::out_of_memory) throw;
+        outcome.denoised = Denoised{.claim = unknown_error(), .reason = error.what()};
+    }
+    Denoised& denoised = *outcome.denoised;
     RenderStatistics& statistics = outcome.statistics;
     if (lacks_light(statistics.faults)) denoised.claim.high = std::numeric_limits<double>::infinity();
     add_times(statistics.passes, denoised.passes);

@@ -101,7 +101,7 @@ void decide_sums(RenderPlan& plan, const PlanRequest& request) {
     const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.any(&Technique::shares_samples) && (plan.has(Effect::aov) || decides);
     plan.sums_bias = plan.any(&Technique::tells_bias) && (plan.has(Effect::aov) || request.wants_error);
-    plan.sums_guides = request.wants_denoised;
+    plan.sums_guides = request.wants_denoised && !plan.any(&Technique::shares_samples);
 }
 
 // One dispatch takes at most so many rows.

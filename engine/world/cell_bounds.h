@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include <glm/glm.hpp>
@@ -24,6 +25,11 @@ struct CellBounds {
     // The part inside a grid of so many cells.
     [[nodiscard]] CellBounds inside(glm::ivec3 size) const {
         return {glm::max(low, glm::ivec3(0)), glm::min(high, size)};
+    }
+    [[nodiscard]] std::int64_t count() const {
+        if (empty()) return 0;
+        const glm::i64vec3 extent(high - low);
+        return extent.x * extent.y * extent.z;
     }
     [[nodiscard]] CellBounds children() const { return empty() ? *this : CellBounds{low * 4, high * 4}; }
     [[nodiscard]] bool contains(glm::ivec3 c) const {

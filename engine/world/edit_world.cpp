@@ -14,6 +14,9 @@
 namespace voxilux {
 namespace {
 
+// Bricks whose boxes are redone for a batch of edits, five bytes each.
+constexpr std::int64_t kMostRegrown = std::int64_t{1} << 26;
+
 // Words between two that changed which are put into one range with them.
 constexpr std::size_t kMaxGap = 16;
 // In place of a block's number.
@@ -68,11 +71,15 @@ class Edit {
         if (has_nodes_) close_chunk(brick >> 2);
     }
 
-    void grow() {
+    // False when edits lie so far apart that to build anew is cheaper.
+    [[nodiscard]] bool grow() {
         if (has_nodes_)
             bricks_.include(
                 regrow(gpu::kChunkLog2, chunks_.grown(glm::ivec3(GrowingBox::kReach))).children());
-        regrow(gpu::kBrickLog2, bricks_.grown(glm::ivec3(GrowingBox::kReach)));
+        const CellBounds bounds = bricks_.grown(glm::ivec3(GrowingBox::kReach));
+        if (bounds.inside(built_.size() >> gpu::kBrickLog2).count() > kMostRegrown) return false;
+        regrow(gpu::kBrickLog2, bounds);
+        return true;
     }
 
     // Gives a mixed brick the block that its voxels and those of the bricks around it call for.
@@ -240,7 +247,10 @@ WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const Vo
     Edit edit(world, built);
     for (const glm::ivec3 brick : bricks)
         edit.touch(brick);
-    edit.grow();
+    if (!edit.grow()) {
+        built = build_march_world(world, built.traversal);
+        return {.is_rebuilt = true};
+    }
     for (const glm::ivec3 brick : with_neighbours(bricks))
         edit.store_leaf(brick);
     return edit.changes();

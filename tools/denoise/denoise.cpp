@@ -33,9 +33,10 @@ void write_outputs_of(const PictureFiles& pictures, const FilmPart& part, const 
     image.attributes[kReportAttribute] = json_text(part.report);
     add_denoised(denoised, image);
     const Image shown = shown_picture(denoised, image);
+    const ToneMapOptions tone = tone_of(pictures, part.exposure_ev);
     WriteFaults ignored;  // the report has those of the samples
     for (const std::string& file : pictures.files)
-        write_picture(file, image, options, shown, pictures.tone, ignored);
+        write_picture(file, image, options, shown, tone, ignored);
 }
 
 }  // namespace

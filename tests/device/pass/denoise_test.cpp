@@ -140,7 +140,7 @@ bool is_finite_picture(const Denoised& denoised) {
 TEST(Denoise, keeps_the_plain_picture_of_a_single_sample) {
     const Denoised denoised = denoise_film(even_film({20, 20}, 1, 0), test_executor());
     EXPECT_FALSE(denoised.is_filtered());
-    EXPECT_NE(denoised.reason.find("two samples"), std::string::npos) << denoised.reason;
+    EXPECT_NE(denoised.reason.find("even"), std::string::npos) << denoised.reason;
     EXPECT_TRUE(denoised.rgb[0].empty());
     EXPECT_TRUE(denoise_film(even_film({20, 20}, 1, 1), test_executor()).is_filtered());
 }

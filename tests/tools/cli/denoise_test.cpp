@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "formats/exr.h"
 #include "support/scratch_folder.h"
 #include "tools/cli/child_process.h"
+#include "tools/cli/models.h"
 #include "tools/cli/words.h"
 
 namespace voxilux::test {
@@ -59,6 +61,42 @@ TEST(DenoiseCommand, parts_are_filtered_when_they_are_together) {
     // One half of the samples has but one half of the film.
     EXPECT_EQ(run({"denoise", "1.exr", "-o", "one.png", "-q"}, here).code, 0);
     EXPECT_FALSE(bytes_of(scratch / "one.png") == bytes_of(scratch / "d.png"));
+}
+
+// A part carries the exposure that the author of its file has set.
+TEST(DenoiseCommand, part_is_shown_with_the_exposure_of_its_file) {
+    const ScratchFolder scratch;
+    const Surroundings here{.folder = scratch.path()};
+    write_model(scratch / "m.vox", {{"_type", "_film"}, {"_expo", "4"}});
+    const Words small = {"render", "m.vox", "--size", "48x27", "--denoise", "on", "-q", "--reproducible"};
+    ASSERT_EQ(run(with(small, {"--spp", "6", "-o", "whole.png"}), here).code, 0);
+    ASSERT_EQ(run(with(small, {"--samples", "0-5", "-o", "part.exr"}), here).code, 0);
+    ASSERT_EQ(run({"denoise", "part.exr", "-o", "d.png", "-q"}, here).code, 0);
+    EXPECT_TRUE(bytes_of(scratch / "d.png") == bytes_of(scratch / "whole.png"));
+}
+
+TEST(DenoiseCommand, background_lies_behind_both_pictures) {
+    const ScratchFolder scratch;
+    const Ending ending =
+        run(dim_court({"--spp", "6", "--background", "#00ff00", "-o", "a.exr"}), {.folder = scratch.path()});
+    ASSERT_EQ(ending.code, 0) << ending.err;
+    const Image both = read_exr(scratch / "a.exr");
+    EXPECT_EQ(both.channels.at("G").pixels.front(), 1.0f) << "no surface in the first pixel";
+    EXPECT_EQ(both.channels.at("denoised.G").pixels.front(), 1.0f);
+}
+
+// SIGUSR1 asks for a checkpoint, which a PNG does not have.
+TEST(DenoiseCommand, signal_for_a_checkpoint_stops_nothing) {
+    const ScratchFolder scratch;
+    ChildProcess child(dim_court({"--spp", "1000000", "--progress", "json", "-o", "a.png"}),
+                       {.folder = scratch.path()});
+    ASSERT_TRUE(child.wait_for_error("\"sample\":3"));
+    child.send(SIGUSR1);
+    ASSERT_TRUE(child.wait_for_error("\"sample\":30"));
+    child.send(SIGINT);
+    const Ending ending = child.finish();
+    EXPECT_EQ(ending.code, 130) << ending.err;
+    EXPECT_EQ(names_in(scratch.path()), Words{"a.png"});
 }
 
 TEST(DenoiseCommand, refuses_what_it_cannot_filter_and_keeps_what_it_should_not) {

@@ -145,6 +145,18 @@ TEST(Picture, image_too_large_for_coordinates_is_refused) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
 }
 
+// Turned either way, another pair of corners lies beyond.
+TEST(Picture, every_corner_of_an_image_is_looked_at) {
+    const ScratchFolder scratch;
+    for (const char* yaw : {"camera.yaw=20", "camera.yaw=-20"}) {
+        const Ending ending =
+            run({"render", scene_file("mixed"), "--size", "20x40", "--spp", "1", "-o", scratch / "a.png",
+                 "-D", "camera.projection=orthographic", "-D", "camera.pixels_per_voxel=2.22e-6", "-D",
+                 "camera.position=[0, 0, 0]", "-D", yaw, "-D", "camera.pitch=-90"});
+        EXPECT_EQ(ending.code, 3) << yaw << ending.err;
+    }
+}
+
 // P seen through the matrices of the header, as OpenEXR applies them to row vectors, is Z in front of the
 // camera and in its own pixel: OpenEXR, "Standard attributes", worldToCamera and worldToNDC.
 TEST(Picture, matrices_of_the_header_take_positions_to_their_depth_and_pixel) {
