@@ -13,6 +13,7 @@
 #include "renderer/prepared_scene.h"
 #include "scene/animation.h"
 #include "standard_streams.h"
+#include "voxelizer/import_voxels.h"
 
 namespace voxilux {
 namespace {
@@ -49,6 +50,15 @@ Json frames_json_of(const FrameList& frames) {
     return json;
 }
 
+// The words for `convert`; null where the input is rendered as it is.
+Json mesh_words_json(const FarmCommand& command) {
+    if (!is_importable(command.scene.input)) return nullptr;
+    Flags::GivenWords words = command.scene_words();
+    std::erase_if(words,
+                  [](const auto& word) { return word.first != "--resolution" && word.first != "--up"; });
+    return words_json(words);
+}
+
 std::string progress_name(ProgressMode mode) {
     return mode == ProgressMode::json ? "json" : mode == ProgressMode::never ? "never" : "auto";
 }
@@ -65,6 +75,7 @@ Json job_of(const FarmCommand& command) {
     return {{"binary", binary},
             {"worker_binary", command.worker_binary.empty() ? binary : command.worker_binary},
             {"scene", std::filesystem::absolute(command.scene.input).string()},
+            {"mesh_words", mesh_words_json(command)},
             {"overrides", command.scene.overrides},
             {"words", words_json(command.scene_words())},
             {"device", command.device},

@@ -23,6 +23,12 @@ def listen(farm: Farm) -> None:
         signal.signal(number, interrupt)
 
 
+def is_of_network(cause: OSError) -> bool:
+    """Of a cluster that may be back later; else of our files, or of a pipe that nobody reads."""
+    is_lost = isinstance(cause, (ConnectionError, TimeoutError)) and not isinstance(cause, BrokenPipeError)
+    return is_lost or type(cause).__module__.startswith("distributed.")  # such as its CommClosedError
+
+
 def rest_of(farm: Farm | None) -> str:
     """What a job lacks that stopped."""
     return "nothing is done" if farm is None else f"{farm.missing()}; --resume goes on"
@@ -41,7 +47,7 @@ def farm_main(options: dict) -> int:
         return stop.code
     except OSError as cause:
         say(f"{cause}; {rest_of(farm)}")
-        return 73
+        return 75 if is_of_network(cause) else 73
     except Exception as cause:  # noqa: BLE001  a fault of ours, or of Dask
         say(f"internal error: {type(cause).__name__}: {' '.join(str(cause).split())}; {rest_of(farm)}")
         return 70

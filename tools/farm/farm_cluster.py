@@ -8,6 +8,7 @@ import os
 import pathlib
 import queue
 import subprocess
+import sys
 import threading
 import time
 
@@ -67,6 +68,14 @@ def quiet_dask() -> None:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
 
+def divert_errors(log: str) -> None:
+    """Processes that this one starts from now on say there what goes wrong, such as when a signal ends them while they
+    start. Our own messages stay where they are."""
+    with open(log, "ab") as stream:
+        sys.stderr = open(os.dup(2), "w", buffering=1, errors="backslashreplace")  # noqa: SIM115
+        os.dup2(stream.fileno(), 2)
+
+
 def open_local(workers: int, folder: str):
     """A cluster of this machine that listens on the loopback alone, and keeps its own files in this folder."""
     os.environ.setdefault("DASK_TEMPORARY_DIRECTORY", folder)  # which Dask reads when it is imported
@@ -105,6 +114,7 @@ class Cluster:
             cores = len(os.sched_getaffinity(0))
             workers = options["workers"] or len(self.gpus) or max(1, cores // CORES_OF_A_WORKER)
             self.groups = [[]] * workers if self.gpus else core_groups(workers)
+            divert_errors(f"{setup['folder']}/workers.log")
             self.client, self.cluster = open_local(workers, f"{setup['folder']}/dask")
         self.seen_s = self.heard_s = time.monotonic()
         self.looked_s = -math.inf

@@ -2,6 +2,7 @@
 appear under their names when they are whole, and the journal grows by lines, of which a torn last one is cut off."""
 
 import dataclasses
+import fcntl
 import hashlib
 import json
 import os
@@ -10,6 +11,7 @@ import reprlib
 import shutil
 import sys
 import tomllib
+import uuid
 
 from farm_ranges import Ranges, difference, overlaps, union
 
@@ -49,12 +51,17 @@ def sha256_of(file: pathlib.Path) -> str:
 
 
 def write_atomically(file: pathlib.Path, data: bytes) -> None:
-    temporary = file.with_name(f".{file.name}.{os.getpid()}")
-    with open(temporary, "wb") as stream:
-        stream.write(data)
-        stream.flush()
-        os.fsync(stream.fileno())
-    os.replace(temporary, file)
+    """By way of a new file whose name nobody can guess."""
+    temporary = file.with_name(f".{file.name}.{uuid.uuid4().hex}")
+    try:
+        with open(temporary, "xb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(temporary, file)
+    except OSError:
+        temporary.unlink(missing_ok=True)
+        raise
 
 
 def strings_in(value: object) -> list[str]:
@@ -87,16 +94,31 @@ class Job:
         self.mixes_devices = mixes_devices
         self.parts: dict[str, Part] = {}
         self.retries = 0
+        self.lock: int | None = None  # a file; as long as it is open, no other farm works in the folder
 
-    def start(self, files: dict[str, pathlib.Path], resumes: bool) -> None:
-        """Makes the folder, or goes on with one of the same job."""
-        is_there = (self.folder / "manifest.json").exists()
-        if is_there and not resumes:
+    def open(self, resumes: bool) -> None:
+        """Makes the folder for this user alone, or takes one that is there."""
+        try:
+            self.folder.mkdir(mode=0o700, parents=True)
+        except FileExistsError:
+            if self.folder.lstat().st_uid != os.geteuid():
+                raise Stop(73, f"{self.folder} belongs to another user") from None
+        self.lock = os.open(self.folder / "lock", os.O_RDWR | os.O_CREAT, 0o600)  # until the process ends
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise Stop(75, f"{self.folder}: another farm works in it") from None
+        except OSError:
+            pass  # some network file systems have no locks
+        if (self.folder / "manifest.json").exists() and not resumes:
             raise Stop(2, f"{self.folder} is there: --resume goes on with it; remove it to start anew")
+
+    def start(self, files: dict[str, pathlib.Path]) -> None:
+        """In the open folder: a new job, or goes on with the same one."""
         self.manifest["files"] = {name: sha256_of(file) for name, file in sorted(files.items())}
-        if is_there:
+        if (self.folder / "manifest.json").exists():
             self.go_on()
-        (self.folder / "parts").mkdir(parents=True, exist_ok=True)
+        (self.folder / "parts").mkdir(exist_ok=True)
         for name, file in files.items():
             copy = self.folder / "scene" / name
             copy.parent.mkdir(parents=True, exist_ok=True)

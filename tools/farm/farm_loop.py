@@ -4,13 +4,14 @@ workers, the sum has the bytes of one render."""
 import os
 import pathlib
 import shutil
+import subprocess
 import time
 import uuid
 
 from farm_cluster import Cluster, Member
-from farm_job import Job, Part, Stop, files_of_scene, say, sha256_of
+from farm_job import Job, Part, Stop, files_of_scene, say, sha256_of, write_atomically
 from farm_orders import first_round, order_of
-from farm_picture import Merger, Picture, missing_line, next_round, samples_of
+from farm_picture import Merger, Picture, failure_of, missing_line, next_round, samples_of
 from farm_report import Progress, facts_of, print_missed_error, print_report, report_of
 from farm_work import MAX_TRIES, Task, Work
 
@@ -28,13 +29,16 @@ class Farm:
         self.signals = 0
         self.frames: list[int] = options["frames"]
         self.files = files_of_scene(pathlib.Path(options["scene"]), options["overrides"])
-        self.scene = next(iter(self.files))
+        self.scene = next(iter(self.files)) + ("" if options["mesh_words"] is None else ".vox")
         manifest = {"id": uuid.uuid4().hex, "build": sha256_of(pathlib.Path(options["binary"])), "scene": self.scene,
                     **{key: options[key] for key in ("words", "frames", "spp", "error", "tone_words")},
                     "outputs": [[os.path.abspath(file) for file in files] for files in options["outputs"]],
                     "by_frames": None, "device": ""}
         self.job = Job(pathlib.Path(options["job"]).absolute(), manifest, options["allow_mixed_devices"])
-        self.job.start(self.files, options["resume"])
+        self.job.open(options["resume"])
+        if options["mesh_words"] is not None:
+            self.convert_scene()
+        self.job.start(self.files)
         self.work = Work()
         self.merger = Merger(options, self.job)
         self.progress = Progress(options["progress"], options["quiet"])
@@ -42,6 +46,16 @@ class Farm:
                          for frame, outputs in zip(self.frames, options["outputs"])]
         self.cluster: Cluster | None = None
         self.last_line = ""
+
+    def convert_scene(self) -> None:
+        """Workers get the voxels of a mesh, which may name files of its own, or of another program's file."""
+        voxels = self.job.folder / "imported.vox"
+        words = [self.options["binary"], "convert", self.options["scene"], str(voxels), *self.options["mesh_words"],
+                 "-q"]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise Stop(*failure_of("convert", done).values())
+        self.files = {self.scene: voxels, **dict(list(self.files.items())[1:])}
 
     def open_cluster(self) -> None:
         words = self.options["words"]
@@ -161,9 +175,7 @@ class Farm:
     def keep(self, unit: dict, result: dict, member: Member) -> None:
         """Adds a part to the job, or a frame to the film."""
         for name, data in zip(unit["files"], result.get("bytes", [])):
-            temporary = self.job.folder / (name + ".new")
-            temporary.write_bytes(data)
-            os.replace(temporary, self.job.folder / name)
+            write_atomically(self.job.folder / name, data)
         part = Part(unit["frame"], [tuple(one) for one in unit["ranges"]], unit["files"][0], member.address,
                     result["wall_s"], result["cpu_s"], result["sha256"][0], result["samples"], result["error"])
         if not self.by_frames:

@@ -26,7 +26,8 @@ class Bench:
         self.top = pathlib.Path(self.scratch.name)
 
     def words(self, command, scene, *more):
-        return [self.binary, command, self.scenes / f"{scene}.toml", *more]
+        """A scene by its name, or any file by its path."""
+        return [self.binary, command, self.scenes / (f"{scene}.toml" if isinstance(scene, str) else scene), *more]
 
     def render(self, scene, output, *more):
         """The bytes of a render in one process."""

@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import signal
+import subprocess
 import tempfile
 import unittest
 
@@ -51,6 +52,38 @@ class Farm(unittest.TestCase):
         for frame in (1, 2, 3):
             alone = BENCH.render("mixed", "one.exr", *turn, "--frame", str(frame))
             self.assertEqual((BENCH.top / f"l.000{frame}.exr").read_bytes(), alone)
+
+    def test_mesh_with_files_of_its_own_is_rendered_by_its_voxels(self):
+        """Its colour is in a file beside it, which no worker needs."""
+        (BENCH.top / "m.mtl").write_text("newmtl red\nKd 0.8 0.1 0.1\n")
+        mesh = BENCH.top / "m.obj"
+        mesh.write_text("mtllib m.mtl\nv 0 0 0\nv 4 0 0\nv 0 3 0\nv 0 0 2\n"
+                        "usemtl red\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+        more = [*SMALL[:2], "--spp", "8", "--resolution", "24", "--up", "z"]
+        subprocess.run([BENCH.binary, "convert", mesh, BENCH.top / "m.obj.vox", *more[-4:], "-q"], check=True)
+        whole = BENCH.render(BENCH.top / "m.obj.vox", "whole.exr", *more)
+        BENCH.farm(mesh, "mesh.exr", *more, "--workers", "2", "-q")
+        self.assertEqual((BENCH.top / "mesh.exr").read_bytes(), whole)
+        self.assertEqual(self.difference(mesh, *more), 0.0)
+        pale = mesh.with_name("pale.obj")
+        pale.write_text(mesh.read_text().replace("usemtl red\n", ""))
+        self.assertGreater(self.difference(pale, *more), 0.0, "or the colour is not seen")
+
+    def difference(self, mesh, *more):
+        """Of a render in one process from the picture of the farm."""
+        BENCH.render(mesh, "direct.exr", *more)
+        words = [BENCH.binary, "compare", BENCH.top / "direct.exr", BENCH.top / "mesh.exr", "--json", "-"]
+        found = subprocess.run(words, capture_output=True, text=True, check=True)
+        return json.loads(found.stdout)["relmse"]
+
+    def test_signal_to_all_processes_ends_the_job_with_one_line(self):
+        """As a terminal or a batch system sends it."""
+        child = BENCH.start("mixed", "g.exr", *LONG, "--workers", "2", "-q")
+        BENCH.wait_for_parts(child, "g.exr", 1)
+        os.killpg(child.pid, signal.SIGTERM)
+        _, err = child.communicate()
+        self.assertEqual(child.returncode, 130, err)
+        self.assertRegex(err, r"^voxilux: interrupted; missing: samples [\d,-]+; --resume goes on\n$")
 
     def test_killed_worker_loses_nothing(self):
         child = BENCH.start("mixed", "w.exr", *LONG, "--workers", "2", "-q")

@@ -9,6 +9,7 @@ import stat
 import subprocess
 import tempfile
 import unittest
+from unittest import mock
 
 import farm
 import farm_worker
@@ -50,14 +51,17 @@ class Loop(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.top = pathlib.Path(scratch.name)
         (self.top / "s.toml").write_text("")
+        self.last = None
 
     def farm(self, workers=1, **changes):
         options = {"frames": [1], "scene": str(self.top / "s.toml"), "overrides": [], "binary": str(self.top / "s.toml"),
                    "words": [], "tone_words": [], "spp": 4, "error": None, "job": str(self.top / "o.exr.farm"),
                    "allow_mixed_devices": False, "resume": False, "progress": "never", "quiet": True, "device": "",
-                   "whole_frames": "", "is_animation": True, **changes}
+                   "whole_frames": "", "mesh_words": None, "is_animation": True, **changes}
         options["outputs"] = [[str(self.top / f"o.{frame}.exr")] for frame in options["frames"]]
-        one = Farm(options)
+        if self.last is not None:
+            os.close(self.last.job.lock)  # as its process would have, when it ended
+        self.last = one = Farm(options)
         one.cluster = cluster = Cluster.__new__(Cluster)
         cluster.options, cluster.setup, cluster.files = options, {"id": "1"}, one.files
         cluster.client, cluster.results, cluster.device, cluster.gpus = Client(), queue.Queue(), "", []
@@ -132,6 +136,13 @@ class Loop(unittest.TestCase):
             code = farm.farm_main({})
         self.assertEqual(code, 70)
         self.assertEqual(said.getvalue(), "voxilux: internal error: KeyError: 'frames'; nothing is done\n")
+
+    def test_network_that_fails_may_be_tried_again_a_file_that_fails_may_not(self):
+        of_dask = type("CommClosedError", (OSError,), {"__module__": "distributed.comm.core"})
+        for cause, code in ((ConnectionRefusedError(), 75), (TimeoutError(), 75), (of_dask(), 75), (OSError(), 73),
+                            (BrokenPipeError(), 73), (PermissionError(), 73)):
+            with mock.patch("farm.Farm", side_effect=cause), contextlib.redirect_stderr(io.StringIO()):
+                self.assertEqual(farm.farm_main({}), code, type(cause))
 
     def test_merge_that_is_killed_may_be_tried_again(self):
         killed = subprocess.CompletedProcess([], -9, "", "")

@@ -1,10 +1,13 @@
 """What the farm decides, without a cluster: ranges, the folder of a job, who gets which task."""
 
+import os
 import pathlib
 import random
 import shutil
+import stat
 import tempfile
 import unittest
+from unittest import mock
 
 import farm_job
 import farm_picture
@@ -38,12 +41,17 @@ class JobFolder(unittest.TestCase):
         self.top = pathlib.Path(scratch.name)
         self.scene = self.top / "s.toml"
         self.scene.write_text("")
+        self.last = None
 
     def job(self, resumes=False, **changes):
+        """What a new process would make of the folder: the one before has ended, and with it its lock."""
+        if self.last is not None:
+            os.close(self.last.lock)
         manifest = {"id": "1", "build": "b", "scene": "s.toml", "words": [], "frames": [0], "by_frames": False,
                     "device": "", **changes}
-        job = Job(self.top / "job", manifest)
-        job.start({"s.toml": self.scene}, resumes)
+        self.last = job = Job(self.top / "job", manifest)
+        job.open(resumes)
+        job.start({"s.toml": self.scene})
         return job
 
     def add(self, job, first, end, **more):
@@ -133,6 +141,37 @@ class JobFolder(unittest.TestCase):
             self.job(resumes=True)
         self.assertEqual(stop.exception.code, 3)
         self.assertIn("its files", str(stop.exception))
+
+    def test_two_farms_never_work_in_one_folder(self):
+        job = self.job()
+        for resumes in (False, True):
+            with self.assertRaises(Stop) as stop:
+                Job(job.folder, {}).open(resumes)
+            self.assertEqual(stop.exception.code, 75)
+            self.assertIn("another farm works in it", str(stop.exception))
+        os.close(job.lock)
+        Job(job.folder, {}).open(True)
+
+    def test_folder_is_of_one_user_alone(self):
+        job = self.job()
+        self.assertEqual(stat.S_IMODE(job.folder.stat().st_mode), 0o700)
+        with mock.patch("os.geteuid", lambda: job.folder.stat().st_uid + 1), self.assertRaises(Stop) as stop:
+            Job(job.folder, {}).open(True)
+        self.assertEqual(stop.exception.code, 73)
+        self.assertIn("belongs to another user", str(stop.exception))
+
+    def test_file_is_written_through_no_link_and_readable_as_others_are(self):
+        victim, plain = self.top / "victim", self.top / "plain"
+        victim.write_bytes(b"mine")
+        plain.write_bytes(b"")
+        (self.top / f".f.{os.getpid()}").symlink_to(victim)
+        (self.top / f".f.{'0' * 32}").symlink_to(victim)
+        farm_job.write_atomically(self.top / "f", b"1")
+        self.assertEqual(((self.top / "f").read_bytes(), victim.read_bytes()), (b"1", b"mine"))
+        self.assertEqual((self.top / "f").stat().st_mode, plain.stat().st_mode)
+        with mock.patch("uuid.uuid4", lambda: mock.Mock(hex="0" * 32)), self.assertRaises(FileExistsError):
+            farm_job.write_atomically(self.top / "f", b"2")
+        self.assertEqual(victim.read_bytes(), b"mine")
 
     def test_files_that_a_scene_names_go_with_it(self):
         (self.top / "models").mkdir()
