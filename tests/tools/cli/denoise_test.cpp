@@ -116,7 +116,7 @@ TEST(DenoiseCommand, refuses_what_it_cannot_filter_and_keeps_what_it_should_not)
     EXPECT_EQ(ending.code, 0);
     const nlohmann::json claim = nlohmann::json::parse(ending.out).at("denoised");
     EXPECT_FALSE(claim.at("filtered").get<bool>());
-    EXPECT_NE(claim.at("reason").get<std::string>().find("two samples"), std::string::npos);
+    EXPECT_NE(claim.at("reason").get<std::string>().find("even"), std::string::npos);
     EXPECT_EQ(run(with(one_voxel, {"--spp", "1", "-o", "plain.png"}), here).code, 0);
     EXPECT_TRUE(bytes_of(scratch / "one.png") == bytes_of(scratch / "plain.png"));
 }
