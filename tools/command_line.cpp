@@ -232,7 +232,8 @@ int run_command_line(int argc, const char* const* argv) {
                                   add_tradeoff_flags, run_tradeoff);
     commands.add<ViewCommand>(app, "view", "show a scene in a window while it is rendered", add_view_flags,
                               run_view);
-    commands.add<InfoOptions>(app, "info", "what is in a .vox file, a scene file, an EXR or a PNG",
+    commands.add<InfoOptions>(app, "info",
+                              "what is in a .vox, .toml, .exr or .png file, other voxels or a mesh",
                               add_info_flags, run_info);
     commands.add<DevicesCommand>(app, "devices", "Vulkan devices, which would be used, what each lacks",
                                  add_devices_flags, run_devices);

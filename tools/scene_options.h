@@ -57,11 +57,6 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures = 
 // --photons, --radius and --alpha.
 void add_photon_flags(Flags& flags, SettingsChanges& changes);
 
-// The scene with the flags applied. Throws Error(input_refused) for a file.
-// An input that is neither .vox nor .toml is made voxels; with `says_notes` standard error says what was
-// done.
-[[nodiscard]] Scene load_scene_with(const SceneOptions& options, bool says_notes = false);
-
 // Whether flags ask for a picture of each of several frames: a range, or a whole turntable.
 [[nodiscard]] bool asks_for_frames(const SceneOptions& options);
 

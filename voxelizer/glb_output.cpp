@@ -11,6 +11,7 @@
 #include <stb_image_write.h>
 #include <nlohmann/json.hpp>
 
+#include "base/assert.h"
 #include "base/error.h"
 #include "base/json.h"
 #include "scene/vox_material.h"
@@ -25,6 +26,12 @@ using Json = nlohmann::ordered_json;
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963,
               kNearest = 9728, kClampToEdge = 33071;
 constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbJsonChunk = 0x4E4F534A, kGlbBinChunk = 0x004E4942;
+
+// Lengths in the file are words of 32 bits. Four corners of position, normal and uv, and six indices; the
+// JSON of 255 materials and the palette stay far below the rest.
+constexpr std::uint64_t kMaxGlbBytes = 0xFFFFFFFF, kBytesPerQuad = 4 * (3 + 3 + 2) * 4 + 6 * 4,
+                        kMaxOtherBytes = std::uint64_t{1} << 20;
+constexpr std::uint64_t kMaxQuads = (kMaxGlbBytes - kMaxOtherBytes) / kBytesPerQuad;
 
 void put_word(std::vector<std::byte>& bytes, std::uint32_t word) {
     for (unsigned shift = 0; shift < 32; shift += 8)
@@ -69,11 +76,11 @@ GlbLook look_of_entry(const Material& material) {
 Json material_json(const GlbLook& look) {
     Json material = {{"pbrMetallicRoughness",
                       {{"baseColorTexture", {{"index", 0}}},
-                       {"baseColorFactor", {1.0, 1.0, 1.0, 1.0 - look.transmission}},
+                       {"baseColorFactor", {1.0, 1.0, 1.0, 1.0}},
                        {"metallicFactor", look.metallic},
                        {"roughnessFactor", look.roughness}}}};
     if (look.transmission > 0.0f) {
-        material["alphaMode"] = "BLEND";
+        material["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = look.transmission;
         material["extensions"]["KHR_materials_ior"]["ior"] = look.ior;
     }
     if (look.emits) {
@@ -154,7 +161,7 @@ class GlbWriter {
         const std::size_t material = add("materials", material_json(look));
         root_["meshes"][0]["primitives"].push_back(
             {{"attributes", attributes}, {"indices", index}, {"material", material}});
-        if (look.transmission > 0.0f) extensions_.insert("KHR_materials_ior");
+        if (look.transmission > 0.0f) extensions_.insert({"KHR_materials_ior", "KHR_materials_transmission"});
         if (look.emits) extensions_.insert("KHR_materials_emissive_strength");
     }
 
@@ -165,8 +172,7 @@ class GlbWriter {
         std::string text = json_text(root_);
         text.resize((text.size() + 3) / 4 * 4, ' ');
         const std::uint64_t total = 12 + 8 + text.size() + 8 + data_.size();
-        if (total > 0xFFFFFFFF)
-            throw Error(ExitCode::cannot_write, "the mesh is too large for one .glb file: over 4 GiB");
+        VX_ASSERT(total <= kMaxGlbBytes);
         std::vector<std::byte> glb;
         glb.reserve(total);
         for (const std::size_t word : {std::size_t{kGlbMagic}, std::size_t{2}, std::size_t{total},
@@ -218,7 +224,7 @@ GlbOutput glb_of(const VoxFile& file) {
     if (cells.empty()) throw Error(ExitCode::input_refused, "no voxel is visible");
     GlbOutput output{.voxels = cells.size()};
     std::map<GlbLook, std::vector<VoxelQuad>> parts;
-    for (const VoxelQuad& quad : greedy_quads(std::move(cells), is_clear)) {
+    for (const VoxelQuad& quad : greedy_quads(std::move(cells), is_clear, kMaxQuads)) {
         parts[look_of_entry(materials[quad.index])].push_back(quad);
         ++output.quads;
     }

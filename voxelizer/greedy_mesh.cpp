@@ -140,7 +140,8 @@ std::vector<IndexedCell> cells_of_file(const VoxFile& file) {
     return cells;
 }
 
-std::vector<VoxelQuad> greedy_quads(std::vector<IndexedCell> cells, const std::array<bool, 256>& is_clear) {
+std::vector<VoxelQuad> greedy_quads(std::vector<IndexedCell> cells, const std::array<bool, 256>& is_clear,
+                                    std::size_t max_quads) {
     std::vector<VoxelQuad> quads;
     for (int axis = 0; axis < 3; ++axis) {
         std::ranges::sort(cells, {}, [axis](const IndexedCell& c) { return face_order(c.cell, axis); });
@@ -153,6 +154,9 @@ std::vector<VoxelQuad> greedy_quads(std::vector<IndexedCell> cells, const std::a
                        runs[i].row == runs[first].row)
                     ++i;
                 maker.add_row(std::span(runs).subspan(first, i - first));
+                if (quads.size() > max_quads)
+                    throw Error(ExitCode::input_refused,
+                                fmt::format("over {} rectangles are too many for one mesh", max_quads));
             }
         }
     }

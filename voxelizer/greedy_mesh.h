@@ -34,7 +34,9 @@ struct VoxelQuad {
 [[nodiscard]] std::vector<IndexedCell> cells_of_file(const VoxFile& file);
 
 // The faces of the cells, which come once each. Those of an index that is clear show what lies behind them.
+// Throws Error(input_refused) as soon as there are over `max_quads`.
 [[nodiscard]] std::vector<VoxelQuad> greedy_quads(std::vector<IndexedCell> cells,
-                                                  const std::array<bool, 256>& is_clear);
+                                                  const std::array<bool, 256>& is_clear,
+                                                  std::size_t max_quads);
 
 }  // namespace voxilux

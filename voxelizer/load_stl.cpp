@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "base/checked_cast.h"
 #include "base/printable.h"
@@ -23,11 +24,21 @@ std::uint32_t stl_word(std::span<const std::byte> bytes, std::size_t at) {
     return word;
 }
 
-// Titles of binary files begin with "solid" in places where only those of texts should.
-bool is_stl_binary(std::span<const std::byte> bytes) {
-    return bytes.size() >= kStlHeadBytes &&
-           bytes.size() ==
-               kStlHeadBytes + kStlTriangleBytes * std::uint64_t{stl_word(bytes, kStlHeadBytes - 4)};
+// Where the triangles of a binary file end; nothing for text. Titles of binary files begin with "solid", too,
+// and some programs add bytes; a number of triangles that is made of letters, though, needs gigabytes.
+std::optional<std::uint64_t> stl_binary_end(std::span<const std::byte> bytes) {
+    if (bytes.size() < kStlHeadBytes) return std::nullopt;
+    const std::uint64_t triangles = stl_word(bytes, kStlHeadBytes - 4);
+    const std::uint64_t end = kStlHeadBytes + kStlTriangleBytes * triangles;
+    const bool fits = triangles == 0 ? bytes.size() == end : bytes.size() >= end;
+    return fits ? std::optional(end) : std::nullopt;
+}
+
+std::string lower_case(std::string_view word) {
+    std::string lower(word);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
 }
 
 class StlMesh {
@@ -70,17 +81,17 @@ void read_stl_binary(std::span<const std::byte> bytes, StlMesh& mesh) {
     }
 }
 
-// "facet normal", "outer loop" and what ends them say nothing that three vertices do not.
+// In any case. "facet normal", "outer loop" and what ends them say nothing that three vertices do not.
 void read_stl_text(std::string_view text, StlMesh& mesh) {
     constexpr std::string_view kOther[] = {"solid", "facet", "outer", "endloop", "endfacet", "endsolid"};
-    ObjLines lines(text);
-    if (!lines.next_line() || lines.next_word() != "solid")
+    ObjLines lines(text, LineRules::plain);
+    if (text.find('\0') != text.npos || !lines.next_line() || lower_case(lines.next_word()) != "solid")
         throw MeshFault(
             "not an STL file: neither text that begins with 'solid' nor binary of the right size");
     glm::dvec3 corners[3];
     int known = 0;
     while (lines.next_line()) {
-        const std::string_view key = lines.next_word();
+        const std::string key = lower_case(lines.next_word());
         if (key == "vertex") {
             if (known == 3) lines.refuse("a facet has more than three vertices");
             for (int axis = 0; axis < 3; ++axis)
@@ -102,10 +113,12 @@ void read_stl_text(std::string_view text, StlMesh& mesh) {
 Mesh load_stl(std::span<const std::byte> bytes, const std::filesystem::path&, const MeshRequest& request,
               MeshNotes& notes) {
     StlMesh mesh(request, notes);
-    if (is_stl_binary(bytes))
-        read_stl_binary(bytes, mesh);
-    else
+    if (const auto end = stl_binary_end(bytes)) {
+        if (*end < bytes.size()) ++notes["bytes after the last triangle are left out"];
+        read_stl_binary(bytes.first(*end), mesh);
+    } else {
         read_stl_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, mesh);
+    }
     return mesh.take();
 }
 

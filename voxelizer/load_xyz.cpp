@@ -14,12 +14,11 @@ bool is_code(double value) {
     return value >= 0.0 && value <= 255.0 && value == std::floor(value);
 }
 
-// The numbers of a line, at most six of them.
+// How many numbers a line has, and the first six of them.
 std::size_t read_point(ObjLines& lines, double (&numbers)[6]) {
     std::size_t count = 0;
-    for (auto number = lines.next_number(); number && count < std::size(numbers);
-         number = lines.next_number())
-        numbers[count++] = *number;
+    for (auto number = lines.next_number(); number; number = lines.next_number(), ++count)
+        if (count < std::size(numbers)) numbers[count] = *number;
     return count;
 }
 
@@ -43,7 +42,8 @@ Mesh load_xyz(std::span<const std::byte> bytes, const std::filesystem::path&, co
         mesh.positions.emplace_back(n[0], n[1], n[2]);
         has_colours = has_colours && count == 6 && is_code(n[3]) && is_code(n[4]) && is_code(n[5]);
         if (!has_colours) {
-            if (count > 3) ++notes["columns after z that are no three colours from 0 to 255 are left out"];
+            if (count > 3 || !mesh.colors.empty())
+                ++notes["colours are left out: a line is not x y z and three whole numbers from 0 to 255"];
             continue;
         }
         mesh.colors.emplace_back(linear_from_srgb(static_cast<std::uint8_t>(n[3])),

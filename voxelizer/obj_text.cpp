@@ -22,8 +22,8 @@ std::string_view without_blanks(std::string_view text) {
 
 }  // namespace
 
-ObjLines::ObjLines(std::string_view text)
-    : text_(text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0)) {}
+ObjLines::ObjLines(std::string_view text, LineRules rules)
+    : text_(text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0)), rules_(rules) {}
 
 bool ObjLines::next_line() {
     while (at_ < text_.size()) {
@@ -34,11 +34,11 @@ bool ObjLines::next_line() {
             line_ = without_blanks(text_.substr(at_, end - at_));
             at_ = end + 1;
             ++number_;
-            is_joined = line_.ends_with('\\');
+            is_joined = rules_ == LineRules::obj && line_.ends_with('\\');
             if (is_joined) joined_.append(line_.substr(0, line_.size() - 1)).push_back(' ');
         }
         if (!joined_.empty()) line_ = joined_.append(is_joined ? std::string_view() : line_);
-        line_ = without_blanks(line_.substr(0, line_.find('#')));
+        if (rules_ == LineRules::obj) line_ = without_blanks(line_.substr(0, line_.find('#')));
         if (!line_.empty()) return true;
     }
     return false;

@@ -8,11 +8,14 @@
 
 namespace voxilux {
 
-// The words of an OBJ or MTL file, line by line, without comments. A backslash at the end of a line joins the
-// next one to it. A byte order mark before the text is no part of it.
+// In OBJ, MTL and .xyz files a # begins a comment, and a backslash at the end of a line joins the next one to
+// it; plain text has neither.
+enum class LineRules : std::uint8_t { obj, plain };
+
+// The words of a text, line by line, without comments. A byte order mark before the text is no part of it.
 class ObjLines {
   public:
-    explicit ObjLines(std::string_view text);
+    explicit ObjLines(std::string_view text, LineRules rules = LineRules::obj);
     ObjLines(const ObjLines&) = delete;  // line_ may view joined_
     ObjLines& operator=(const ObjLines&) = delete;
 
@@ -35,6 +38,7 @@ class ObjLines {
 
   private:
     std::string_view text_;
+    LineRules rules_;
     std::string_view line_;
     std::string joined_;
     std::size_t at_ = 0;

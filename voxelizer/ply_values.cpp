@@ -114,7 +114,7 @@ double full_scale(PlyType type) {
 
 PlyHeader read_ply_header(std::span<const std::byte> file) {
     PlyHeader header;
-    ObjLines lines(header_text(file, header.bytes));
+    ObjLines lines(header_text(file, header.bytes), LineRules::plain);
     (void)lines.next_line();  // "ply"
     bool has_form = false;
     std::size_t properties = 0;

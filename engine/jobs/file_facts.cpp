@@ -173,8 +173,10 @@ FileFacts file_facts(const std::filesystem::path& path) {
     if (has_ending(path, ".toml")) return scene_facts(path);
     const bool is_checkpoint = has_ending(path, ".part");  // FILE.exr.part
     if (is_exr(path) || is_png(path) || is_checkpoint) return image_facts(path);
-    throw Error(ExitCode::input_refused,
-                fmt::format("{}: info reads .vox, .toml, .exr and .png files", path.string()));
+    throw Error(
+        ExitCode::input_refused,
+        fmt::format("{}: info reads .vox, .toml, .exr and .png files, voxels of other formats and meshes",
+                    path.string()));
 }
 
 }  // namespace voxilux

@@ -53,6 +53,16 @@ TEST_F(InfoTool, file_gets_json_beside_the_text) {
     EXPECT_EQ(nlohmann::json::parse(in)["version"], 200);
 }
 
+TEST_F(InfoTool, imported_file_has_the_note_of_render) {
+    const std::string file = write("points.xyz", "0 0 0\n1 1 1\n");
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_info({.file = file}), 0);
+    EXPECT_NE(testing::internal::GetCapturedStdout(), "");
+    const std::string note = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(note.find("note: " + file + ": 2 points "), 0u) << note;
+}
+
 TEST_F(InfoTool, refusals_name_the_file_and_the_reason) {
     const auto reason_of = [](const std::string& file) -> std::string {
         try {
@@ -67,7 +77,8 @@ TEST_F(InfoTool, refusals_name_the_file_and_the_reason) {
     EXPECT_EQ(reason_of(broken),
               broken + ": at byte 4: the file needs 4 bytes for its version but has 0 left");
     const std::string other = write("picture.bmp", "");
-    EXPECT_EQ(reason_of(other), other + ": info reads .vox, .toml, .exr and .png files");
+    EXPECT_EQ(reason_of(other),
+              other + ": info reads .vox, .toml, .exr and .png files, voxels of other formats and meshes");
     EXPECT_NE(reason_of((folder_ / "absent.vox").string()).find("absent.vox"), std::string::npos);
 }
 

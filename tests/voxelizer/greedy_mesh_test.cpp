@@ -21,6 +21,7 @@ using UnitFace = std::array<int, 6>;  // cell behind it, axis, whether it looks 
 using CellColours = std::map<std::array<int, 3>, glm::u8vec3>;
 
 constexpr std::array<bool, 256> kNoneClear{};
+constexpr std::size_t kManyQuads = 10000;
 
 std::vector<IndexedCell> random_indexed(glm::ivec3 size, std::uint32_t seed, int indices,
                                         unsigned share_of_8) {
@@ -72,16 +73,28 @@ TEST(GreedyMesh, covers_every_exposed_face_once) {
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
         const auto cells = random_indexed({7, 5, 6}, seed, 3, 1 + seed % 7);
         for (const auto& clear : {kNoneClear, is_clear})
-            EXPECT_EQ(unit_faces(greedy_quads(cells, clear)), exposed_faces(cells, clear)) << seed;
+            EXPECT_EQ(unit_faces(greedy_quads(cells, clear, kManyQuads)), exposed_faces(cells, clear))
+                << seed;
     }
 }
 
 TEST(GreedyMesh, box_has_six_quads_and_one_that_misses_a_corner_has_more) {
     std::vector<IndexedCell> box = random_indexed({9, 4, 5}, 1, 1, 8);
     ASSERT_EQ(box.size(), 180u);
-    EXPECT_EQ(greedy_quads(box, kNoneClear).size(), 6u);
+    EXPECT_EQ(greedy_quads(box, kNoneClear, kManyQuads).size(), 6u);
     box.pop_back();
-    EXPECT_EQ(greedy_quads(box, kNoneClear).size(), 6u + 6u);
+    EXPECT_EQ(greedy_quads(box, kNoneClear, kManyQuads).size(), 6u + 6u);
+}
+
+TEST(GreedyMesh, more_quads_than_a_file_holds_are_refused) {
+    const std::vector<IndexedCell> box = random_indexed({9, 4, 5}, 1, 1, 8);
+    EXPECT_EQ(greedy_quads(box, kNoneClear, 6).size(), 6u);
+    try {
+        (void)greedy_quads(box, kNoneClear, 5);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::input_refused);
+    }
 }
 
 // The quads of the .glb file moved a quarter of a voxel inwards, so that each lies inside the cells that it
@@ -198,14 +211,20 @@ TEST(GlbOutput, looks_come_back) {
     for (const MeshMaterial& m : mesh.materials) {
         if (m.metallic == 1.0f)
             seen.insert(m.roughness == 0.25f ? "metal" : "?");
-        else if (m.alpha_mode == AlphaMode::blend)
-            seen.insert(m.base_color.a == 0.25f && m.ior == 1.4f ? "glass" : "?");
+        else if (m.transmission > 0.0f)
+            seen.insert(m.transmission == 0.75f && m.ior == 1.4f && m.alpha_mode == AlphaMode::opaque
+                            ? "glass"
+                            : "?");
         else if (m.emissive.r > 0.0f)
             seen.insert(std::abs(m.emissive.r - 4.0f) < 1e-5f ? "emit" : "?");
         else
             seen.insert(m.roughness == 1.0f ? "diffuse" : "?");
     }
     EXPECT_EQ(seen, (std::set<std::string>{"diffuse", "emit", "glass", "metal"}));
+    const std::vector<std::byte> glb = glb_of(file).bytes;
+    const std::string_view text(reinterpret_cast<const char*>(glb.data()), glb.size());
+    const std::string_view used = text.substr(text.find("extensionsUsed"));
+    EXPECT_NE(used.substr(0, used.find(']')).find("KHR_materials_transmission"), std::string_view::npos);
 }
 
 TEST(GlbOutput, file_without_a_visible_voxel_is_refused) {

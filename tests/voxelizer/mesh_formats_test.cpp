@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <map>
 #include <random>
 
@@ -89,6 +90,31 @@ TEST(MeshFormats, quads_are_cut_and_faces_of_two_corners_are_noted) {
     const Mesh mesh = load_ply(std::as_bytes(std::span(text)), "", {}, notes);
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(notes.size(), 1u);
+}
+
+TEST(MeshFormats, backslashes_and_hashes_are_text_in_ply_and_stl) {
+    const PlainMesh mesh = random_mesh(2);
+    std::string stl = stl_text(mesh), text = ply(mesh, PlyWriting::text);
+    stl.insert(stl.find('\n'), " C:\\models\\#1\\");
+    stl.insert(stl.find("vertex"), "outer loop\\\n");
+    text.insert(text.find("element"), "comment C:\\models\\\n");
+    EXPECT_EQ(corners_of(loaded_by(load_stl, stl)), expected_corners(mesh, false));
+    EXPECT_EQ(corners_of(loaded_by(load_ply, text)), expected_corners(mesh, true));
+}
+
+TEST(MeshFormats, stl_words_may_be_upper_case_and_binary_files_longer) {
+    const PlainMesh mesh = random_mesh(2);
+    std::string text = stl_text(mesh), binary = stl_binary(mesh);
+    for (char& c : text)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(corners_of(loaded_by(load_stl, text)), expected_corners(mesh, false));
+    binary.replace(0, 5, "solid");
+    binary += "more";
+    MeshNotes notes;
+    const Mesh loaded = load_stl(std::as_bytes(std::span(binary)), "", {}, notes);
+    EXPECT_EQ(corners_of(loaded), expected_corners(mesh, false));
+    EXPECT_EQ(notes.size(), 1u);
+    EXPECT_THROW((void)loaded_by(load_stl, binary.substr(0, binary.size() - 5)), MeshFault) << "cut off";
 }
 
 TEST(MeshFormats, text_that_says_nonsense_is_refused) {
@@ -206,6 +232,21 @@ TEST(PointClouds, columns_that_are_no_colours_leave_white_and_a_note) {
     EXPECT_TRUE(mesh.colors.empty());
     EXPECT_EQ(mesh.positions.size(), 2u);
     EXPECT_EQ(notes.size(), 1u);
+}
+
+TEST(PointClouds, lines_of_other_than_six_numbers_have_no_colours) {
+    const std::string six = "0 0 0 10 20 30\n";
+    for (const auto& [text, noted] : {std::pair{six + "1 0 0 7 10 20 30\n", true},
+                                      {"1 0 0 10 20 30 7\n", true},
+                                      {"1 0 0 99\n", true},
+                                      {six + "1 0 0\n", true},
+                                      {"1 0 0\n", false}}) {
+        MeshNotes notes;
+        const Mesh mesh = load_xyz(std::as_bytes(std::span(text)), "", {}, notes);
+        EXPECT_TRUE(mesh.colors.empty()) << text;
+        EXPECT_EQ(notes.size(), noted ? 1u : 0u) << text;
+    }
+    EXPECT_EQ(loaded_by(load_xyz, six).colors.size(), 1u);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "open_input.h"
 #include "parse_values.h"
 #include "python.h"
 #include "render/render.h"

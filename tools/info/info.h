@@ -15,7 +15,7 @@ struct InfoOptions {
 
 void add_info_flags(Flags& flags, InfoOptions& options);
 
-// Prints what is in a .vox file or what is made one, a scene file, an EXR or a PNG on standard output.
+// Prints what is in a .vox, .toml, .exr or .png file, voxels of another format or a mesh on standard output.
 // Returns the exit code; throws Error(input_refused) when the file is refused or of a kind that we do not
 // know.
 int run_info(const InfoOptions& options);

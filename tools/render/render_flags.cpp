@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/print.h"
+#include "open_input.h"
 #include "parse_values.h"
 #include "render/render.h"
 #include "standard_streams.h"

@@ -11,6 +11,7 @@
 #include "jobs/effect_price.h"
 #include "jobs/price_list/make_price_list.h"
 #include "jobs/price_list/price_list.h"
+#include "open_input.h"
 #include "parse_values.h"
 #include "scene/scene_hash.h"
 #include "tradeoff/page_maker.h"

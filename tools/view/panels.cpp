@@ -110,7 +110,7 @@ void draw_status(ViewState& state) {
     } else {
         text("drop a .vox, a .toml or a mesh here");
     }
-    if (!files_to_open(state.memory).empty()) draw_files(state);
+    if (!state.memory.recent.empty()) draw_files(state);
     if (state.has_newer_file) text("somebody wrote the file: it is loaded when nothing is unsaved");
     if (!state.message.empty()) text(state.message);
     end_panel(PanelSide::left, state);

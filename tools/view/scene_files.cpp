@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "open_input.h"
+#include "standard_streams.h"
 #include "view/mesh_drop.h"
 #include "view/picture_look.h"
 #include "view/quality_choice.h"
@@ -20,10 +22,10 @@ bool is_same_camera(const std::optional<Camera>& a, const std::optional<Camera>&
     return a && b ? is_same_view(*a, *b) : a.has_value() == b.has_value();
 }
 
-// A .vox file names no size, but flags may.
+// Of the inputs only scene files name a size; flags may, too.
 bool names_size(const SceneOptions& options) {
     const auto is_size = [](const std::string& text) { return text.starts_with("render.size="); };
-    return !has_ending(options.input, ".vox") || options.names_size || options.pixels_per_voxel ||
+    return has_ending(options.input, ".toml") || options.names_size || options.pixels_per_voxel ||
            std::ranges::any_of(options.overrides, is_size);
 }
 
@@ -45,7 +47,8 @@ Scene first_scene(const ViewCommand& command, const WindowMemory& memory) {
     return scene;
 }
 
-void SceneFiles::show(Scene scene, const std::string& input) {
+void SceneFiles::show(Scene scene, const std::string& input, const FileWatch& watch) {
+    const bool is_file = input != kStandardStream;
     const bool had_shadow_only = scene.ground.shadow_only;
     if (window_.size().x > 0) scene.settings.size = window_.size();
     const std::optional<Camera> own_camera = scene.camera;
@@ -60,20 +63,21 @@ void SceneFiles::show(Scene scene, const std::string& input) {
     state_.box = scene_bounds(still);
     state_.view = state_.home = view_of(*still.camera, state_.box);
     own_camera_ = own_camera;
-    watch_ = FileWatch(input);
+    watch_ = is_file ? watch : FileWatch();
     playback_ = std::move(playback);
     playback_.start(state_);
     window_.set_title("voxilux " + state_.input.filename().string());
     const QualityPreset* const chosen = std::exchange(state_.quality, command_.scene.quality);
     if (chosen != nullptr && chosen != state_.quality) choose_quality(*chosen, state_);
-    add_recent(state_.input, state_.memory);
+    if (is_file) add_recent(state_.input, state_.memory);
     remember();
 }
 
 void SceneFiles::load(const std::string& file) {
     SceneOptions options = command_.scene;
     options.input = file;
-    show(load_scene_with(options), file);
+    const FileWatch watch(file);  // from before it is read
+    show(load_scene_with(options), file, watch);
 }
 
 // The camera stays unless the file has another one, or had.

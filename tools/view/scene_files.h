@@ -28,8 +28,9 @@ class SceneFiles {
                ViewState& state)
         : command_(command), memory_file_(std::move(memory_file)), window_(window), state_(state) {}
 
-    // Throws as LivePicture::load.
-    void show(Scene scene, const std::string& input);
+    // `watch` began before the input was read. Standard input is neither watched nor remembered. Throws as
+    // LivePicture::load.
+    void show(Scene scene, const std::string& input, const FileWatch& watch);
 
     // What somebody drops or chooses: a scene is shown, a mesh a little later, and an image is compared
     // with.

@@ -35,6 +35,7 @@ class Session {
           script_(command.script.empty() ? ViewScript{} : read_script(command.script)),
           memory_file_(memory_file_of(command)),
           memory_(read_memory(memory_file_)),
+          watch_(command.scene.input),
           scene_(first_scene(command, memory_)),
           window_("voxilux", scene_.settings.size),
           device_(open_device(device_request())),
@@ -48,7 +49,7 @@ class Session {
         picture_.set_waits(is_scripted());
         state_.memory = std::move(memory_);
         state_.memory.frame_ms = command.frame_ms.value_or(state_.memory.frame_ms);
-        if (!command.scene.input.empty()) files_.show(std::move(scene_), command.scene.input);
+        if (!command.scene.input.empty()) files_.show(std::move(scene_), command.scene.input, watch_);
     }
 
     int run() {
@@ -207,6 +208,7 @@ class Session {
     ScriptPlayer script_;
     std::filesystem::path memory_file_;
     WindowMemory memory_;  // of the last run, until there is a state
+    FileWatch watch_;      // of the first input
     Scene scene_;
     Window window_;
     Device device_;

@@ -83,11 +83,12 @@ std::vector<std::string> files_to_open(const WindowMemory& memory) {
     if (memory.recent.empty()) return {};
     std::vector<std::string> files(memory.recent.begin() + 1, memory.recent.end());
     std::vector<std::string> siblings;
-    std::error_code ignored;
+    std::error_code error;  // of a folder that is gone or cannot be read: the list ends
     const std::filesystem::path folder = std::filesystem::path(memory.recent.front()).parent_path();
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().string();
-        if (is_scene(entry.path()) && std::ranges::find(memory.recent, name) == memory.recent.end())
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().string();
+        if (is_scene(entry->path()) && std::ranges::find(memory.recent, name) == memory.recent.end())
             siblings.push_back(name);
     }
     std::ranges::sort(siblings);

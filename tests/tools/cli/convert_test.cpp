@@ -187,6 +187,8 @@ TEST(Convert, standard_streams_hold_vox_files_and_scenes) {
     EXPECT_EQ(shell("printf '[[model]]\\nfile = \"a.vox\"\\n' | '" VX_BINARY "' plan - > plan_scene"), 0);
     EXPECT_NE(shell("printf 'nonsense' | '" VX_BINARY "' plan -"), 0);
     EXPECT_EQ(bytes_of(folder / "err").find("voxilux: standard input:1:"), 0u) << bytes_of(folder / "err");
+    EXPECT_EQ(WEXITSTATUS(shell("'" VX_BINARY "' plan - < /dev/null")), 3);
+    EXPECT_EQ(bytes_of(folder / "err"), "voxilux: standard input is empty\n");
     EXPECT_NE(shell("printf 'VOX x' | '" VX_BINARY "' convert - x.vox"), 0);
     EXPECT_EQ(bytes_of(folder / "err").find("voxilux: standard input: at byte "), 0u);
 }

@@ -41,6 +41,21 @@ TEST(WindowState, size_frame_time_and_files_come_back) {
     EXPECT_EQ(Json::parse(bytes_of(scratch / "state.json"))["frame_ms"], 20.0);
 }
 
+TEST(WindowState, standard_input_takes_the_size_and_is_not_remembered) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    write_file_atomically(scratch.path() / "hut.vox", hut());
+    write_text(scratch / "state.json", R"({"size": [200, 120], "frame_ms": 33, "recent": ["/a.vox"]})");
+    write_text(scratch / "script.toml", film(0, "film.exr"));
+    const std::string command = "cd '" + scratch.path().string() +
+                                "' && '" VX_BINARY
+                                "' view - --spp 1 --script script.toml --state state.json < hut.vox 2> err";
+    EXPECT_EQ(std::system(command.c_str()), 0) << bytes_of(scratch / "err");
+    const Json state = Json::parse(bytes_of(scratch / "state.json"));
+    EXPECT_EQ(state["size"], Json({200, 120}));
+    EXPECT_EQ(state["recent"], Json({"/a.vox"}));
+}
+
 TEST(WindowState, damaged_file_is_ignored_in_one_line) {
     SKIP_UNLESS_DISPLAY();
     for (const char* const damaged : {"{", "[]", "{\"size\": [1], \"frame_ms\": 3, \"recent\": []}",

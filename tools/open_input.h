@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene_options.h"
+
+namespace voxilux {
+
+// The scene with the flags applied. Throws Error(input_refused) for a file.
+// An input that is neither .vox nor .toml is made voxels; with `says_notes` standard error says what was
+// done.
+[[nodiscard]] Scene load_scene_with(const SceneOptions& options, bool says_notes = false);
+
+}  // namespace voxilux
