@@ -49,7 +49,7 @@ TEST(WindowState, standard_input_takes_the_size_and_is_not_remembered) {
     write_text(scratch / "script.toml", film(0, "film.exr"));
     const std::string command = "cd '" + scratch.path().string() +
                                 "' && '" VX_BINARY
-                                "' view - --spp 1 --script script.toml --state state.json < hut.vox 2> err";
+                                "' view - --spp 3 --script script.toml --state state.json < hut.vox 2> err";
     EXPECT_EQ(std::system(command.c_str()), 0) << bytes_of(scratch / "err");
     const Json state = Json::parse(bytes_of(scratch / "state.json"));
     EXPECT_EQ(state["size"], Json({200, 120}));
