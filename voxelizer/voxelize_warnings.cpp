@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "voxelizer/vox_output.h"
+
 namespace voxilux {
 namespace {
 

@@ -31,7 +31,9 @@ std::vector<IndexedCell> random_indexed(glm::ivec3 size, std::uint32_t seed, int
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x)
                 if (random() % 8 < share_of_8)
-                    cells.push_back({{x - 3, y, z - 70}, static_cast<std::uint8_t>(1 + random() % indices)});
+                    cells.push_back(
+                        {{x - 3, y, z - 70},
+                         static_cast<std::uint8_t>(1 + random() % static_cast<unsigned>(indices))});
     return cells;
 }
 
