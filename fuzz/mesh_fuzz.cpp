@@ -3,10 +3,9 @@
 // whose indices lie inside its lists.
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
+#include "require.h"
 #include "support/allocation_counter.h"
 #include "voxelizer/load_gltf.h"
 #include "voxelizer/load_mtl.h"
@@ -30,12 +29,6 @@ constexpr MeshLimits kLimits{.vertices = 1 << 16,
                              .file_bytes = 1 << 16};
 constexpr std::size_t kFixedBytes = std::size_t{48} << 20;
 constexpr std::size_t kBytesPerByte = 1024;  // tinygltf's material of 2 kB takes 3 bytes of JSON
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "property broken: %s\n", what);
-    std::abort();
-}
 
 bool is_finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);

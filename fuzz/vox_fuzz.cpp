@@ -3,14 +3,13 @@
 // and read again equal.
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <span>
 
 #include "formats/vox_info.h"
 #include "formats/vox_objects.h"
 #include "formats/vox_read.h"
 #include "formats/vox_write.h"
+#include "require.h"
 #include "scene/vox_instances.h"
 #include "scene/vox_scene.h"
 #include "scene/vox_settings.h"
@@ -23,12 +22,6 @@ namespace {
 // inputs can show a breach.
 constexpr std::size_t kTableBytes = std::size_t{8} << 20;
 constexpr std::size_t kBytesPerByte = 64;
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "property broken: %s\n", what);
-    std::abort();
-}
 
 void check_rewrite(const voxilux::VoxFile& file) {
     const auto bytes = voxilux::write_vox(file);

@@ -2,11 +2,10 @@
 // memory bound and either refuses with a byte offset or gives cells that spread no further than promised.
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <span>
 
 #include "formats/voxel_cells.h"
+#include "require.h"
 #include "support/allocation_counter.h"
 
 namespace {
@@ -14,12 +13,6 @@ namespace {
 // Small, so that small inputs can show a breach.
 constexpr std::size_t kMost = std::size_t{1} << 16;
 constexpr std::size_t kTextBytes = 4096;
-
-void require(bool holds, const char* what) {
-    if (holds) return;
-    std::fprintf(stderr, "property broken: %s\n", what);
-    std::abort();
-}
 
 }  // namespace
 
