@@ -62,7 +62,7 @@ struct Shard {
 // A number of stops, or "auto": none.
 [[nodiscard]] std::optional<float> parse_exposure(std::string_view text);
 
-// filmic or plain; auto, never or json.
+// on or off; filmic or plain; auto, never or json.
 [[nodiscard]] bool parse_denoise(std::string_view choice);
 [[nodiscard]] ToneMap parse_tone(std::string_view name);
 [[nodiscard]] ProgressMode parse_progress(std::string_view name);

@@ -64,7 +64,7 @@ std::string importable_endings() {
     std::string endings;
     for (const VoxelFormat& format : voxel_formats())
         endings += fmt::format("{}, ", format.ending);
-    return endings + fmt::format("{}", fmt::join(mesh_endings(), ", "));
+    return endings + mesh_endings();
 }
 
 ImportedVoxels import_voxels(const std::filesystem::path& path, const GridRequest& grid) {

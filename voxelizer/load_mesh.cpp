@@ -18,18 +18,22 @@
 namespace voxilux {
 namespace {
 
-using LoadMesh = Mesh (*)(std::span<const std::byte>, const std::filesystem::path& folder, const MeshRequest&,
-                          MeshNotes&);
+struct MeshFormat {
+    std::string_view ending;
+    Mesh (*load)(std::span<const std::byte>, const std::filesystem::path& folder, const MeshRequest&,
+                 MeshNotes&);
+    bool may_be_points = false;  // without triangles
+};
 
-constexpr std::string_view kEndings[] = {".gltf", ".glb", ".obj", ".stl", ".ply", ".xyz"};
-constexpr LoadMesh kLoaders[] = {load_gltf, load_gltf, load_obj, load_stl, load_ply, load_xyz};
-static_assert(std::size(kEndings) == std::size(kLoaders));
+constexpr MeshFormat kMeshFormats[] = {{".gltf", load_gltf},     {".glb", load_gltf},
+                                       {".obj", load_obj},       {".stl", load_stl},
+                                       {".ply", load_ply, true}, {".xyz", load_xyz, true}};
 
-// The place of a file's ending in kEndings, or their number.
-std::size_t kind_of(const std::filesystem::path& path) {
-    const auto found =
-        std::ranges::find_if(kEndings, [&](std::string_view ending) { return has_ending(path, ending); });
-    return static_cast<std::size_t>(found - std::begin(kEndings));
+// That of a file's ending, or nullptr.
+const MeshFormat* mesh_format_of(const std::filesystem::path& path) {
+    const auto found = std::ranges::find_if(
+        kMeshFormats, [&](const MeshFormat& format) { return has_ending(path, format.ending); });
+    return found == std::end(kMeshFormats) ? nullptr : found;
 }
 
 // Texture coordinates that no texture reads would only take memory.
@@ -47,12 +51,15 @@ void drop_unread_coordinates(Mesh& mesh) {
 
 }  // namespace
 
-std::span<const std::string_view> mesh_endings() {
-    return kEndings;
+std::string mesh_endings() {
+    std::string endings;
+    for (const MeshFormat& format : kMeshFormats)
+        endings += fmt::format("{}{}", endings.empty() ? "" : ", ", format.ending);
+    return endings;
 }
 
 bool is_mesh(const std::filesystem::path& path) {
-    return kind_of(path) < std::size(kEndings);
+    return mesh_format_of(path) != nullptr;
 }
 
 Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
@@ -60,21 +67,21 @@ Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request) {
         return Error(ExitCode::input_refused,
                      fmt::format("{}: {}", printable(path.string(), kUncut), printable(reason)));
     };
-    if (!is_mesh(path)) throw refuse(fmt::format("not a mesh: {} files are read", fmt::join(kEndings, ", ")));
+    const MeshFormat* const format = mesh_format_of(path);
+    if (format == nullptr) throw refuse(fmt::format("not a mesh: {} files are read", mesh_endings()));
     const std::vector<std::byte> bytes = read_file(path, request.limits.file_bytes);
     MeshNotes notes;
     Mesh mesh;
     try {
-        mesh = kLoaders[kind_of(path)](bytes, path.parent_path(), request, notes);
+        mesh = format->load(bytes, path.parent_path(), request, notes);
     } catch (const MeshFault& fault) {
         throw refuse(fault.what());
     }
     drop_unread_coordinates(mesh);
     mesh.warnings = note_lines(notes);
-    const bool may_be_cloud = has_ending(path, ".ply") || has_ending(path, ".xyz");
-    if (mesh.triangles.empty() && may_be_cloud && !request.allows_points)
+    if (mesh.triangles.empty() && format->may_be_points && !request.allows_points)
         throw refuse("a cloud of points; 'voxilux convert' makes it voxels");
-    if (mesh.triangles.empty() && !may_be_cloud)
+    if (mesh.triangles.empty() && !format->may_be_points)
         throw refuse(mesh.warnings.empty() ? "no triangles"
                                            : "no triangles are left: " + mesh.warnings.front());
     if (request.is_strict && !mesh.warnings.empty()) throw refuse(mesh.warnings.front() + " (--strict)");

@@ -3,9 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <stdexcept>
-#include <string_view>
+#include <string>
 
 #include "voxelizer/mesh.h"
 
@@ -28,12 +27,12 @@ struct MeshRequest {
     MeshLimits limits;
 };
 
-// The endings of files that load_mesh reads, and whether a file has one of them.
-[[nodiscard]] std::span<const std::string_view> mesh_endings();
+// The endings of files that load_mesh reads, as ".gltf, .glb, ...", and whether a file has one of them.
+[[nodiscard]] std::string mesh_endings();
 [[nodiscard]] bool is_mesh(const std::filesystem::path& path);
 
-// The triangles, materials and textures of a mesh file, chosen by its ending. Vertices that
-// are not finite take their triangles with them, counted in the warnings. Throws Error(input_refused) with
+// The triangles, materials and textures of a mesh file, chosen by its ending. Vertices that are not finite
+// take their triangles with them, counted in the warnings. Throws Error(input_refused) with
 // one line that names the file: unknown suffix, broken or unsupported content, a missing buffer, no
 // triangles, and with is_strict any warning.
 [[nodiscard]] Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request = {});

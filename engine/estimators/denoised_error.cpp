@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kClaimBlock = 8;  // pixels a side
 constexpr std::size_t kFewBlocks = 8;
-constexpr double kClaimQuantile = 2.170090377584560;  // as in error_estimate.cpp
 
 struct MeanOfBlocks {
     double mean = 0.0;

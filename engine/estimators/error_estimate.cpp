@@ -43,9 +43,6 @@ constexpr int kLargestBlock = 8;                     // pixels a side
 constexpr std::size_t kManyBlocks = 32;              // blocks shrink until there are so many
 constexpr std::size_t kMinBlocks = 8;                // below, a variance of blocks means nothing
 constexpr double kDegreesPerDifference = 2.0 / 3.0;  // successive differences share a block
-// Normal quantile, two-sided, at 97 %: the spread is itself an estimate, and the trials of the tests, which
-// count how often the interval holds the truth, need that much to stay above kErrorConfidence.
-constexpr double kNormalQuantile = 2.170090377584560;
 
 using Rgb = std::array<double, 3>;
 
@@ -217,7 +214,7 @@ double log_spread(const Blocks& all, double pixels) {
     const double of_estimate = variance_of_mean(all, &Block::error, mean, pixels);
     const double of_truth = variance_of_mean(all, &Block::drawn, all.drawn.value() / pixels, pixels);
     const double count = static_cast<double>(all.blocks.size());
-    return student_quantile(kNormalQuantile, kDegreesPerDifference * (count - 1.0)) *
+    return student_quantile(kClaimQuantile, kDegreesPerDifference * (count - 1.0)) *
            std::sqrt(of_estimate + of_truth) / mean;
 }
 

@@ -9,6 +9,9 @@
 namespace voxilux {
 
 inline constexpr double kErrorConfidence = 0.95;
+// Normal quantile of intervals, two-sided, at 97 %: their spread is itself an estimate, and the trials of the
+// tests, which count how often an interval holds the truth, need that much to stay above kErrorConfidence.
+inline constexpr double kClaimQuantile = 2.170090377584560;
 
 // Systematic part of the error, in the units of sqrt(relMSE) squared: mean over pixels and channels of bias^2
 // / (radiance^2 + 0.01), with the standard error of that mean.

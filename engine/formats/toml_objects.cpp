@@ -18,8 +18,6 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMaxMaterials =
-    32767;  // their numbers in voxels have 15 bits, and a ground has one, too
 constexpr Range kTranslation{-kVoxMaxTranslation, kVoxMaxTranslation};
 
 // What follows from the surface, once every row has been read.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "passes/denoise/denoise.h"
 #include "passes/upload.h"
 
 namespace voxilux {
@@ -70,6 +71,16 @@ std::vector<EqualDispatchTiles> tiles_of(const RenderPlan& plan) {
 }
 
 constexpr std::uint64_t kLeastPhotonStore = 1u << 20;  // bytes
+
+// After the last sample.
+void add_denoiser(glm::ivec2 size, FootprintSum& sum) {
+    const std::vector<DenoiseStrip> strips = denoise_strips(size);
+    for (const DenoiseStrip& strip : strips) {
+        Recording recording;
+        record_denoise({size.x, strip.rows}, most_rows(strips), 0.5f, {}, recording);
+        sum.add(recording, 1);
+    }
+}
 
 // Any camera: what is recorded does not depend on it.
 gpu::FrameParams some_params() {
@@ -145,6 +156,7 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
     Recording film;
     record_film_clear(plan, film);
     sum.add(film, 1);
+    if (plan.is_denoised()) add_denoiser(plan.settings.size, sum);
     return sum.sum();
 }
 

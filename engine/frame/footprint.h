@@ -42,8 +42,8 @@ using SampleRecorder = std::function<void(const RenderPlan&, const DispatchTile&
                                           const SampleNumber&, Recording&)>;
 
 // The footprint of the first frame, world and film included, from recordings that nobody executes: the upload
-// of the scene, and the first two samples of every tile. All samples after the first record what the second
-// does. Of a frame range a frame is meant that gives up occlusion cells, as later ones may.
+// of the scene, the first two samples of every tile, and the denoiser. All samples after the first record
+// what the second does. Of a frame range a frame is meant that gives up occlusion cells, as later ones may.
 [[nodiscard]] Footprint footprint(const RenderPlan& plan, const SampleRecorder& record = record_frame);
 
 // plan_render, for a device and a budget: throws Error(out_of_memory) when a buffer would pass the device's

@@ -9,8 +9,6 @@
 #include "base/assert.h"
 #include "estimators/bias_estimate.h"
 #include "estimators/denoised_error.h"
-#include "passes/denoise/denoise.h"
-#include "shared/denoise.h"
 #include "vk/pass_time.h"
 
 namespace voxilux {
@@ -87,37 +85,29 @@ struct DenoisedTexels {
     std::vector<PassTime> passes;
 };
 
-void denoise_rows(const FilmSums& film, int first, int count, Executor& executor, DenoisedTexels& result) {
-    const int before = std::min(kDenoiseApron, first);
-    const int rows = std::min(first + count + kDenoiseApron, film.height) - (first - before);
-    const std::array<DenoiseHalf, 2> halves{HalfReader(film, 0).read(first - before, rows),
-                                            HalfReader(film, 1).read(first - before, rows)};
+void denoise_strip(const FilmSums& film, const DenoiseStrip& strip, int most_rows, Executor& executor,
+                   DenoisedTexels& result) {
+    const std::array<DenoiseHalf, 2> halves{HalfReader(film, 0).read(strip.low, strip.rows),
+                                            HalfReader(film, 1).read(strip.low, strip.rows)};
     Recording recording;
     const DenoisedBuffers buffers =
-        record_denoise({film.width, rows}, share_of_even(film), halves, recording);
+        record_denoise({film.width, strip.rows}, most_rows, share_of_even(film), halves, recording);
     const RunResult run = executor.run(recording);
     const auto append = [&](const std::string& buffer, std::vector<glm::vec4>& texels) {
         const std::vector<glm::vec4> all = values_of<glm::vec4>(run, buffer);
-        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(before) * film.width;
-        texels.insert(texels.end(), begin, begin + static_cast<std::ptrdiff_t>(count) * film.width);
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(strip.first - strip.low) * film.width;
+        texels.insert(texels.end(), begin, begin + static_cast<std::ptrdiff_t>(strip.count) * film.width);
     };
     append(buffers.picture, result.picture);
     append(buffers.errors, result.errors);
     add_times(result.passes, run.passes);
 }
 
-// Whole blocks, so that with the rows around them about so many pixels are filtered at once.
-int strip_rows(int width, std::size_t strip_pixels) {
-    const int block = static_cast<int>(gpu::kDenoiseBlock);
-    const int rows = static_cast<int>(strip_pixels / static_cast<std::size_t>(width)) - 2 * kDenoiseApron;
-    return std::max(rows / block, 1) * block;
-}
-
-DenoisedTexels denoise_all_rows(const FilmSums& film, std::size_t strip_pixels, Executor& executor) {
-    const int strip = strip_rows(film.width, strip_pixels);
+DenoisedTexels denoise_strips_of(const FilmSums& film, std::size_t strip_pixels, Executor& executor) {
+    const std::vector<DenoiseStrip> strips = denoise_strips({film.width, film.height}, strip_pixels);
     DenoisedTexels result;
-    for (int first = 0; first < film.height; first += strip)
-        denoise_rows(film, first, std::min(strip, film.height - first), executor, result);
+    for (const DenoiseStrip& strip : strips)
+        denoise_strip(film, strip, most_rows(strips), executor, result);
     return result;
 }
 
@@ -177,19 +167,14 @@ bool has_guides(const FilmSums& film) {
     });
 }
 
-std::uint64_t denoise_strip_pixels(int width) {
-    return static_cast<std::uint64_t>(width) *
-           static_cast<std::uint64_t>(strip_rows(width, kDenoiseStripPixels) + 2 * kDenoiseApron);
-}
-
 Denoised denoise_film(const FilmSums& film, Executor& executor, std::size_t strip_pixels) {
     VX_ASSERT(has_guides(film));
-    Denoised denoised{.claim = unknown_error()};
+    Denoised denoised;
     if (std::ranges::min(film.even) == 0 || std::ranges::min(film.odd) == 0) {
-        denoised.reason = "it takes samples with even and with odd numbers";
+        denoised.reason = kNoHalves;
         return denoised;
     }
-    const DenoisedTexels texels = denoise_all_rows(film, strip_pixels, executor);
+    const DenoisedTexels texels = denoise_strips_of(film, strip_pixels, executor);
     denoised.passes = texels.passes;
     const std::vector<float> filtered = component(texels.picture, 3), plain = component(texels.errors, 1);
     const auto sum = [](const std::vector<float>& values) {

@@ -7,6 +7,7 @@
 #include "estimators/error_estimate.h"
 #include "film/film_sums.h"
 #include "formats/image.h"
+#include "passes/denoise/denoise.h"
 #include "vk/executor.h"
 
 namespace voxilux {
@@ -15,7 +16,7 @@ namespace voxilux {
 struct Denoised {
     std::array<std::vector<float>, 3> rgb;  // empty where nothing was filtered
     std::vector<float> error;               // standard error of the luminance, smoothed over some pixels
-    ErrorEstimate claim;                    // of the picture that is written
+    ErrorEstimate claim = unknown_error();  // of the picture that is written
     std::string reason;                     // why it is the plain one; empty where it is not
     std::vector<PassTime> passes;
 
@@ -25,12 +26,10 @@ struct Denoised {
 // Whether a film has what the denoiser needs: the sums of a plan with `sums_guides`.
 [[nodiscard]] bool has_guides(const FilmSums& film);
 
-// Filters a whole film that has guides. The plain picture stays where a half has no samples, and where the
-// filtered one is claimed to be worse. A picture of more pixels is cut into strips, which show nowhere.
-inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1}
-                                                   << 20;  // some 430 bytes each, on the device
-// Those of a strip of an image of this width, with what lies around it.
-[[nodiscard]] std::uint64_t denoise_strip_pixels(int width);
+inline constexpr const char* kNoHalves = "it takes samples with even and with odd numbers";
+
+// Filters a whole film that has guides, in strips (denoise_strips). The plain picture stays where a half has
+// no samples, and where the filtered one is claimed to be worse.
 [[nodiscard]] Denoised denoise_film(const FilmSums& film, Executor& executor,
                                     std::size_t strip_pixels = kDenoiseStripPixels);
 

@@ -43,13 +43,14 @@ PixelBytes bytes_of_pixel(const RenderPlan& plan) {
             .making = 2 * kCountBytes + (plan.sums_bias ? 3 * kSumBytes : 0)};
 }
 
-// What the denoiser takes: of a strip what it uploads, its buffers, which may be in the host's memory, and
+// What the denoiser takes beside its buffers: of a strip what is uploaded, once more in the recording, and
 // what comes back; of the picture the result.
 std::uint64_t denoise_bytes(glm::ivec2 size) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
-    constexpr std::uint64_t kOfStrip = 2 * 8 * 16 + 27 * 16 + 2 * 16;  // texels of 16 bytes
+    constexpr std::uint64_t kOfStrip = 2 * 8 * 16 + 2 * 16;  // texels of 16 bytes
     constexpr std::uint64_t kOfPicture = 2 * 16 + 6 * kValueBytes + 2 * kSumBytes;
-    return std::min<std::uint64_t>(pixels, denoise_strip_pixels(size.x)) * kOfStrip + pixels * kOfPicture;
+    const auto rows = static_cast<std::uint64_t>(most_rows(denoise_strips(size)));
+    return rows * static_cast<std::uint64_t>(size.x) * kOfStrip + pixels * kOfPicture;
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ std::uint64_t end_bytes(const RenderPlan& plan, const PictureUse& use) {
     if (use.writes_checkpoint) most = std::max(most, bytes.film + bytes.picture + stored);
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(plan.settings.size.x) * static_cast<std::uint64_t>(plan.settings.size.y);
-    return most * pixels + (use.denoises && plan.sums_guides ? denoise_bytes(plan.settings.size) : 0);
+    return most * pixels + (use.denoises && plan.is_denoised() ? denoise_bytes(plan.settings.size) : 0);
 }
 
 ResidentBytes resident_bytes() {

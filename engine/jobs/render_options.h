@@ -42,14 +42,16 @@ struct RenderOptions {
     // end, without leaving anything behind. How long that takes is what the limit has to leave room for.
     std::function<void(const Scene&, RenderOutcome strip)> rehearse_end;
     double checkpoint_s = 0.0;  // from one checkpoint to the next; 0: none
-    bool keeps_film = false;    // outcomes have the film, for parts and checkpoints
-    [[nodiscard]] bool needs_film() const { return keeps_film || plan.wants_denoised; }
+    bool keeps_film = false;    // for parts and checkpoints
     // Which files will be written of the picture: memory for that is kept while samples are taken.
     bool writes_exr = false;
     bool writes_png = false;
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
     // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+
+    // Whether outcomes have the film.
+    [[nodiscard]] bool needs_film() const { return keeps_film || plan.wants_denoised; }
 };
 
 struct Progress {

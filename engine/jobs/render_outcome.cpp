@@ -27,10 +27,13 @@ bool lacks_light(const std::map<std::string, std::uint64_t>& faults) {
     return false;
 }
 
-ErrorEstimate claimed_error_of(const FilmSums& film, const std::map<std::string, std::uint64_t>& faults) {
-    ErrorEstimate error = error_of(film);
+ErrorEstimate claim_with(ErrorEstimate error, const std::map<std::string, std::uint64_t>& faults) {
     if (lacks_light(faults)) error.high = std::numeric_limits<double>::infinity();
     return error;
+}
+
+ErrorEstimate claimed_error_of(const FilmSums& film, const std::map<std::string, std::uint64_t>& faults) {
+    return claim_with(error_of(film), faults);
 }
 
 double sampling_ms(const RenderStatistics& statistics) {

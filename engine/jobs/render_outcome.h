@@ -53,7 +53,7 @@ struct RenderOutcome {
     RenderPlan plan;
     RenderStatistics statistics;
     std::optional<Denoised> denoised;  // where that is asked for, of a whole picture
-    std::optional<FilmSums> film;      // see RenderOptions::keeps_film
+    std::optional<FilmSums> film;      // see RenderOptions::needs_film
     std::uint32_t rows_ahead = 0;      // rows from the top that have one sample more than statistics.samples
 };
 
@@ -63,7 +63,9 @@ void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& 
 // Whether the device cut off paths, photons or sums: light is missing then that no sample tells of.
 [[nodiscard]] bool lacks_light(const std::map<std::string, std::uint64_t>& faults);
 
-// The error of a film, without an upper end where light is missing.
+// An error without an upper end where light is missing, and that of a film.
+[[nodiscard]] ErrorEstimate claim_with(ErrorEstimate error,
+                                       const std::map<std::string, std::uint64_t>& faults);
 [[nodiscard]] ErrorEstimate claimed_error_of(const FilmSums& film,
                                              const std::map<std::string, std::uint64_t>& faults);
 

@@ -192,20 +192,23 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
 // A part is no whole film, and its picture is not what anybody wants to see.
 void RenderSession::denoise(RenderOutcome& outcome) {
     if (!options_.plan.wants_denoised || !outcome.plan.part.empty()) return;
-    if (outcome.plan.any(&Technique::shares_samples)) {
-        outcome.denoised = Denoised{.claim = unknown_error(), .reason = "pixels share occlusion samples"};
+    Denoised& denoised = outcome.denoised.emplace();
+    if (!outcome.plan.is_denoised()) {
+        const bool shares = outcome.plan.any(&Technique::shares_samples);
+        denoised.reason = shares ? "pixels share occlusion samples" : kNoHalves;
         return;
     }
     VX_ASSERT(outcome.film.has_value());
+    RenderStatistics& statistics = outcome.statistics;
     try {
-        outcome.denoised = denoise_film(*outcome.film, renderer_->executor());
+        denoised = denoise_film(*outcome.film, renderer_->executor());
     } catch (const Error& error) {
         if (error.code() != ExitCode::out_of_memory) throw;
-        outcome.denoised = Denoised{.claim = unknown_error(), .reason = error.what()};
+        denoised.reason = error.what();
     }
-    Denoised& denoised = *outcome.denoised;
-    RenderStatistics& statistics = outcome.statistics;
-    if (lacks_light(statistics.faults)) denoised.claim.high = std::numeric_limits<double>::infinity();
+    denoised.claim = claim_with(denoised.claim, statistics.faults);
+    statistics.memory = renderer_->executor().needed_memory();
+    statistics.pipelines = renderer_->executor().pipelines_created();
     add_times(statistics.passes, denoised.passes);
     for (const PassTime& pass : denoised.passes)
         statistics.gpu_ms += pass.ms;

@@ -101,7 +101,8 @@ void decide_sums(RenderPlan& plan, const PlanRequest& request) {
     const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.any(&Technique::shares_samples) && (plan.has(Effect::aov) || decides);
     plan.sums_bias = plan.any(&Technique::tells_bias) && (plan.has(Effect::aov) || request.wants_error);
-    plan.sums_guides = request.wants_denoised && !plan.any(&Technique::shares_samples);
+    const bool has_halves = plan.samples() > 1 || !plan.part.empty();  // parts add up
+    plan.sums_guides = request.wants_denoised && has_halves && !plan.any(&Technique::shares_samples);
 }
 
 // One dispatch takes at most so many rows.

@@ -139,6 +139,8 @@ struct RenderPlan {
     }
     // Samples per pixel that this render takes: those of its part.
     [[nodiscard]] std::uint32_t samples() const { return part.empty() ? settings.spp : part.size(); }
+    // Whether the film is filtered when it is complete. A part is no whole film.
+    [[nodiscard]] bool is_denoised() const { return sums_guides && part.empty(); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const {
         return any(&Technique::needs_pilot) && !settings.photons.radius;

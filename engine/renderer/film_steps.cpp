@@ -116,12 +116,12 @@ DisplayBuffer FilmSteps::display(const DisplayLook& look) {
     VX_ASSERT(start_ == FilmPosition{});
     clear_film();
     Recording recording;
-    const bool has_cells = look.channel == DisplayChannel::cells && state_.samples_done > 0;
-    DisplayLook seen = look;
-    if (!has_cells && look.channel == DisplayChannel::cells) seen.channel = DisplayChannel::color;
+    DisplayLook seen = look;  // before the first sample there are no cells
+    if (look.channel == DisplayChannel::cells && state_.samples_done == 0)
+        seen.channel = DisplayChannel::color;
     const DisplayBuffer shown =
-        has_cells
-            ? record_display_cells(*plan_, state_.samples_done - 1, look, recording)
+        seen.channel == DisplayChannel::cells
+            ? record_display_cells(*plan_, state_.samples_done - 1, seen, recording)
             : record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, seen, recording);
     (void)executor_->run(recording);
     return shown;

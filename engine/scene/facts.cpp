@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/printable.h"
 #include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
@@ -127,6 +128,9 @@ SceneFacts measure_scene(const Scene& scene) {
 }
 
 SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
+    if (scene.materials.size() > kMaxMaterials)
+        throw Error(ExitCode::input_refused, fmt::format("the scene has {} materials, more than {}",
+                                                         scene.materials.size(), kMaxMaterials));
     SceneFacts facts{.voxel_count = voxels.count};
     facts.instance_count = scene.instances.size();
     facts.sphere_count = scene.spheres.size();

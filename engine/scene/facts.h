@@ -42,7 +42,7 @@ struct SceneFacts {
     bool operator==(const SceneFacts&) const = default;
 };
 
-// Throws Error(input_refused) when the scene reaches beyond kMaxCoordinate.
+// Throws Error(input_refused) when the scene reaches beyond kMaxCoordinate or has over kMaxMaterials.
 [[nodiscard]] SceneFacts measure_scene(const Scene& scene);
 
 // The voxels of a scene as its facts see them.

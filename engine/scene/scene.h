@@ -39,6 +39,9 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
+// Of a scene: their numbers have 15 bits in voxels on the device, and a ground has one, too.
+inline constexpr std::size_t kMaxMaterials = 32767;
+
 // A filled cell of a model. `material` indexes Scene::materials.
 struct Voxel {
     std::uint16_t x = 0;

@@ -71,7 +71,7 @@ class Edit {
         if (has_nodes_) close_chunk(brick >> 2);
     }
 
-    // False when edits lie so far apart that to build anew is cheaper.
+    // False, with boxes left undone, when edits lie so far apart that the box of both is too large.
     [[nodiscard]] bool grow() {
         if (has_nodes_)
             bricks_.include(

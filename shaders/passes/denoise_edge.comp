@@ -42,6 +42,6 @@ void main() {
         fit.green += (weight * light.y) * feature;
         fit.blue += (weight * light.z) * feature;
     }
-    vec3 found = is_mixed && fit.weight > 0.0 ? featured_light(fit) : own.xyz;
+    vec3 found = is_mixed && fit.weight > kLeastWeight ? featured_light(fit) : own.xyz;
     VX_STORE(Reflected, at, vec4(VX_LOAD(Albedo, at).xyz * found, own.w));
 }

@@ -50,8 +50,8 @@ void main() {
     vec3 apart = filtered_a - filtered_b;
     float variance = dot(push.share * (1.0 - push.share) * apart * apart, scale);
     vec3 of_luminance = squared_error(
-        vec3(denoise_luminance(filtered_a)), vec3(denoise_luminance(filtered_b)), vec3(denoise_luminance(a)),
-        vec3(denoise_luminance(b)), push.share);
+        vec3(luminance_of(filtered_a)), vec3(luminance_of(filtered_b)), vec3(luminance_of(a)),
+        vec3(luminance_of(b)), push.share);
     VX_STORE(Picture, at, vec4(mean, dot(squared_error(filtered_a, filtered_b, a, b, push.share), scale)));
     vec3 of_plain = squared_error(a, b, a, b, push.share);
     VX_STORE(Errors, at, vec4(variance, dot(of_plain, scale), of_luminance.x, 0.0));

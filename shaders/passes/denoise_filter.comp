@@ -43,7 +43,7 @@ void main() {
         }
     }
     vec4 filtered = vec4(0.0);
-    if (fit.weight > 1e-30)  // its inverse is finite
+    if (fit.weight > kLeastWeight)
         filtered = vec4(fits_slopes != 0u ? fitted_light(fit) : fit.light / fit.weight, fit.weight / possible);
     VX_STORE(Filtered, at, filtered);
 }

@@ -16,6 +16,7 @@
 
 #include "limits.h"
 #include "portable.h"
+#include "tone_curve.h"
 
 VX_BEGIN
 
@@ -29,6 +30,7 @@ VX_CONST(float, kMixedWeight, 0.1f);      // of a pixel that sees several surfac
 VX_CONST(float, kLeastAlbedo, 0.02f);     // of a channel, of the luminance of the albedo
 VX_CONST(float, kBlackAlbedo, 1e-6f);     // luminance below which a pixel reflects nothing
 VX_CONST(float, kDenoiseEpsilon, 0.01f);  // that of relMSE
+VX_CONST(float, kLeastWeight, 1e-30f);    // of a fit, whose inverse is still finite
 
 // Push constants of all passes of the denoiser.
 struct DenoisePush {
@@ -37,14 +39,10 @@ struct DenoisePush {
     float share;  // of the samples that half A has
 };
 
-VX_FN float denoise_luminance(vec3 v) {
-    return 0.2126f * v.x + 0.7152f * v.y + 0.0722f * v.z;
-}
-
 // Light that falls on a surface over pi, from what it reflects, and the weight of that: the square of the
 // albedo, by whose inverse division multiplies the variance.
 VX_FN vec4 received_light(vec3 reflected, vec3 albedo) {
-    const float brightness = denoise_luminance(albedo);
+    const float brightness = luminance_of(albedo);
     if (brightness < kBlackAlbedo) return vec4(0.0f, 0.0f, 0.0f, 0.0f);
     const vec3 divisor = max(albedo, vec3(kLeastAlbedo * brightness));
     return vec4(reflected / divisor, brightness * brightness);

@@ -1,6 +1,5 @@
 #include "denoise/denoise.h"
 
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,8 +19,8 @@ Denoised denoise_part(const DenoiseCommand& command, const FilmPart& part) {
     Device device = open_device(command.device.request());
     Executor executor(device, pass_shaders(), {.cache_dir = command.device.cache_dir()});
     Denoised denoised = denoise_film(part.film, executor);
-    const auto faults = part.report.value("faults", std::map<std::string, std::uint64_t>{});
-    if (lacks_light(faults)) denoised.claim.high = std::numeric_limits<double>::infinity();
+    denoised.claim =
+        claim_with(denoised.claim, part.report.value("faults", std::map<std::string, std::uint64_t>{}));
     return denoised;
 }
 

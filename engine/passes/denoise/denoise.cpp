@@ -1,5 +1,6 @@
 #include "passes/denoise/denoise.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -11,24 +12,30 @@ namespace {
 
 using Pair = std::array<std::string, 2>;  // buffers of the two halves
 
-std::uint32_t blocks_along_axis(int pixels) {
-    return (static_cast<std::uint32_t>(pixels) + gpu::kDenoiseBlock - 1) / gpu::kDenoiseBlock;
+// How far around a pixel the passes look, rows.
+constexpr int kDenoiseApron = 48;
+
+std::uint32_t blocks_of(glm::ivec2 size) {
+    const auto along = [](int pixels) {
+        return (static_cast<std::uint32_t>(pixels) + gpu::kDenoiseBlock - 1) / gpu::kDenoiseBlock;
+    };
+    return along(size.x) * along(size.y);
 }
 
 // Appends the passes of the denoiser over one strip.
 class DenoiseRecorder {
   public:
-    DenoiseRecorder(glm::ivec2 size, float share, Recording& recording)
-        : size_(size), share_(share), recording_(recording) {}
+    DenoiseRecorder(glm::ivec2 size, int most_rows, float share, Recording& recording)
+        : size_(size), room_(size.x, most_rows), share_(share), recording_(recording) {}
 
     [[nodiscard]] std::string plane(const std::string& name) {
-        return declare<glm::vec4>(recording_, "denoise." + name, pixels());
+        return declare<glm::vec4>(recording_, "denoise." + name, pixels(room_));
     }
 
     [[nodiscard]] Pair planes(const std::string& name) { return {plane(name + "_a"), plane(name + "_b")}; }
 
     [[nodiscard]] std::string upload(const std::string& name, const std::vector<glm::vec4>& texels) {
-        VX_ASSERT_EQ(texels.size(), pixels());
+        VX_ASSERT(texels.empty() || texels.size() == pixels(size_));
         const std::string buffer = plane(name);
         recording_.upload(buffer, std::as_bytes(std::span(texels)));
         return buffer;
@@ -43,16 +50,16 @@ class DenoiseRecorder {
 
     // The terms of blocks.
     [[nodiscard]] std::string sums(const std::string& terms, const Pair& normal) {
-        const std::uint32_t blocks = blocks_along_axis(size_.x) * blocks_along_axis(size_.y);
-        const std::string buffer = declare<glm::vec4>(recording_, "denoise.sums", 2 * std::uint64_t{blocks});
-        dispatch("block", {blocks, 1, 1},
+        const std::string buffer =
+            declare<glm::vec4>(recording_, "denoise.sums", 2 * std::uint64_t{blocks_of(room_)});
+        dispatch("block", {blocks_of(size_), 1, 1},
                  {{"Terms", terms}, {"NormalA", normal[0]}, {"NormalB", normal[1]}, {"Sums", buffer}}, {}, 1);
         return buffer;
     }
 
   private:
-    [[nodiscard]] std::uint64_t pixels() const {
-        return static_cast<std::uint64_t>(size_.x) * static_cast<std::uint64_t>(size_.y);
+    [[nodiscard]] static std::uint64_t pixels(glm::ivec2 size) {
+        return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     }
 
     void dispatch(const std::string& step, Extent extent, std::vector<Binding> bindings,
@@ -67,6 +74,7 @@ class DenoiseRecorder {
     }
 
     glm::ivec2 size_;
+    glm::ivec2 room_;  // of the buffers
     float share_;
     Recording& recording_;
 };
@@ -172,9 +180,26 @@ Pair blend_with_plain(const DenoiseInputs& inputs, const Pair& filtered, Denoise
 
 }  // namespace
 
-DenoisedBuffers record_denoise(glm::ivec2 size, float share, const std::array<DenoiseHalf, 2>& halves,
-                               Recording& recording) {
-    DenoiseRecorder recorder(size, share, recording);
+std::vector<DenoiseStrip> denoise_strips(glm::ivec2 size, std::size_t strip_pixels) {
+    const int block = static_cast<int>(gpu::kDenoiseBlock);
+    const int rows = static_cast<int>(strip_pixels / static_cast<std::size_t>(size.x)) - 2 * kDenoiseApron;
+    const int most = std::max(rows / block, 1) * block;
+    std::vector<DenoiseStrip> strips;
+    for (int first = 0; first < size.y; first += most) {
+        const int count = std::min(most, size.y - first), low = std::max(first - kDenoiseApron, 0);
+        strips.push_back({first, count, low, std::min(first + count + kDenoiseApron, size.y) - low});
+    }
+    return strips;
+}
+
+int most_rows(const std::vector<DenoiseStrip>& strips) {
+    return std::ranges::max_element(strips, {}, &DenoiseStrip::rows)->rows;
+}
+
+DenoisedBuffers record_denoise(glm::ivec2 size, int most_rows, float share,
+                               const std::array<DenoiseHalf, 2>& halves, Recording& recording) {
+    VX_ASSERT(size.y <= most_rows);
+    DenoiseRecorder recorder(size, most_rows, share, recording);
     const DenoiseInputs inputs = upload_inputs(halves, recorder);
     const Pair mixed = mix_levels(inputs, filter_levels(inputs, recorder), recorder);
     const Pair filtered = recorder.planes("filtered");

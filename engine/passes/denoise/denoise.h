@@ -25,12 +25,24 @@ struct DenoisedBuffers {
         errors;  // what of that is variance; relMSE of the plain picture; squared error of the luminance
 };
 
-// Rows beyond those that a strip of a picture is wanted for, such that each pixel is that of the whole
-// picture. A strip begins at a multiple of gpu::kDenoiseBlock.
-inline constexpr int kDenoiseApron = 48;
+// Rows of a picture that are denoised at once.
+struct DenoiseStrip {
+    int first = 0, count = 0;  // those that are wanted
+    int low = 0, rows = 0;     // with those around them that they depend on
+};
 
-// Denoises a picture, or a strip of it. Half 0 has this share of the samples.
-DenoisedBuffers record_denoise(glm::ivec2 size, float share, const std::array<DenoiseHalf, 2>& halves,
-                               Recording& recording);
+// Strips of about so many pixels that make up a picture; none of them shows in it. Each pixel takes some 430
+// bytes on the device.
+inline constexpr std::size_t kDenoiseStripPixels = std::size_t{1} << 20;
+[[nodiscard]] std::vector<DenoiseStrip> denoise_strips(glm::ivec2 size,
+                                                       std::size_t strip_pixels = kDenoiseStripPixels);
+// Rows of the largest one.
+[[nodiscard]] int most_rows(const std::vector<DenoiseStrip>& strips);
+
+// Denoises a picture, or a strip of it that begins at a multiple of gpu::kDenoiseBlock. Buffers have room for
+// `most_rows`. Half 0 has this share of the samples. Of halves without texels nothing is uploaded, but the
+// same passes are recorded.
+DenoisedBuffers record_denoise(glm::ivec2 size, int most_rows, float share,
+                               const std::array<DenoiseHalf, 2>& halves, Recording& recording);
 
 }  // namespace voxilux

@@ -52,7 +52,8 @@ struct DeviceTexels {
 
 DeviceTexels denoised_on(Executor& executor, const PlanesOfLight& planes, float share = 0.5f) {
     Recording recording;
-    const DenoisedBuffers buffers = record_denoise(planes.size, share, planes.halves, recording);
+    const DenoisedBuffers buffers =
+        record_denoise(planes.size, planes.size.y, share, planes.halves, recording);
     const RunResult run = executor.run(recording);
     return {values_of<glm::vec4>(run, buffers.picture), values_of<glm::vec4>(run, buffers.errors)};
 }

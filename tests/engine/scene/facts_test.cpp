@@ -94,6 +94,15 @@ TEST(Facts, boxes_of_shapes_count_as_their_cells) {
     EXPECT_EQ(facts.material_count, 2u);
 }
 
+// Palettes of many files add up, too.
+TEST(Facts, more_materials_than_voxels_can_number_are_refused) {
+    Scene scene = small_scene();
+    scene.materials.resize(kMaxMaterials);
+    EXPECT_NO_THROW((void)measure_scene(scene));
+    scene.materials.emplace_back();
+    EXPECT_THROW((void)measure_scene(scene), Error);
+}
+
 TEST(Facts, sphere_material_counts) {
     Scene scene = small_scene();
     scene.spheres[0].material = 2;

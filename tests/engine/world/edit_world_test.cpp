@@ -119,6 +119,20 @@ TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
 
 INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
+// The box of both edits has 2^26 bricks and more.
+TEST(EditWorldFarApart, edits_in_opposite_corners_of_a_large_world_build_it_anew) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(260, 65, 65));
+    world.set({9, 9, 9}, 1);
+    MarchWorld built = build_march_world(world, Traversal::deep);
+    const VoxelEdit edits[] = {{{3, 3, 3}, 0x8001}, {world.size() - 4, 0x8002}};
+    EXPECT_TRUE(edit_world(world, built, edits).is_rebuilt);
+    const MarchWorld anew = build_march_world(world, Traversal::deep);
+    EXPECT_EQ(built.roots, anew.roots);
+    EXPECT_EQ(built.nodes, anew.nodes);
+    EXPECT_EQ(built.leaves, anew.leaves);
+    EXPECT_FALSE(edit_world(world, built, std::span(edits, 1)).is_rebuilt);
+}
+
 TEST(EditWorldBlocks, an_edit_inside_a_mixed_brick_adds_few_blocks) {
     std::mt19937 dice(kEditSeed);
     VoxelWorld world(glm::ivec3(0), glm::ivec3(4));

@@ -233,35 +233,33 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedWords{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
     [](const testing::TestParamInfo<RefusedWords>& one) { return one.param.name; });
 
-// Interrupted when all have a sixteenth of their samples, where runs are from 0.5 to 0.78 of the work: what
-// is there is written.
-TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
-    const ScratchFolder folder;
+// How a price list ends that is interrupted when its progress says `stage`.
+Ending interrupted_list(const ScratchFolder& folder, const std::string& time_limit,
+                        const std::string& stage) {
     Words words = small_list(folder / "list", "4096");
     std::erase(words, "-q");
     words.insert(words.end(), {"--progress", "json"});
-    *std::ranges::find(words, "60s") = "12s";
+    *std::ranges::find(words, "60s") = time_limit;
     ChildProcess child(words);
-    ASSERT_TRUE(child.wait_for_error("\"done\":0.5175"));
+    EXPECT_TRUE(child.wait_for_error(stage));
     child.send(SIGINT);
-    const Ending ending = child.finish();
+    return child.finish();
+}
+
+// Where all have a sixteenth of their samples: runs are from 0.5 to 0.78 of the work.
+TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
+    const ScratchFolder folder;
+    const Ending ending = interrupted_list(folder, "12s", "\"done\":0.5175");
     EXPECT_EQ(ending.code, 130) << ending.err;
     EXPECT_NE(ending.err.find("interrupted: the price list has what was measured until then\n"),
               std::string::npos)
         << ending.err;
-    const Json list = json_in(folder / "list" / "tradeoff.json");
-    EXPECT_FALSE(list["runs"].empty());
+    EXPECT_FALSE(json_in(folder / "list" / "tradeoff.json")["runs"].empty());
 }
 
 TEST(TradeoffInterrupted, before_anything_is_measured_nothing_is_written) {
     const ScratchFolder folder;
-    Words words = small_list(folder / "list", "4096");
-    std::erase(words, "-q");
-    words.insert(words.end(), {"--progress", "json"});
-    ChildProcess child(words);
-    ASSERT_TRUE(child.wait_for_error("\"done\""));
-    child.send(SIGINT);
-    const Ending ending = child.finish();
+    const Ending ending = interrupted_list(folder, "60s", "\"done\"");
     EXPECT_EQ(ending.code, 130) << ending.err;
     EXPECT_NE(ending.err.find("no price list was written"), std::string::npos) << ending.err;
     EXPECT_EQ(names_in(folder / "list"), Words{"pictures"});
