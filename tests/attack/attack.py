@@ -2,6 +2,7 @@
 """Attacks voxilux as its surroundings might, and counts where it breaks a promise of docs/trust.md.
 
     attack.py --voxilux build/release/voxilux                     five minutes, divided among the attacks
+    attack.py --voxilux build/release/voxilux --full              as many tries as docs/trust.md counts: an hour
     attack.py --voxilux build/release/voxilux --only kills --seconds 600
     attack.py --voxilux build/release/voxilux --table docs/trust.md   puts the figures into that document
 
@@ -10,6 +11,7 @@ promise was broken, and each is a line on standard error.
 """
 
 import argparse
+import itertools
 import os
 import pathlib
 import random
@@ -47,6 +49,7 @@ class Attack:
     name: str
     promise: str
     trial: Callable[["Bench", random.Random], str | None]
+    full: int  # tries
     tries: int = 0
     broken: list[str] = field(default_factory=list)
 
@@ -57,6 +60,7 @@ class Bench:
     def __init__(self, binary: pathlib.Path, folder: pathlib.Path, caches: pathlib.Path):
         self.binary = binary
         self.folder = folder
+        self.tries = 1
         self.environment = os.environ | {"XDG_CACHE_HOME": str(caches), "XDG_STATE_HOME": str(caches / "state")}
 
     def start(self, words: list, limits: dict | None = None, **streams) -> subprocess.Popen:
@@ -122,21 +126,27 @@ def is_picture(file: pathlib.Path) -> bool:
 
 
 def kill_and_resume(bench: Bench, rng: random.Random) -> str | None:
-    samples = ["--spp", "3000", "--checkpoint", "0.05"]
-    child = bench.start(render("a.exr", *samples))
-    time.sleep(rng.uniform(0.1, 1.5))
-    has_ended = child.poll() is not None
-    child.kill()
-    child.communicate()
-    if has_ended:
-        return f"ended with {child.returncode} before it was killed"
-    if problem := unexpected(bench.run(render("a.exr", *samples, "--resume")), (DONE,)):
+    """Again and again on its way to the end."""
+    words = render("a.exr", "--spp", "3000", "--checkpoint", "0.05")
+    bench.tries = 0
+    while bench.tries < 8:
+        child = bench.start([*words, "--resume"] if bench.tries else words)
+        time.sleep(rng.uniform(0.1, 1.0))
+        if child.poll() is not None:
+            if problem := unexpected(bench.finish(child, time.monotonic()), (DONE,)):
+                return f"before it was killed it {problem}"
+            break
+        child.kill()
+        child.communicate()
+        bench.tries += 1
+    if problem := unexpected(bench.run([*words, "--resume"]), (DONE,)):
         return problem
     if bench.names() != ["a.exr"]:
         return f"left {bench.names()}"
-    if problem := unexpected(bench.run(render("b.exr", *samples)), (DONE,)):
-        return problem
-    same = (bench.folder / "a.exr").read_bytes() == (bench.folder / "b.exr").read_bytes()
+    whole = bench.folder.parent / "whole.exr"
+    if not whole.exists():
+        bench.run(render(whole, "--spp", "3000"))
+    same = (bench.folder / "a.exr").read_bytes() == whole.read_bytes()
     return None if same else "the resumed picture is another one"
 
 
@@ -157,7 +167,7 @@ def stop_by_signal(bench: Bench, rng: random.Random) -> str | None:
 
 
 def limit_time(bench: Bench, rng: random.Random) -> str | None:
-    limit = rng.uniform(0.1, 4.0)
+    limit = 0.1 * 200 ** rng.random()
     ending = bench.run(render("a.exr", "--spp", "1000000", "--time-limit", f"{limit:.3f}s"))
     if problem := unexpected(ending, (DONE, LATE)):
         return problem
@@ -168,12 +178,17 @@ def limit_time(bench: Bench, rng: random.Random) -> str | None:
 
 
 def limit_memory(bench: Bench, rng: random.Random) -> str | None:
+    """Of the process's address space, or of what the device may hold."""
     size = rng.choice(("64x36", "512x512", "2048x2048"))
-    bytes_ = int(rng.uniform(0.2, 3.0) * 2**30)
     words = ["render", SCENE, "--size", size, "--spp", "1", "-o", "a.exr"]
-    ending = bench.run(words, {resource.RLIMIT_AS: bytes_})
+    limits = {}
+    if rng.random() < 0.5:
+        limits[resource.RLIMIT_AS] = int(rng.uniform(0.2, 3.0) * 2**30)
+    else:
+        words += ["--memory-budget", str(int(2 ** rng.uniform(0.0, 11.0)))]
+    ending = bench.run(words, limits)
     if problem := unexpected(ending, (DONE, NO_MEMORY, NO_DEVICE)):
-        return f"{size} in {bytes_ >> 20} MiB {problem}"
+        return f"{words} {limits} {problem}"
     wanted = ["a.exr"] if ending.code == DONE else []
     return None if bench.names() == wanted else f"left {bench.names()}"
 
@@ -225,6 +240,24 @@ def tiny_vox() -> bytes:
     return b"VOX " + struct.pack("<I", 150) + chunk(b"MAIN", b"", size + xyzi + chunk(b"RGBA", bytes(range(256)) * 4))
 
 
+def tiny_stl() -> bytes:
+    triangles = [(0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0), (0, 0, 1, 4, 0, 0, 4, 4, 4, 0, 4, 0)]
+    return bytes(80) + struct.pack("<I", 2) + b"".join(struct.pack("<12fH", *t, 0) for t in triangles)
+
+
+def tiny_qb() -> bytes:
+    cells = b"".join(struct.pack("<4B", 40 * i, 90, 200, 255 * (i % 3 > 0)) for i in range(6))
+    matrix = b"\x01a" + struct.pack("<3I3i", 3, 2, 1, 0, 0, 0) + cells
+    return struct.pack("<6I", 257, 0, 0, 0, 0, 1) + matrix
+
+
+PLY = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+       b"property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+       b"property list uchar int vertex_indices\nend_header\n"
+       b"0 0 0 255 0 0\n4 0 0 0 255 0\n4 4 0 0 0 255\n0 4 4 9 9 9\n4 0 1 2 3\n")
+XYZ = b"0 0 0 255 0 0\n1.5 2 3 10 20 30\n# words\n4 4 4 0 0 0\n"
+BINVOX = (b"#binvox 1\ndim 4 4 4\ntranslate 0 0 0\nscale 1\ndata\n"
+          + bytes((0, 20, 1, 3, 0, 1, 1, 30, 0, 10)))
 OBJ = b"mtllib a.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 4\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1 4/1\nf -1 -2 -3\n"
 GLTF = (b'{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"scale":[2,1,1]}],'
         b'"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,'
@@ -256,7 +289,8 @@ def mutated(data: bytes, rng: random.Random) -> bytes:
 
 
 def feed_file(bench: Bench, rng: random.Random) -> str | None:
-    seeds = {"a.vox": tiny_vox(), "a.toml": SCENE.read_bytes(), "a.obj": OBJ, "a.gltf": GLTF}
+    seeds = {"a.vox": tiny_vox(), "a.qb": tiny_qb(), "a.binvox": BINVOX, "a.toml": SCENE.read_bytes(), "a.obj": OBJ,
+             "a.gltf": GLTF, "a.stl": tiny_stl(), "a.ply": PLY, "a.xyz": XYZ}
     for picture in ("seed.exr", "seed.png"):
         file = bench.folder.parent / picture
         seeds[picture.replace("seed", "a")] = file.read_bytes()
@@ -273,24 +307,27 @@ def feed_file(bench: Bench, rng: random.Random) -> str | None:
 def command_for(name: str, rng: random.Random) -> list:
     if name.endswith((".exr", ".png")):
         return ["compare", name, name] if rng.random() < 0.7 else ["merge", name, "-o", "b.exr"]
-    if name.endswith((".obj", ".gltf")):
+    if name.endswith((".qb", ".binvox", ".xyz")):
+        return ["convert", name, "b.vox"]
+    if name.endswith((".obj", ".gltf", ".stl", ".ply")):
         return ["voxelize", name, "-o", "b.vox", "--resolution", "8"]
     return [rng.choice(("info", "plan")), name] if name.endswith(".vox") else ["plan", name]
 
 
 def attacks() -> list[Attack]:
     return [
-        Attack("kills", "a render that is killed at any moment goes on with --resume to the bytes of one that was not, "
-               "and nothing is left beside the picture", kill_and_resume),
+        Attack("kills", "a render that is killed at any moment, and again, goes on with --resume to the bytes of one "
+               "that was not, and nothing is left beside the picture", kill_and_resume, 1000),
         Attack("signals", "INT, TERM and HUP leave a whole picture of what is done; USR1 stops nothing",
-               stop_by_signal),
-        Attack("time", "--time-limit holds to 2 s or 5 %, with a whole picture", limit_time),
-        Attack("memory", "under any limit of the address space: the picture, or exit code 74 or 69 and no file",
-               limit_memory),
-        Attack("disk", "where the file system takes no more: exit code 73 and no file, or the whole one", fill_disk),
-        Attack("streams", "messages that nobody can read cost no picture", close_streams),
-        Attack("names", "any bytes are a name; none of them commands the terminal", name_oddly),
-        Attack("files", "whatever a file holds: an exit code that says so, 4 GiB and 20 s at most", feed_file),
+               stop_by_signal, 100),
+        Attack("time", "--time-limit holds to 2 s or 5 %, with a whole picture", limit_time, 200),
+        Attack("memory", "under any limit of the address space or the device's memory: the picture, or exit code 74 "
+               "or 69 and no file", limit_memory, 500),
+        Attack("disk", "where the file system takes no more: exit code 73 and no file, or the whole one", fill_disk,
+               500),
+        Attack("streams", "messages that nobody can read cost no picture", close_streams, 200),
+        Attack("names", "any bytes are a name; none of them commands the terminal", name_oddly, 500),
+        Attack("files", "whatever a file holds: an exit code that says so, 4 GiB and 20 s at most", feed_file, 20000),
     ]
 
 
@@ -302,17 +339,20 @@ def play(attack: Attack, number: int, seed: int, binary: pathlib.Path, shared: p
     folder.mkdir()
     bench = Bench(binary, folder, shared / "caches")
     problem = attack.trial(bench, random.Random(f"{seed} {attack.name} {number}"))
-    attack.tries += 1
+    attack.tries += bench.tries
     if problem:
         attack.broken.append(problem)
         print(f"{attack.name} {number}: {problem}", file=sys.stderr, flush=True)
     shutil.rmtree(os.fsencode(folder))
 
 
-def play_for(seconds: float, attack: Attack, seed: int, binary: pathlib.Path, shared: pathlib.Path) -> None:
-    end = time.monotonic() + seconds
-    while attack.tries == 0 or time.monotonic() < end:
-        play(attack, attack.tries, seed, binary, shared)
+def play_all(attack: Attack, seconds: float | None, seed: int, binary: pathlib.Path, shared: pathlib.Path) -> None:
+    """For so long, or as often as the whole takes."""
+    end = time.monotonic() + (seconds or 0.0)
+    for number in itertools.count():
+        play(attack, number, seed, binary, shared)
+        if attack.tries >= attack.full if seconds is None else time.monotonic() >= end:
+            return
 
 
 def make_seeds(binary: pathlib.Path, shared: pathlib.Path) -> None:
@@ -338,6 +378,7 @@ def main() -> int:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--voxilux", type=pathlib.Path, required=True)
     options.add_argument("--seconds", type=float, default=300.0, help="for all attacks together")
+    options.add_argument("--full", action="store_true", help="count tries, not seconds")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--only", help="names of attacks, with commas between them")
     options.add_argument("--number", type=int, help="one try of each attack again, by its number")
@@ -356,7 +397,8 @@ def main() -> int:
             if given.number is not None:
                 play(attack, given.number, given.seed, given.voxilux.resolve(), shared)
                 continue
-            play_for(given.seconds / len(chosen), attack, given.seed, given.voxilux.resolve(), shared)
+            seconds = None if given.full else given.seconds / len(chosen)
+            play_all(attack, seconds, given.seed, given.voxilux.resolve(), shared)
     print(table(chosen))
     if given.table:
         put_table(given.table, table(chosen))
