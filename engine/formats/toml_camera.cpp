@@ -95,6 +95,16 @@ void read_turntable(TomlScene& in, const TomlSection& camera) {
     if (turntable.degrees == 0.0) section.refuse("degrees", "must not be 0: the camera would stand");
 }
 
+// A pinhole has no focus.
+Lens completed(const TomlSection& section, Lens lens, const Scene& scene) {
+    if (lens.focus && lens.focus_at) section.refuse("focus_at", "excludes 'focus': give one or the other");
+    if (lens.aperture == 0.0) return {};
+    if (lens.focus || lens.focus_at) return lens;
+    const Box box = bounds_of_frames(scene);
+    lens.focus_at = box.empty() ? glm::dvec3(0.0) : 0.5 * (glm::dvec3(box.lo) + glm::dvec3(box.hi));
+    return lens;
+}
+
 }  // namespace
 
 void read_camera(TomlScene& in) {
@@ -103,8 +113,9 @@ void read_camera(TomlScene& in) {
     CameraSettings camera;
     camera.placement.fov_y_deg = in.scene.framing_fov_y_deg;
     const TomlSection section = read_settings(*table, "[camera]", camera, {"key", "turntable"});
-    const auto& [placement, preset, path, projection, pixels_per_voxel] = camera;
+    const auto& [placement, preset, path, projection, pixels_per_voxel, aperture] = camera;
     const Camera lens = lens_of(section, camera);
+    in.scene.lens = completed(section, aperture, in.scene);
     if (section.has("path") && !section.has("key")) section.refuse("path", "needs [[camera.key]]");
     in.scene.animation.camera_path = path;
     if (section.has("key")) return read_keys(in, section, lens);

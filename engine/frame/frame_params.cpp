@@ -85,6 +85,17 @@ void place_camera(gpu::FrameParams& params, const Camera& camera, glm::ivec3 ori
     params.camera_up = glm::vec3(basis[1] * half_height);
 }
 
+constexpr double kNearestFocus = 1.0 / 1024.0;  // voxels
+
+void place_lens(gpu::FrameParams& params, const Lens& lens, const Camera& camera) {
+    params.lens_radius = static_cast<float>(0.5 * lens.aperture);
+    params.lens_blades = lens.blades;
+    double distance = lens.focus.value_or(0.0);
+    if (!lens.focus && lens.focus_at)
+        distance = glm::dot(*lens.focus_at - camera.position, camera_basis(camera)[2]);
+    params.lens_power = distance > 0.0 ? static_cast<float>(1.0 / std::max(distance, kNearestFocus)) : 0.0f;
+}
+
 void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
     params.light_count = plan.world.lights.count;
     params.light_power = static_cast<float>(plan.world.lights.power);
@@ -108,8 +119,9 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     gpu::FrameParams params{};
     params.chunks = march_world.chunks_size;
     params.world_origin = march_world.origin;
-    place_camera(params, on_pixel_grid(camera_of(scene), glm::dvec2(plan.image_size)), march_world.origin,
-                 plan.image_size);
+    const Camera camera = on_pixel_grid(camera_of(scene), glm::dvec2(plan.image_size));
+    place_camera(params, camera, march_world.origin, plan.image_size);
+    if (plan.has(Effect::lens)) place_lens(params, scene.lens, camera);
     params.width = static_cast<gpu::uint>(plan.image_size.x);
     params.height = static_cast<gpu::uint>(plan.image_size.y);
     params.first_column = static_cast<gpu::uint>(plan.first_pixel.x);

@@ -6,6 +6,7 @@
 #include "shared/alias.h"
 #include "shared/counters.h"
 #include "shared/gpu_types.h"
+#include "shared/projection.h"
 #include "shared/sequence.h"
 #include "shared/sky_view.h"
 
@@ -115,7 +116,8 @@ Constant sequence_constant(const RenderPlan& plan) {
 }
 
 Constant projection_constant(const RenderPlan& plan) {
-    return {"projection", static_cast<std::uint32_t>(plan.projection)};
+    return {"projection",
+            plan.has(Effect::lens) ? gpu::kThinLens : static_cast<std::uint32_t>(plan.projection)};
 }
 
 std::vector<Constant> sphere_constants(const RenderPlan& plan) {

@@ -20,6 +20,12 @@ struct EffectRow {
     Verdict (*verdict)(const SceneFacts&, const EffectRequest&);
 };
 
+Verdict verdict_of_lens(const SceneFacts& facts, const EffectRequest& request) {
+    if (!request.is_perspective) return {false, false, "the camera's projection has no lens"};
+    if (!(facts.aperture > 0.0)) return {false, false, "the camera is a pinhole"};
+    return {true, true, fmt::format("an aperture of {:.6g} voxels", facts.aperture)};
+}
+
 Verdict verdict_of_voxels(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_voxels) return {false, false, "the scene has no voxels"};
     return {true, true, fmt::format("{} voxels", facts.voxel_count)};
@@ -92,6 +98,7 @@ Verdict verdict_of_aov(const SceneFacts&, const EffectRequest& request) {
 }
 
 constexpr std::array<EffectRow, kEffectCount> kEffects = {{
+    {Effect::lens, "lens", verdict_of_lens},
     {Effect::voxels, "voxels", verdict_of_voxels},
     {Effect::spheres, "spheres", verdict_of_spheres},
     {Effect::specular, "specular", verdict_of_specular},

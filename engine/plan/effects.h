@@ -12,6 +12,7 @@ namespace voxilux {
 
 // What a user would name. Order is the order of the frame.
 enum class Effect : std::uint8_t {
+    lens,
     voxels,
     spheres,
     specular,
@@ -24,7 +25,7 @@ enum class Effect : std::uint8_t {
     indirect,
     aov
 };
-inline constexpr std::size_t kEffectCount = 11;
+inline constexpr std::size_t kEffectCount = 12;
 
 // What the user says of an effect; automatic leaves it to the scene.
 enum class Switch : std::uint8_t { automatic, on, off };
@@ -50,6 +51,7 @@ struct EffectRequest {
     std::map<Effect, Switch> switches;
     bool wants_aov = false;        // an output can hold more than colour
     bool traces_paths = true;      // where indirect light is on, paths find it and the light of the sky
+    bool is_perspective = true;    // the camera's projection
     bool wants_occlusion = false;  // its technique is named, and none of indirect light
 };
 

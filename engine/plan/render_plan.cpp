@@ -194,7 +194,9 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     plan.part = request.part;
     place_window(plan, request.crop);
     if (scene.camera) plan.projection = scene.camera->projection;
-    plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
+    EffectRequest wanted = with_techniques(request.effects, plan.settings);
+    wanted.is_perspective = plan.projection == Projection::perspective;
+    plan.effects = decide_effects(facts, wanted);
     plan.world = world;
     plan.has_world_texels =
         loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));

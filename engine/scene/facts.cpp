@@ -147,6 +147,7 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     facts.has_atmosphere = scene.sky.is_atmosphere();
     facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
                                          : any_positive(scene.sky.radiance);
+    facts.aperture = scene.lens.aperture;
     measure_materials(scene, std::move(voxels.used), facts);
     if (facts.has_ground)
         facts.max_albedo =
@@ -179,6 +180,7 @@ std::string describe(const SceneFacts& facts) {
     line("sun reaches", yes_no(facts.sun_reaches));
     line("sky", yes_no(facts.has_sky));
     if (facts.has_atmosphere) line("atmosphere", "yes");
+    if (facts.aperture > 0.0) line("aperture", fmt::format("{} voxels", facts.aperture));
     line("emitters", yes_no(facts.has_emitters));
     line("glass", yes_no(facts.has_glass));
     line("metal", yes_no(facts.has_metal));

@@ -157,6 +157,16 @@ struct Camera {
     double pixels_per_voxel = 0.0;  // orthographic: > 0
 };
 
+// What a perspective camera sees through. Sharp is the plane at right angles to the view axis at a distance,
+// or through a point; behind the camera, it counts as infinitely far away.
+struct Lens {
+    double aperture = 0.0;        // diameter, voxels; 0: a pinhole
+    std::uint32_t blades = 0;     // corners of the aperture; below 3, it is a disc
+    std::optional<double> focus;  // voxels
+    std::optional<glm::dvec3>
+        focus_at;  // the middle of the scene once it is loaded, unless one of both is given
+};
+
 enum class Sequence : std::uint8_t { sobol, halton, white };
 inline constexpr std::array<std::string_view, 3> kSequenceNames{"sobol", "halton", "white"};  // in that order
 [[nodiscard]] constexpr std::string_view name_of(Sequence sequence) {
@@ -248,6 +258,7 @@ struct Scene {
     Sky sky;
     Background background;
     Ground ground;
+    Lens lens;
     std::optional<Camera> camera;     // absent: default_camera() frames the scene
     double framing_fov_y_deg = 45.0;  // with this
     RenderSettings settings;

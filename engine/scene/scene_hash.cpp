@@ -109,6 +109,11 @@ auto fields_of(const VoxLayer& layer) {
     return std::tie(id, attributes, reserved);
 }
 
+auto fields_of(const Lens& lens) {
+    const auto& [aperture, blades, focus, focus_at] = lens;
+    return std::tie(aperture, blades, focus, focus_at);
+}
+
 auto fields_of(const VoxDict::value_type& attribute) {
     return std::tie(attribute.first, attribute.second);
 }
@@ -120,9 +125,9 @@ auto fields_of(const Animation& animation) {
 
 // The rest of a scene are sections.
 auto fields_of(const Scene& scene) {
-    const auto& [materials, models, instances, spheres, sun, sky, background, ground, camera,
+    const auto& [materials, models, instances, spheres, sun, sky, background, ground, lens, camera,
                  framing_fov_y_deg, settings, animation, cameras, exposure_ev, warnings, notes] = scene;
-    return std::tie(materials, models, instances, spheres, camera, framing_fov_y_deg, animation);
+    return std::tie(materials, models, instances, spheres, lens, camera, framing_fov_y_deg, animation);
 }
 
 class Hasher {

@@ -97,6 +97,7 @@ struct CameraSettings {
     CameraPath path = CameraPath::smooth;
     Projection projection = Projection::perspective;
     std::optional<double> pixels_per_voxel;
+    Lens lens;
 };
 
 // [[camera.key]]
@@ -202,14 +203,24 @@ void visit_settings(CameraPlacement& placement, auto&& visit) {
     visit({"fov", above(0, 360), "vertical, degrees; below 180 but for a fisheye"}, fov_y_deg);
 }
 
+void visit_settings(Lens& lens, auto&& visit) {
+    auto& [aperture, blades, focus, focus_at] = lens;
+    visit({"aperture", {0, 65536}, "diameter, voxels; 0 is a pinhole; see Cameras"}, aperture);
+    visit({"blades", {0, 64}, "corners of the aperture; below 3 it is round"}, blades);
+    visit({"focus", above(0, kMaxCoordinate), "distance of what is sharp, along the view axis, voxels"},
+          focus);
+    visit({"focus_at", kPlace, "instead: a point that is sharp; absent: the middle of the scene"}, focus_at);
+}
+
 void visit_settings(CameraSettings& settings, auto&& visit) {
-    auto& [placement, preset, path, projection, pixels_per_voxel] = settings;
+    auto& [placement, preset, path, projection, pixels_per_voxel, lens] = settings;
     visit_settings(placement, visit);
     visit({"preset", {}, "frames a scene", kViewNames}, preset);
     visit({"path", {}, "of the camera between its keys", kCameraPathNames}, path);
     visit({"projection", {}, "see Cameras", kProjectionNames}, projection);
     visit({"pixels_per_voxel", above(0, kMaxPixelsPerVoxel), "size of an orthographic image of the scene"},
           pixels_per_voxel);
+    visit_settings(lens, visit);
 }
 
 void visit_settings(CameraKeySettings& settings, auto&& visit) {

@@ -211,7 +211,7 @@ void note_what_is_not_shown(const Settings& settings) {
                           const char* what) {
         if (settings.is_set(type, keys)) settings.note(what);
     };
-    note("_lens", {"_aperture"}, "depth of field is not shown");
+    note("_lens", {"_aperture"}, "depth of field of the file is not shown: -D camera.aperture sets one");
     note("_lens", {"_proj"}, "the projection of the render settings is not used: --projection sets one");
     note("_film", {"_vig"}, "the vignette is not shown");
     note("_film", {"_gam"}, "the gamma of the film is not used: files are sRGB");

@@ -37,10 +37,11 @@ VX_FN vec3 picture_direction(FrameParams frame, float x, float y) {
     return normalize(frame.camera_forward + right * frame.camera_right + up * frame.camera_up);
 }
 
-// Unit direction of a camera that sees from one point.
+// Unit direction of a camera that sees from one point, or from around it.
 VX_FN vec3 pinhole_direction(FrameParams frame, uint projection, float x, float y) {
-    return projection == kPerspective ? picture_direction(frame, x, y)
-                                      : panorama_direction(frame, projection, x, y);
+    return projection == kPerspective || projection == kThinLens
+               ? picture_direction(frame, x, y)
+               : panorama_direction(frame, projection, x, y);
 }
 
 // Parallel rays: all of them are as far from the one in the middle as at the camera.
@@ -77,6 +78,12 @@ VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
     if (projection == kFisheye) widest = 1.41421356f * edge * frame.camera_angle / float(frame.height);
     beam.spread = widest * kBeamMargin + kBeamError;
     beam.pad = vec3(kBeamPad);
+    // A point of the aperture shifts the start by at most its radius, and the direction, before it is made
+    // unit, by that over the distance of focus: no more afterwards, since it is 1 or longer.
+    if (projection == kThinLens) {
+        beam.pad = vec3(kBeamPad + kBeamMargin * frame.lens_radius);
+        beam.spread += kBeamMargin * frame.lens_radius * frame.lens_power;
+    }
     return beam;
 }
 

@@ -19,10 +19,13 @@ VX_FN Ray camera_ray(FrameParams frame, uint projection, uint sequence, uint x, 
     const SampleKey key = sample_key(y * frame.width + x, uvec2(frame.sample_index, 0u), frame.seed);
     const vec2 jitter = sample_2d(sequence, key, kPairPixel);
     if (projection == kOrthographic) return orthographic_ray(frame, x, y, jitter);
-    if (projection != kPerspective) return panorama_ray(frame, projection, x, y, jitter);
+    if (projection == kEquirectangular || projection == kFisheye)
+        return panorama_ray(frame, projection, x, y, jitter);
     VX_PRECISE float right = 2.0f * (float(x) + jitter.x) / float(frame.width) - 1.0f;
     VX_PRECISE float up = 1.0f - 2.0f * (float(y) + jitter.y) / float(frame.height);
     VX_PRECISE vec3 v = frame.camera_forward + right * frame.camera_right + up * frame.camera_up;
+    if (projection == kThinLens)
+        return lens_ray(frame, v, aperture_point(frame.lens_blades, sample_2d(sequence, key, kPairLens)));
     VX_PRECISE float square = dot(v, v);  // >= 1: forward is unit and the others are at right angles to it
     Ray ray;
     ray.cell = frame.camera_cell;

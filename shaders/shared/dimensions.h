@@ -20,6 +20,7 @@ VX_CONST(uint, kPairEmitter, 3u);       // which emitter
 VX_CONST(uint, kPairEmitterPoint, 4u);  // which point of it
 VX_CONST(uint, kPairSurface, 5u);       // where a diffuse surface sends light
 VX_CONST(uint, kPairPhoton, 6u);        // three pairs, of the emission of a photon
+VX_CONST(uint, kPairLens, 9u);          // which point of the camera's aperture
 VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path meets
 VX_CONST(uint, kPairsOfBounce, 3u);
 

@@ -96,6 +96,9 @@ struct FrameParams {
     float camera_angle;   // fisheye: from the middle of the image to its upper edge, radians
     uint camera_block;    // orthographic: pixels, >= 1
     uvec2 camera_pixel;   // orthographic: pixels from the camera's cell to the image's upper left corner
+    float lens_radius;    // thin lens: of the aperture, voxels
+    float lens_power;     // thin lens: 1 / distance of the plane of focus along the view axis, 1 / voxels
+    uint lens_blades;     // thin lens: corners of the aperture; below 3, it is a disc
     uint width;           // of the whole image, pixels
     uint height;
     uint first_row;  // of the tile, image row

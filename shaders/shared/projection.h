@@ -7,6 +7,8 @@
 //
 // Panoramas: a longitude and latitude (equirectangular), or an angle from the view axis in proportion to the
 // distance from the middle of the image (fisheye, equidistant).
+//
+// Thin lens: perspective through an aperture. What lies in the plane of focus is sharp, see lens_ray.
 #ifndef VX_PROJECTION_H
 #define VX_PROJECTION_H
 
@@ -23,6 +25,7 @@ VX_CONST(uint, kPerspective, 0u);
 VX_CONST(uint, kOrthographic, 1u);
 VX_CONST(uint, kEquirectangular, 2u);
 VX_CONST(uint, kFisheye, 3u);
+VX_CONST(uint, kThinLens, 4u);  // kPerspective, with the effect of that name
 
 // A number as its floor and the rest in [0, 1].
 struct PlaneCount {
@@ -105,6 +108,42 @@ VX_FN Ray panorama_ray(FrameParams frame, uint projection, uint x, uint y, vec2 
     ray.cell = frame.camera_cell;
     ray.fraction = frame.camera_fraction;
     ray.direction = panorama_direction(frame, projection, float(x) + point.x, float(y) + point.y);
+    ray.t_max = kUnbounded;
+    return ray;
+}
+
+// Uniform point of a disc of radius 1, or of the regular polygon of `blades` >= 3 corners on its rim.
+VX_FN vec2 aperture_point(uint blades, vec2 u) {
+    if (blades < 3u) {
+        const vec3 disk = concentric_disk(u);
+        return vec2(disk.x, disk.y);
+    }
+    const float turn = u.x * float(blades);
+    const float corner = min(floor(turn), float(blades) - 1.0f);
+    const float angle = 2.0f * kPi / float(blades);
+    const vec2 first = vec2(cos(corner * angle), sin(corner * angle));
+    const vec2 second = vec2(cos((corner + 1.0f) * angle), sin((corner + 1.0f) * angle));
+    const vec2 rim = first + (turn - corner) * (second - first);
+    return sqrt(u.y) * rim;
+}
+
+// The ray through a point of the aperture towards where the pinhole's ray along `through` (1 along the view
+// axis) meets the plane of focus. Source: Potmesil and Chakravarty 1982, "Synthetic Image Generation with a
+// Lens and Aperture Camera Model"; the thin lens of Pharr et al., "Physically Based Rendering", 4th edition,
+// section 5.2.3.
+VX_FN Ray lens_ray(FrameParams frame, vec3 through, vec2 aperture) {
+    VX_PRECISE vec3 right = frame.camera_right / sqrt(dot(frame.camera_right, frame.camera_right));
+    VX_PRECISE vec3 up = frame.camera_up / sqrt(dot(frame.camera_up, frame.camera_up));
+    VX_PRECISE vec3 offset = frame.lens_radius * (aperture.x * right + aperture.y * up);
+    VX_PRECISE vec3 v = through - frame.lens_power * offset;
+    VX_PRECISE float square = dot(v, v);  // >= 1, as the offset is at right angles to the view axis
+    const PlaneCount x = count_whole(two_sum(frame.camera_fraction.x, offset.x));
+    const PlaneCount y = count_whole(two_sum(frame.camera_fraction.y, offset.y));
+    const PlaneCount z = count_whole(two_sum(frame.camera_fraction.z, offset.z));
+    Ray ray;
+    ray.cell = frame.camera_cell + ivec3(x.whole, y.whole, z.whole);
+    ray.fraction = vec3(x.rest, y.rest, z.rest);
+    ray.direction = v / sqrt(square);
     ray.t_max = kUnbounded;
     return ray;
 }

@@ -164,6 +164,10 @@ INSTANTIATE_TEST_SUITE_P(
                     "'pixels_per_voxel'"},
         RefusedText{"scale_zero", "[camera]\npixels_per_voxel = 0\n",
                     "s.toml:2:20: 'pixels_per_voxel' in [camera] must be a number in (0, 4096], not 0"},
+        RefusedText{"focus_twice", "[camera]\nfocus = 3\nfocus_at = [1, 2, 3]\n",
+                    "s.toml:3:12: 'focus_at' in [camera] excludes 'focus': give one or the other"},
+        RefusedText{"focus_on_the_lens", "[camera]\naperture = 1\nfocus = 0\n",
+                    "s.toml:3:9: 'focus' in [camera] must be a number in (0, 1073741824], not 0"},
         RefusedText{"panorama_is_no_flat_image", "[camera]\nprojection = \"equirectangular\"\nfov = 200\n",
                     "s.toml:3:7: 'fov' in [camera] must be below 180 unless the projection is fisheye, not "
                     "200"},

@@ -115,6 +115,22 @@ TEST(SceneToml, preset_frames_the_scene) {
     EXPECT_FALSE(parse_scene(std::string(kWhite), "s.toml").camera);
 }
 
+TEST(SceneToml, lens_is_focused_on_the_middle_of_the_scene_unless_told_otherwise) {
+    const std::string box =
+        std::string(kWhite) +
+        "[[shape]]\nshape = \"box\"\nfrom = [0,0,0]\nto = [9,5,7]\nmaterial = \"white\"\n";
+    const auto lens_of = [&](const std::string& keys) {
+        return parse_scene(box + "[camera]\n" + keys, "s.toml").lens;
+    };
+    EXPECT_EQ(lens_of("aperture = 2\n").focus_at, glm::dvec3(4.5, 2.5, 3.5));
+    EXPECT_EQ(lens_of("aperture = 2\nfocus_at = [1, 2, 3]\n").focus_at, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(lens_of("aperture = 2\nfocus = 9\n").focus_at);
+    EXPECT_EQ(lens_of("aperture = 2\nblades = 6\n").blades, 6u);
+    const Scene pinhole = parse_scene(box + "[camera]\naperture = 0\nfocus = 9\nblades = 6\n", "s.toml");
+    EXPECT_EQ(scene_hash(pinhole), scene_hash(parse_scene(box, "s.toml"))) << "a pinhole has no focus";
+    EXPECT_NE(scene_hash(pinhole), scene_hash(parse_scene(box + "[camera]\naperture = 1\n", "s.toml")));
+}
+
 TEST(SceneToml, pixels_per_voxel_make_a_sprite_unless_the_size_is_given) {
     const std::string box =
         std::string(kWhite) +

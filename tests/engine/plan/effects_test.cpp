@@ -13,6 +13,7 @@ SceneFacts rich() {
     facts.sphere_count = 2;
     facts.has_voxels = facts.has_spheres = facts.sun_reaches = facts.has_sky = facts.has_emitters = true;
     facts.has_glass = facts.has_metal = facts.has_reflectors = true;
+    facts.aperture = 2.5;
     return facts;
 }
 
@@ -62,6 +63,10 @@ struct Row {
 
 TEST(Effects, every_row_gives_its_reason) {
     const std::vector<Row> rows = {
+        {"lens needed", state(Effect::lens, rich()), true, "an aperture of 2.5 voxels"},
+        {"lens", state(Effect::lens, SceneFacts{}), false, "the camera is a pinhole"},
+        {"lens of parallel rays", decide_effects(rich(), {.is_perspective = false})[0], false,
+         "the camera's projection has no lens"},
         {"voxels needed", state(Effect::voxels, rich()), true, "7 voxels"},
         {"voxels", state(Effect::voxels, without(&SceneFacts::has_voxels)), false, "the scene has no voxels"},
         {"spheres needed", state(Effect::spheres, rich()), true, "2 analytic spheres"},
@@ -191,10 +196,10 @@ TEST(Effects, unknown_effect_is_a_usage_error_that_names_the_known_ones) {
         FAIL() << "accepted";
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::usage);
-        EXPECT_STREQ(
-            error.what(),
-            "--effect: there is no effect 'shadows'; known are voxels, spheres, specular, ao, sun, sky, "
-            "emission, direct, caustics, indirect, aov");
+        EXPECT_STREQ(error.what(),
+                     "--effect: there is no effect 'shadows'; known are lens, voxels, spheres, specular, ao, "
+                     "sun, sky, "
+                     "emission, direct, caustics, indirect, aov");
     }
 }
 

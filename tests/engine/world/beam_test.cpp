@@ -143,7 +143,10 @@ gpu::FrameParams with_projection(gpu::FrameParams camera, gpu::uint projection) 
     camera.camera_block = 4;
     camera.camera_pixel = {3, 1};
     camera.camera_angle = 1.2f;
-    if (projection != gpu::kOrthographic) {
+    if (projection == gpu::kThinLens) {
+        camera.lens_radius = 1.5f;
+        camera.lens_power = 1.0f / 24.0f;
+    } else if (projection != gpu::kOrthographic) {
         camera.camera_right = glm::normalize(camera.camera_right);
         camera.camera_up = glm::normalize(camera.camera_up);
     }
@@ -152,7 +155,8 @@ gpu::FrameParams with_projection(gpu::FrameParams camera, gpu::uint projection) 
 
 TEST_P(BeamIn, start_changes_no_hit_of_other_projections) {
     const MarchWorld world = build_march_world(sparse_world(), GetParam());
-    for (const gpu::uint projection : {gpu::kOrthographic, gpu::kEquirectangular, gpu::kFisheye}) {
+    for (const gpu::uint projection :
+         {gpu::kOrthographic, gpu::kEquirectangular, gpu::kFisheye, gpu::kThinLens}) {
         Comparison sum;
         for (std::uint32_t seed = 0; seed < 8; ++seed) {
             for (const gpu::FrameParams& camera : cameras_around(world.size(), seed)) {

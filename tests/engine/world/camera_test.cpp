@@ -361,5 +361,81 @@ TEST(CameraRay, samples_fill_the_pixel_evenly_in_every_sequence) {
     }
 }
 
+// Squared distance from the middle, and the mean, of points of the aperture.
+struct Spread {
+    double square = 0.0;
+    glm::dvec2 mean{0.0};
+    double longest = 0.0;
+};
+
+Spread spread_of(gpu::uint blades) {
+    constexpr int kSide = 512;
+    Spread spread;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const glm::vec2 u = (glm::vec2(i % kSide, i / kSide) + 0.5f) / static_cast<float>(kSide);
+        const glm::dvec2 point(gpu::aperture_point(blades, u));
+        spread.square += glm::dot(point, point) / (kSide * kSide);
+        spread.mean += point / static_cast<double>(kSide * kSide);
+        spread.longest = std::max(spread.longest, glm::length(point));
+    }
+    return spread;
+}
+
+// The mean square is 1/2 for a disc; for a regular polygon of n corners, (2 + cos(2 pi / n)) / 6.
+TEST(Lens, points_fill_the_aperture_evenly) {
+    constexpr double kGridError = 1e-4;  // of a midpoint rule of 512 x 512 points: 1 / 512^2, and kinks
+    for (const gpu::uint blades : {0u, 1u, 2u, 3u, 4u, 6u, 64u}) {
+        const double corner = std::cos(2.0 * std::numbers::pi / blades);
+        const double square = blades < 3 ? 0.5 : (2.0 + corner) / 6.0;
+        const Spread spread = spread_of(blades);
+        EXPECT_NEAR(spread.square, square, kGridError) << blades;
+        EXPECT_LT(glm::length(spread.mean), kGridError) << blades;
+        EXPECT_LE(spread.longest, 1.0 + 1e-6) << blades;
+        EXPECT_GT(spread.longest, 0.99) << blades;
+    }
+}
+
+// Where the ray is at a depth along the view axis, from the camera's cell.
+glm::dvec3 at_depth(const gpu::FrameParams& frame, const gpu::Ray& ray, double depth) {
+    const glm::dvec3 start = glm::dvec3(ray.cell - frame.camera_cell) + glm::dvec3(ray.fraction);
+    const glm::dvec3 direction(ray.direction);
+    return start + direction * (depth / glm::dot(direction, glm::dvec3(frame.camera_forward)));
+}
+
+TEST(Lens, rays_of_a_pixel_meet_in_the_plane_of_focus_and_part_beyond_it) {
+    test::TestRandom random(36);
+    for (int i = 0; i < 5000; ++i) {
+        gpu::FrameParams frame = random_frame(random);
+        const double focus = 40.0, radius = 3.0;
+        frame.lens_radius = static_cast<float>(radius);
+        frame.lens_power = static_cast<float>(1.0 / focus);
+        const gpu::uint x = random.bits32() % frame.width, y = random.bits32() % frame.height;
+        const gpu::uint sequence = random.bits32() % 3;
+        const gpu::Ray sharp = gpu::camera_ray(frame, gpu::kPerspective, sequence, x, y);
+        const gpu::Ray ray = gpu::camera_ray(frame, gpu::kThinLens, sequence, x, y);
+        ASSERT_NEAR(glm::length(glm::dvec3(ray.direction)), 1.0, kLengthError);
+        ASSERT_TRUE(gpu::is_sound(ray)) << i;
+        // The float direction is off by kDirectionError of a length of up to 4 focal distances.
+        ASSERT_LT(glm::distance(at_depth(frame, ray, focus), at_depth(frame, sharp, focus)), 1e-4) << i;
+        for (const double depth : {0.0, 20.0, 160.0}) {
+            const double blur = glm::distance(at_depth(frame, ray, depth), at_depth(frame, sharp, depth));
+            ASSERT_LE(blur, radius * std::abs(1.0 - depth / focus) + 1e-3) << i;
+        }
+    }
+}
+
+TEST(Lens, of_no_width_or_focused_at_infinity) {
+    test::TestRandom random(37);
+    gpu::FrameParams frame = random_frame(random);
+    frame.lens_power = 0.125f;
+    const gpu::Ray pinhole = gpu::camera_ray(frame, gpu::kPerspective, gpu::kSequenceWhite, 9, 5);
+    EXPECT_EQ(print(gpu::camera_ray(frame, gpu::kThinLens, gpu::kSequenceWhite, 9, 5)), print(pinhole));
+    frame.lens_radius = 2.0f;
+    frame.lens_power = 0.0f;
+    const gpu::Ray ray = gpu::camera_ray(frame, gpu::kThinLens, gpu::kSequenceWhite, 9, 5);
+    EXPECT_EQ(ray.direction, pinhole.direction);
+    EXPECT_NE(print(ray), print(pinhole));
+}
+
 }  // namespace
 }  // namespace voxilux
