@@ -6,7 +6,7 @@
 //
 // The interval comes from the jackknife over trials (B. Efron and C. Stein, "The jackknife estimate of
 // variance", 1981: never too narrow on average), in square blocks of pixels: the blocks add degrees of
-// freedom and hold together what is noisy together. Blocks may differ in what they show without widening the
+// freedom and keep correlated pixels together. Blocks may differ in what they show without widening the
 // interval, so that a small bright spot is told from noise.
 
 #include "estimators/difference_estimate.h"

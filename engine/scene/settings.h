@@ -78,7 +78,7 @@ struct HexColour {
     std::string_view linear_key;
 };
 
-// What a scene file says of where the camera stands. A direction is a point to look at, or yaw and pitch.
+// What a scene file says about where the camera stands. A direction is a point to look at, or yaw and pitch.
 struct CameraPlacement {
     std::optional<glm::dvec3> position;
     std::optional<glm::dvec3> look_at;

@@ -10,7 +10,7 @@
 namespace voxilux {
 
 // The boxes around a part of a level, grown from nothing by the steps of aadf.h. Copied out of the structure,
-// the cells of a line lie side by side, which makes an edit several times as fast as looking each up.
+// the cells of a line lie side by side, and an edit is several times as fast as with a look-up of each.
 class GrowingBox {
   public:
     // How far the boxes of a level depend on its cells: the sum of how far all rounds look, 1 + 2 + 4 + 8 +
