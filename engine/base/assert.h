@@ -8,7 +8,8 @@
 
 namespace voxilux {
 
-// A mistake of ours, not of the world. It ends the process with exit code 70 and names the broken condition.
+// A defect of the program, not of its input. It ends the process with exit code 70; its message names the
+// broken condition.
 class InternalError : public std::logic_error {
   public:
     using std::logic_error::logic_error;
@@ -22,7 +23,7 @@ class InternalError : public std::logic_error {
 
 }  // namespace voxilux
 
-// Checked in every build: what they guard is never in an inner loop.
+// Checked in every build, and so never used in inner loops.
 #define VX_ASSERT(condition)                                                               \
     do {                                                                                   \
         if (!(condition)) ::voxilux::assertion_failed(#condition, __FILE__, __LINE__, ""); \

@@ -25,8 +25,8 @@ enum class ExitCode : int {
     interrupted = 130,
 };
 
-// The world is adverse (device, file, memory): one line that says what failed, with which input, what to try.
-// The code is what the process returns when nobody handles the error.
+// A failure outside the program (device, file, memory): one line that says what failed, with which input, and
+// what to try. The code becomes the exit code of the process when nobody handles the error.
 class Error : public std::runtime_error {
   public:
     Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}

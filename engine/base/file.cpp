@@ -29,14 +29,14 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
     if (fs::is_fifo(path, status))
         throw Error(
             ExitCode::input_refused,
-            fmt::format("{}: is a pipe, which cannot be sought: save it as a file first", path.string()));
+            fmt::format("{}: is a pipe, which is not seekable: save it as a file first", path.string()));
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     if (!in) {
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: cannot open: {}", path.string(), std::strerror(errno)));
     }
     const std::streamoff size = in.tellg();
-    if (size < 0) throw Error(ExitCode::input_refused, fmt::format("{}: cannot be sought", path.string()));
+    if (size < 0) throw Error(ExitCode::input_refused, fmt::format("{}: is not seekable", path.string()));
     if (static_cast<std::size_t>(size) > limit_bytes) {
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: {} bytes, over the limit of {}", path.string(), size, limit_bytes));
@@ -50,11 +50,12 @@ std::vector<std::byte> read_file(const fs::path& path, std::size_t limit_bytes) 
 
 namespace {
 
-constexpr int kMaxLinks = 40;  // as the kernel follows
+constexpr int kMaxLinks = 40;  // as many as the kernel follows
 constexpr std::string_view kTemporaryPrefix = ".voxilux-", kTemporaryEnding = ".tmp";
 constexpr auto kStaleAfter = std::chrono::hours(1);
 
-// The file that a name stands for: what a chain of links points to, there or not, so that the links stay.
+// The file that a name stands for: the end of its chain of links, whether it exists or not. Replacing that
+// file leaves the links in place.
 fs::path resolved(fs::path path) {
     std::error_code failed;
     for (int links = 0; links < kMaxLinks && fs::is_symlink(path, failed); ++links) {
@@ -75,7 +76,7 @@ bool is_written_in_place(const fs::path& path) {
     throw std::runtime_error(std::strerror(errno));
 }
 
-// A new, empty file beside `target` and with its mode; removed with the object unless renamed before.
+// A new, empty file beside `target`, with its mode. The destructor removes it unless it was renamed.
 class TemporaryFile {
   public:
     explicit TemporaryFile(const fs::path& target) {
@@ -98,7 +99,7 @@ class TemporaryFile {
     void rename_to(const fs::path& target) const {
         sync(path_, O_RDONLY);
         if (::rename(path_.c_str(), target.c_str()) != 0) throw_errno();
-        try {  // the picture is there; some file systems cannot sync a folder
+        try {  // the file is complete; some file systems cannot sync a folder
             sync(target.has_parent_path() ? target.parent_path() : ".", O_RDONLY | O_DIRECTORY);
         } catch (const std::runtime_error&) {
         }
@@ -117,8 +118,8 @@ class TemporaryFile {
     fs::path path_;
 };
 
-// Those that killed processes have left: their process is gone, and nobody has touched them for an hour (a
-// folder may be shared with other machines).
+// Removes what killed processes have left: their process is gone, and the file has not changed for an hour
+// (the folder may be shared with other machines).
 void remove_stale_temporaries(const fs::path& folder) {
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {

@@ -1,7 +1,7 @@
 #pragma once
 
 // JSON in and out, for both forms of nlohmann's type. What is written is always valid UTF-8: a file name may
-// be any bytes, and those that are no UTF-8 become U+FFFD. What is read may come from anybody: the library's
+// hold any bytes, and those that are not UTF-8 become U+FFFD. What is read may be hostile: the library's
 // recursive parts (copy, dump) would run out of stack on text that is nested without bound.
 
 #include <algorithm>
@@ -20,7 +20,7 @@ template <class Json>
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-// How deep the brackets of a JSON text nest, those in strings apart.
+// How deep the brackets of a JSON text nest, not counting those in strings.
 [[nodiscard]] inline int json_depth(std::string_view text) {
     int depth = 0, deepest = 0;
     bool is_string = false;
@@ -35,7 +35,7 @@ template <class Json>
     return deepest;
 }
 
-// Nothing for a text that is no JSON, or nested deeper than kMaxJsonDepth.
+// Nothing for a text that is not JSON or is nested deeper than kMaxJsonDepth.
 template <class Json>
 [[nodiscard]] std::optional<Json> parse_json(std::string_view text) {
     if (json_depth(text) > kMaxJsonDepth) return std::nullopt;

@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// The median; of an even count the mean of the two in the middle. Needs a value (asserted).
+// The median; for an even count, the mean of the two middle values. Needs at least one value (asserted).
 [[nodiscard]] inline double median(std::vector<double> values) {
     VX_ASSERT(!values.empty());
     std::ranges::sort(values);

@@ -9,12 +9,12 @@
 namespace voxilux {
 
 // How many letters must be inserted, deleted, replaced or swapped with their neighbour to turn `a` into `b`.
-// Source: the optimal string alignment distance, Damerau 1964 with the dynamic programme of Wagner and
+// Source: the optimal string alignment distance (Damerau 1964) by the dynamic programming of Wagner and
 // Fischer 1974.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// The name that a person who typed `typed` most likely meant: the nearest one, if at most a third of its
-// letters (at least 2) are wrong. The first of equals.
+// The name that a person who typed `typed` most likely meant: the nearest one, if at most two or a third of
+// its letters are wrong. Of equally near names, the first.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view typed,
                                                            std::span<const std::string_view> names);
 

@@ -1,8 +1,7 @@
 #pragma once
 
-// What is printed. A full disk, a closed pipe or a lost terminal never ends the work: the picture counts, so
-// that a text which cannot be printed is dropped here. The stream remembers that; main() looks at standard
-// output once everything else is done.
+// Printing. A full disk, a closed pipe or a lost terminal does not end a render: text that cannot be printed
+// is dropped here. The stream remembers the failure, and main() checks standard output at the end.
 
 #include <cstdio>
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kQuotedLength = 80;
 
 // A character of a text: how many bytes it takes, and its code point; `is_valid` is false for a byte that is
-// no part of UTF-8.
+// not part of valid UTF-8.
 struct Character {
     std::size_t bytes = 1;
     char32_t code = 0;
@@ -35,7 +35,7 @@ Character first_character(std::string_view text) {
     return {size, code, true};
 }
 
-// Control characters, and formatting ones that change the order or the lines of what is shown.
+// Control characters, and formatting characters that change the order or the lines of the text.
 bool is_hidden(char32_t code) {
     constexpr std::array<std::array<char32_t, 2>, 9> kRanges = {{{0, 0x1F},
                                                                  {0x7F, 0x9F},

@@ -1,8 +1,8 @@
 #pragma once
 
-// Text that a file holds, fit for a message, a report and a header. A terminal obeys control characters (ESC
-// ]0; sets its title, the bidirectional ones hide what is written), JSON needs valid UTF-8, and a person
-// reads no name of 100,000 characters. Every name and word of a file goes through here on its way out.
+// Text from files, made fit for messages, reports and headers. A terminal obeys control characters (ESC ]0;
+// sets its title, the bidirectional ones hide what is written), JSON needs valid UTF-8, and nobody reads a
+// name of 100,000 characters. Every name and word from a file passes through here before it is shown.
 
 #include <cstddef>
 #include <string>

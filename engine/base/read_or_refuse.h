@@ -10,8 +10,8 @@
 
 namespace voxilux {
 
-// What `read` returns. Whatever a library throws becomes one line: the file, what it is not, and the
-// library's words. `what` follows "not ", as in "a readable EXR".
+// Returns what `read` returns. Whatever a library throws becomes one line: the file, what it is not, and the
+// library's message. `what` follows "not ", as in "a readable EXR".
 template <class Read>
 auto read_or_refuse(const std::string& file, std::string_view what, Read read) {
     try {

@@ -9,7 +9,7 @@ struct Seconds {
     double wall = 0.0;
 };
 
-// Time since it was made. On a machine with other work only CPU time can be compared.
+// Time since its construction. On a busy machine only CPU times can be compared.
 class Stopwatch {
   public:
     [[nodiscard]] Seconds elapsed() const {

@@ -28,7 +28,7 @@ void keep_window(Image& image, const PixelBox& box) {
     }
 }
 
-// Restricts all to the window that both images have.
+// Restricts the comparison to the window that both images have.
 void share_window(ImageComparison& images, Selection& selection) {
     const PixelBox all{.x1 = images.ref.width, .y1 = images.ref.height};
     images.common = intersection(images.ref.stored.value_or(all), images.test.stored.value_or(all));

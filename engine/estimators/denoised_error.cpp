@@ -33,7 +33,7 @@ std::vector<double> block_sums(int width, int height, std::span<const float> val
     return sums;
 }
 
-// Blocks differ by what they show, too, which errs on the wide side.
+// Blocks differ by what they show, too, so intervals are rather too wide than too narrow.
 MeanOfBlocks mean_of_blocks(int width, int height, std::span<const float> values) {
     const std::vector<double> sums = block_sums(width, height, values);
     const double count = static_cast<double>(sums.size()), pixels = static_cast<double>(values.size());

@@ -6,8 +6,8 @@
 //
 // The interval comes from the jackknife over trials (B. Efron and C. Stein, "The jackknife estimate of
 // variance", 1981: never too narrow on average), in square blocks of pixels: the blocks add degrees of
-// freedom and hold together what is noisy together. What the blocks show may differ as it likes, so that a
-// small bright spot is told from noise.
+// freedom and keep correlated pixels together. Blocks may differ in what they show without widening the
+// interval, so that a small bright spot is told from noise.
 
 #include "estimators/difference_estimate.h"
 
@@ -47,7 +47,7 @@ struct Trials {
     std::vector<Planes> tests, bases;
     std::optional<Planes> radiance;
 
-    // Of the value that a pair leaves out.
+    // The radiance to divide by: that given, or the mean of the bases that are not in the pair.
     [[nodiscard]] double scale(const Pair& pair, std::size_t c, std::size_t pixel) const {
         if (radiance) return static_cast<double>((*radiance)[c][pixel]);
         double sum = 0.0;
@@ -58,7 +58,7 @@ struct Trials {
     [[nodiscard]] double difference(std::size_t k, std::size_t c, std::size_t pixel) const {
         return static_cast<double>(tests[k][c][pixel]) - static_cast<double>(bases[k][c][pixel]);
     }
-    // No component counts for more than `most`, in either direction: what has a mean of 0 keeps it.
+    // Each component is clamped to `most` in either direction, so that a mean of 0 stays 0.
     [[nodiscard]] double product(const Pair& pair, std::size_t pixel, double most) const {
         double sum = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {

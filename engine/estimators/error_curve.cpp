@@ -1,17 +1,17 @@
-// Extrapolates the error that a film claims. Theory says between which two laws noise and bias fall, not
-// which one a picture follows: that depends on how its light is mixed. So every law between the two is given
-// a chance by how well it fits what was measured at some numbers of samples, and forecasts are means over all
-// of them. Where points are few the prior below decides, and the deviation says so.
+// Extrapolates the estimated error of a film. Theory says between which two laws noise and bias fall, but not
+// which law an image follows: that depends on how its light is mixed. So every law between the two gets a
+// probability by how well it fits the errors measured at some sample counts, and forecasts are means over all
+// of them. Where points are few, the prior below decides, and the deviation is large.
 //
-// Noise of a scrambled sequence: n^-1 where a picture is beyond it, n^(-1 - 1/d) for an edge in d dimensions,
-// up to n^-2 and more where it is smooth (Z. He and X. Wang 2015, "On the Convergence Rate of Randomized
-// Quasi-Monte Carlo for Discontinuous Functions", SIAM J. Numer. Anal. 53(5)).
+// Noise of a scrambled sequence: n^-1 where an image is too complex for it, n^(-1 - 1/d) for an edge in d
+// dimensions, up to n^-2 and more where it is smooth (Z. He and X. Wang 2015, "On the Convergence Rate of
+// Randomized Quasi-Monte Carlo for Discontinuous Functions", SIAM J. Numer. Anal. 53(5)).
 //
 // Noise of photons: the variance of iteration i is v0 + v1 i^(1-alpha), v0 of what has no photons in it and
-// v1 of what has, since the variance of a density estimate is inverse to the disc's area (Knaus and Zwicker
+// v1 of what has, since the variance of a density estimate is inverse to the kernel's area (Knaus and Zwicker
 // 2011, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), sections 4 and 5). So the mean
-// of n iterations has variance (v0 + v1 mean_power(n, 1 - alpha)) / n. The bias of iteration i goes with the
-// disc's area, i^(alpha-1), inside of a surface, and more slowly near its edges, so that its square lies
+// of n iterations has variance (v0 + v1 mean_power(n, 1 - alpha)) / n. The bias of iteration i falls as the
+// kernel's area, i^(alpha-1), inside a surface, and more slowly near its edges, so that its square lies
 // between n^(2(alpha-1)) and a constant.
 
 #include "estimators/error_curve.h"
@@ -25,27 +25,26 @@
 namespace voxilux {
 namespace {
 
-// The place between two laws, 0 the slow and 1 the fast one, amid the points, before anything is measured.
+// The place between the two laws, 0 the slow and 1 the fast one, before anything is measured.
 struct Prior {
     double mean = 0.5;
     double deviation = 0.25;
 };
-// n^-1.3 to n^-1.5 in pictures of scenes/ from 4 to 512 samples, with Sobol and Halton alike.
+// n^-1.3 to n^-1.5 in images of scenes/ from 4 to 512 samples, with Sobol and Halton alike.
 constexpr Prior kSequencePrior{.mean = 0.42, .deviation = 0.15};
-// Photons and the rest have like shares of the noise at the first radius.
+// Photons and the rest have similar parts in the noise at the first radius.
 constexpr Prior kPhotonPrior{.mean = 0.6, .deviation = 0.3};
-// Edges, where the bias goes with the radius itself, are one half.
+// At edges the bias falls as the radius itself, which is the place one half.
 constexpr Prior kBiasPrior{.mean = 0.45, .deviation = 0.25};
 
-// Relative deviation of a point that no law has to come nearer to: the noise of few samples is itself off by
-// some percent, by what its denominators do not know.
+// Least relative deviation of a point: the noise estimated from few samples is off by some percent, since its
+// denominators are estimates, too.
 constexpr double kMinScatter = 0.03;
-// Quantile of the interval whose upper end noise_high is (film/error_estimate.cpp), and the share of its
-// variance that is the estimate's own.
+// Quantile of the interval whose upper end is noise_high (error_estimate.cpp), and the part of its variance
+// that is the estimate's own.
 constexpr double kIntervalQuantile = 2.17;
 constexpr double kOwnVariance = 0.5;
-// Relative scatter of noise_high / noise, over the logarithm of that: pictures of few pixels, or few noisy
-// ones.
+// Deviation of log(noise_high / noise), relative to it: images of few pixels, or few noisy ones.
 constexpr double kSpreadScatter = 0.2;
 constexpr double kExactTerms = 64.0;  // of a sum, before it becomes an integral
 
@@ -74,7 +73,7 @@ Prior prior_of(const ErrorLaw& law, Quantity quantity) {
     return law.noise == NoiseLaw::sequence ? kSequencePrior : kPhotonPrior;
 }
 
-// Least squares for the factor of each law; chances by what is left of the squares (Gaussian errors).
+// Least squares for the factor of each law; probabilities from the residuals (Gaussian errors).
 ConvergenceCurve fit_decline(const ErrorLaw& law, Quantity quantity, const std::vector<Measured>& points) {
     const auto [first, last] = std::ranges::minmax(points, {}, &Measured::samples);
     ConvergenceCurve fit{.reference = std::sqrt(first.samples * last.samples)};
@@ -122,7 +121,7 @@ Value value_at(const ErrorLaw& law, Quantity quantity, const ConvergenceCurve& f
     return {mean, std::sqrt(std::max(square - mean * mean, 0.0))};
 }
 
-// Of the logarithm of a noise, from one set of random numbers to the next.
+// Deviation of the logarithm of a noise, from one set of random numbers to the next.
 double scatter_of(const ErrorPoint& point) {
     const double wide =
         std::sqrt(kOwnVariance) * std::log(point.noise_high / point.noise) / kIntervalQuantile;

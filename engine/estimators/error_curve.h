@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// What a film of so many samples claims of its error. Squares, in the units of relMSE.
+// The estimated error of a film of so many samples. Squares, in the units of relMSE.
 struct ErrorPoint {
     double samples = 0.0;
     double noise = 0.0;
@@ -43,10 +43,10 @@ struct ConvergenceCurve {
     std::array<double, kShapes> chance{};
     std::array<double, kShapes> factor{};
     std::array<double, kShapes> deviation{};  // of the factor
-    double reference = 1.0;                   // samples where laws are 1
+    double reference = 1.0;                   // sample count at which the laws are 1
 };
 
-// How the claimed error of a render falls.
+// How the error of a render and its upper bound fall.
 struct ErrorCurve {
     ErrorLaw law;
     ConvergenceCurve noise;
@@ -60,22 +60,23 @@ struct ErrorCurve {
 // Fits the points, which need not be in order. Nothing when there are none, or one has no noise above 0.
 [[nodiscard]] std::optional<ErrorCurve> fit_error(const ErrorLaw& law, std::span<const ErrorPoint> points);
 
-// Expected claim after so many samples, a root of relMSE: the upper end of the interval of the error.
-// `deviations` of the curve and of the claim itself are added to the noise, and of the curve to the bias.
+// Expected error bound after so many samples, a root of relMSE: the upper end of the interval of the error.
+// So many `deviations` of the curve and of the bound itself are added to the noise, and of the curve to the
+// bias.
 [[nodiscard]] double claimed_error(const ErrorCurve& curve, double samples, double deviations = 0.0);
 
-// The same of the error itself: noise and bias without intervals.
+// The same for the error itself: noise and bias without intervals.
 [[nodiscard]] double expected_error(const ErrorCurve& curve, double samples);
 [[nodiscard]] double expected_bias(const ErrorCurve& curve, double samples);
 
 // Most samples that a film may sum exactly, shared/film_sum.h.
 inline constexpr std::uint32_t kMaxSamples = 1u << 20;
 
-// The fewest samples with which claimed_error() is at most `error`; nothing when kMaxSamples do not do.
+// The fewest samples with which claimed_error() is at most `error`; nothing when kMaxSamples do not suffice.
 [[nodiscard]] std::optional<std::uint32_t> samples_for(const ErrorCurve& curve, double error,
                                                        double deviations = 0.0);
 
-// Mean of i^power over i = 1 ... n, for a power in [-1, 1] and n >= 1; n may be broken.
+// Mean of i^power over i = 1 ... n, for a power in [-1, 1] and n >= 1; n may be fractional.
 [[nodiscard]] double mean_power(double n, double power);
 
 }  // namespace voxilux

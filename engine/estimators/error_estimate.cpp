@@ -3,8 +3,8 @@
 //     D^2 = (A-B)^2 nA nB / (nA+nB)^2
 // estimates the squared error of the mean without bias, whatever the distribution of the samples.
 //
-// The error of the picture is relMSE = mean of D^2 / (r^2 + kRelMseEpsilon) over pixels and channels, r the
-// true value. Putting the pixel's own mean m for r fails where it is needed most: a firefly makes D and m
+// The error of the image is relMSE = mean of D^2 / (r^2 + kRelMseEpsilon) over pixels and channels, r the
+// true value. Taking the pixel's own mean m for r fails where it is needed most: a firefly makes D and m
 // large together, and the estimate comes out several times too small. So where the halves disagree (|D| over
 // a quarter of |m|), r is taken from m and the mean of the 24 pixels around it: the smaller of the two for
 // the estimate, the larger for the lower end of the interval. Where they agree, and so everywhere in the end,
@@ -15,8 +15,8 @@
 // latter and what is left errs on the wide side (J. von Neumann et al., "The mean square successive
 // difference", 1941). The true relMSE scatters about its expectation as much as the estimate does and
 // independently of it (A+B and A-B are uncorrelated), hence the factor 2. The interval is laid on
-// log(relMSE), which is nearer to normal and cannot turn negative; Student's t stands for the number of
-// blocks being finite.
+// log(relMSE), which is nearer to normal and cannot turn negative; Student's t allows for the finite
+// number of blocks.
 //
 // Where samples are independent and their squares were summed, too, the unbiased variance of all samples
 // stands in for D^2, with n - 1 degrees of freedom instead of one. The estimate then scatters less than the
@@ -46,7 +46,7 @@ constexpr double kDegreesPerDifference = 2.0 / 3.0;  // successive differences s
 
 using Rgb = std::array<double, 3>;
 
-// The means of the rows around the current one; rows outside the picture are empty.
+// The means of the rows around the current one; rows outside the image are empty.
 class RowWindow {
   public:
     RowWindow(int width, int height, const FilmHalf& a, const FilmHalf& b)
@@ -98,7 +98,7 @@ class RowWindow {
 };
 
 // A pixel's share of relMSE with the cautious and with the hopeful choice of the true value. `drawn` is the
-// cautious share that the halves give: one draw from what the true share is another one of.
+// cautious share that the halves give: a draw from the distribution of the true share.
 struct RelativeError {
     double cautious = 0.0, hopeful = 0.0, drawn = 0.0;
 };
@@ -191,7 +191,7 @@ Blocks gather(int width, int height, const FilmHalf& a, const FilmHalf& b, FilmS
     return result;
 }
 
-// Variance of the mean of what the blocks hold. Blocks are walked to and fro, so that successive ones are
+// Variance of the mean of what the blocks hold. Blocks are walked back and forth, so that successive ones are
 // neighbours.
 double variance_of_mean(const Blocks& all, CompensatedSum Block::*held, double mean, double pixels) {
     CompensatedSum squares;

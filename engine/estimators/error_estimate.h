@@ -9,12 +9,13 @@
 namespace voxilux {
 
 inline constexpr double kErrorConfidence = 0.95;
-// Normal quantile of intervals, two-sided, at 97 %: their spread is itself an estimate, and the trials of the
-// tests, which count how often an interval holds the truth, need that much to stay above kErrorConfidence.
+// Normal quantile of intervals, two-sided, at 97 %: their width is itself an estimate, and in the tests,
+// which count how often an interval holds the truth, only intervals so wide do so more often than
+// kErrorConfidence.
 inline constexpr double kClaimQuantile = 2.170090377584560;
 
-// Systematic part of the error, in the units of sqrt(relMSE) squared: mean over pixels and channels of bias^2
-// / (radiance^2 + 0.01), with the standard error of that mean.
+// Systematic part of the error, in the units of relMSE: mean over pixels and channels of bias^2 / (radiance^2
+// + kRelMseEpsilon), with the standard error of that mean.
 struct BiasEstimate {
     double squared = 0.0;  // may be below 0 by noise
     double deviation = 0.0;
@@ -23,7 +24,7 @@ struct BiasEstimate {
     [[nodiscard]] double max_squared() const;
 };
 
-// How far the beauty is from the converged one, without knowing that: estimate of sqrt(relMSE), a relative
+// How far the beauty is from the converged one, which is unknown: an estimate of sqrt(relMSE), a relative
 // error (0.01 is 1 %), and an interval that holds the true value with the given confidence.
 struct ErrorEstimate {
     std::string metric = "relmse-root";
@@ -31,8 +32,7 @@ struct ErrorEstimate {
     double low = 0.0;
     double high = 0.0;  // infinity when there are too few pixels or samples to tell
     double confidence = kErrorConfidence;
-    // Where the samples tell of their bias, too: the two parts of the estimate, the root of the sum of whose
-    // squares it is.
+    // Where the bias is known, too: the two parts of the estimate, whose squares add up to its own.
     std::optional<double> noise;
     std::optional<double> bias;
     std::optional<BiasEstimate> bias_squared;  // what `bias` is the root of, as measured

@@ -39,21 +39,22 @@ constexpr double kCurveA = 0.6 * 0.6 * 2.51, kCurveB = 0.6 * 0.03;
 constexpr double kCurveD = 0.6 * 0.6 * 2.43, kCurveE = 0.6 * 0.59, kCurveF = 0.14;
 constexpr double kShownLuminance = 0.85;
 constexpr double kMinMedian = std::numeric_limits<float>::epsilon();  // luminance; keeps the exposures finite
-constexpr int kMaxExposures = 64;  // 2^-23 to 2^41 between median and maximum; more is not a picture
+constexpr int kMaxExposures = 64;  // 2^-23 to 2^41 between median and maximum; no image has more
 
 // HyAB distance raised to q_c.
 double colour_distance(const Vec3& a, const Vec3& b) {
     return std::pow(std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]), kColourExponent);
 }
 
-// Error redistribution: most of the range for the small distances, the rest for those that saturate anyway.
+// Redistributes the error: small distances get most of the range, and those that saturate anyway get the
+// rest.
 double remap_distance(double distance, double largest) {
     const double knee = kColourKnee * largest;
     if (distance < knee) return distance * kColourKneeValue / knee;
     return kColourKneeValue + (distance - knee) / (largest - knee) * (1.0 - kColourKneeValue);
 }
 
-// One image during the comparison: opponent planes of three floats.
+// An image in the opponent colour space, one plane for each component.
 struct Opponent {
     int width = 0, height = 0;
     std::array<Plane, 3> planes;

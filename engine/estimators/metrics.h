@@ -12,7 +12,7 @@ namespace voxilux {
 inline constexpr double kRelMseEpsilon =
     0.01;                                      // radiance squared; bounds relMSE where the reference is black
 inline constexpr double kSmapeEpsilon = 0.01;  // radiance; the same for SMAPE
-inline constexpr double kTrimmedShare = 0.001;  // share of the worst pixels that trimmed relMSE leaves out
+inline constexpr double kTrimmedShare = 0.001;  // fraction of the worst pixels that trimmed relMSE leaves out
 inline constexpr double kPsnrPeak = 1.0;        // radiance of display white
 
 // Which pixels are compared: those of the box where the mask is not black.

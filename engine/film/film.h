@@ -35,14 +35,14 @@ struct HalfMeans {
 // The means of pixel number `pixel`.
 [[nodiscard]] HalfMeans half_means(const FilmHalf& a, const FilmHalf& b, std::size_t pixel);
 
-// Sums of squares of the samples, [height][width][3], fixed point like the sums themselves. They stop at
-// kSquaresFull instead of wrapping round.
+// Sums of squares of the samples, [height][width][3], fixed point like the sums themselves. They saturate at
+// kSquaresFull.
 using FilmSquares = std::span<const std::int64_t>;
 inline constexpr std::int64_t kSquaresFull = INT64_MAX;
 
 // Variance of the mean of pixel number `pixel` by component, if its samples are independent: (mean of squares
-// - square of mean) / (n - 1) for n samples; where the squares are full, from the halves: (a - b)^2 nA nB /
-// (nA + nB)^2. The square of the mean where there are less than two samples.
+// - square of mean) / (n - 1) for n samples; where the squares are saturated, from the halves: (a - b)^2 nA
+// nB / (nA + nB)^2. The square of the mean where there are fewer than two samples.
 [[nodiscard]] std::array<double, 3> mean_variance(const FilmHalf& a, const FilmHalf& b, FilmSquares squares,
                                                   std::size_t pixel);
 

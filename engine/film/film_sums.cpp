@@ -21,7 +21,7 @@ std::size_t pixels_of(const FilmSums& film) {
     return static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height);
 }
 
-// Planes that are summed in two halves, and are no AOV as they are.
+// Planes that are summed in two halves. Such a half is not an AOV.
 bool is_half(const std::string& plane) {
     return plane.ends_with("_a") || plane.ends_with("_b");
 }
@@ -71,7 +71,7 @@ void add_first(const FilmSums& film, const std::string& name, Image& image) {
     }
 }
 
-// Rows that have no sample yet take what the other film saw first.
+// Rows without samples take the positions and depths of the other film.
 void add_firsts(FilmSums& film, const FilmSums& more) {
     for (auto& [name, values] : film.firsts) {
         const std::vector<float>& others = more.firsts.at(name);
@@ -123,7 +123,7 @@ Image beauty_of(const FilmSums& film) {
     return image;
 }
 
-// Sums that are 0 or above; a full one stays full, so that the order does not matter.
+// The sum of two numbers that are 0 or above, saturated at kSquaresFull, so that the order does not matter.
 std::int64_t full_sum(std::int64_t a, std::int64_t b) {
     const std::int64_t sum = std::max<std::int64_t>(a, 0);
     const std::int64_t more = std::max<std::int64_t>(b, 0);
@@ -134,7 +134,7 @@ std::string word_plane(const std::string& plane, std::size_t component, const ch
     return fmt::format("{}{}.{}.{}", kSumsLayer, plane, component, half);
 }
 
-// The components of a plane that an image has words for.
+// How many components of a plane an image has words for.
 std::size_t stored_components(const Image& image, const std::string& plane) {
     std::size_t components = 0;
     while (components < kMaxComponents && image.words.contains(word_plane(plane, components, "lo")) &&
@@ -166,8 +166,8 @@ void load_first(const Image& image, const std::string& name, std::size_t compone
     film.firsts[name] = std::move(values);
 }
 
-// Why the planes cannot be those of one film; empty when they can. A plane has one component or three, a half
-// has its other half, and pictures and merging rely on both.
+// Why the planes cannot be those of one film; empty when they can. A plane has one component or three, and a
+// half has its other half: making images and merging rely on both.
 std::string damage_of(const FilmSums& film) {
     for (const auto& [name, sums] : film.sums) {
         const std::size_t components = sums.size() / pixels_of(film);

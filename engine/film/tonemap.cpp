@@ -22,12 +22,12 @@ void count(float value, DisplayImage& display) {
     }
 }
 
-// Colours of an image with A, without it.
+// A colour divided by its alpha.
 float straight(float value, float alpha) {
     return alpha > 0.0f ? value / alpha : 0.0f;
 }
 
-// The code of a shown value that covers the share `alpha` of a pixel before a background.
+// The code of a displayed value that covers the fraction `alpha` of a pixel in front of a background.
 std::uint8_t code_over(float shown, float alpha, float background) {
     const float behind = gpu::encode_srgb(glm::clamp(background, 0.0f, 1.0f));
     const float code = alpha * gpu::encode_srgb(shown) + (1.0f - alpha) * behind;

@@ -15,12 +15,12 @@ struct ToneMapOptions {
     ToneMap curve = ToneMap::filmic;
     std::optional<float> exposure_ev =
         0.0f;                             // stops: colours are multiplied by 2^exposure_ev; none: automatic
-    bool is_exposure_given = false;       // by the user, and so stronger than a scene's
-    std::optional<glm::vec3> background;  // linear; what an image with an A is laid over
+    bool is_exposure_given = false;       // by the user, which overrides that of the scene
+    std::optional<glm::vec3> background;  // linear; composited behind an image with A
     bool debug_nan = false;               // a pixel with a NaN becomes magenta instead of black
 };
 
-// An image for the screen, and how many values had no place on it.
+// An image for the screen, and how many values it cannot show.
 struct DisplayImage {
     Image image;                 // R G B, display_referred
     std::uint64_t nan = 0;       // values, shown as 0
@@ -28,7 +28,7 @@ struct DisplayImage {
     std::uint64_t negative = 0;  // finite values, shown as 0
 };
 
-// The curve in linear light: any float in, [0,1] out, rising; NaN gives 0. plain clamps. filmic is the
+// The curve in linear light: any float in, [0,1] out, monotonic; NaN gives 0. plain clamps. filmic is the
 // rational fit of the ACES reference by K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016), with its
 // pre-exposure of 0.6.
 [[nodiscard]] float tone_map(float linear, ToneMap curve);
@@ -39,9 +39,9 @@ struct DisplayImage {
 [[nodiscard]] float automatic_exposure_ev(const Image& image);
 
 // Exposes, tone maps and rounds to 8-bit sRGB codes; the result holds their decoded values, so write_png
-// stores just these codes. Needs R G B or Y (asserted). Of an image with A, whose colours are multiplied by
-// it, the result has straight colours and A; or it is laid over the background, code by code, as browsers
-// and paint programs lay images over each other.
+// stores just these codes. Needs R G B or Y (asserted). An image with A has premultiplied colours. The result
+// then has straight colours and A, or is composited over the background in sRGB codes, as browsers and paint
+// programs do.
 [[nodiscard]] DisplayImage to_display(const Image& image, const ToneMapOptions& options = {});
 
 }  // namespace voxilux

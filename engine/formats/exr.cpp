@@ -134,8 +134,8 @@ Imf::Header make_header(const Image& image, const ExrOptions& options) {
     return header;
 }
 
-// The planes as they are stored, but for those that are stored as the image has them. They outlive the frame
-// buffer that points into them.
+// The planes that are stored in another form than the image holds them in. They must outlive the frame buffer
+// that points into them.
 struct Planes {
     std::map<std::string, std::vector<half>> halves;
     std::map<std::string, std::vector<float>> singles;

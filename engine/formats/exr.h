@@ -20,11 +20,11 @@ inline constexpr int kMaxExrChannels = 1024;                           // channe
 inline constexpr std::size_t kMaxExrFileBytes = std::size_t{4} << 30;  // the file as it lies on disk
 inline constexpr std::size_t kMaxExrBytes = std::size_t{16} << 30;  // all planes of the data window as floats
 inline constexpr std::size_t kMaxExrFrameBytes = std::size_t{1} << 30;  // of a display window around a crop
-// A deflate stream grows at most 1032 times and halves become floats; more than this per file byte is a lie.
+// A deflate stream grows at most 1032 times and halves become floats: no file holds more than this per byte.
 inline constexpr std::size_t kMaxExrGrowth = 2064;
 inline constexpr std::size_t kFreeExrBytes = std::size_t{64} << 20;  // allowed whatever the size of the file
 
-// Layer of the exact sums that parts of a render carry beside their picture, in UINT channels.
+// Layer of the exact sums that parts of a render carry beside their image, in UINT channels.
 inline constexpr const char* kSumsLayer = "sums.";
 
 // Where the image lies in the full frame, in pixels. Full sizes of 0 mean that the image is the whole frame.
@@ -40,7 +40,7 @@ struct ExrOptions {
     bool reproducible = false;  // leaves the date out, so that equal pixels give equal bytes
     std::string software = "voxilux";
     std::string comments;
-    std::optional<glm::vec3> background;  // linear; what an image with an A is laid over before it is written
+    std::optional<glm::vec3> background;       // linear; for callers to composite behind an image with A
     std::optional<glm::mat4> world_to_camera;  // acting on column vectors, as GLM does
     std::optional<glm::mat4> world_to_ndc;
 };
@@ -56,13 +56,13 @@ struct WriteReport {
 // channel. The file appears whole or not at all. Throws Error(cannot_write) with the reason.
 WriteReport write_exr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
 
-// The first part of an EXR: all channels as float over the display window, zero outside the data window,
-// which Image::stored tells; string attributes. The sums of a part are left out. Throws Error(input_refused)
-// for whatever cannot be read, deep and subsampled data included.
+// The first part of an EXR: all channels as floats over the display window, zero outside the data window
+// (Image::stored), and string attributes. The sums of a part are left out. Throws Error(input_refused) for
+// whatever cannot be read, deep and subsampled data included.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path);
 
 // The first part of an EXR as it was written, some rows at a time: the data window alone, UINT channels as
-// whole numbers. Everything throws as read_exr.
+// whole numbers. All functions throw as read_exr does.
 class ExrRows {
   public:
     explicit ExrRows(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
-// The reading half of film/exr.h. Files are hostile until proven otherwise: the header is held against the
-// caps before any plane is allocated, and every exception of the library becomes one line.
+// The reading half of exr.h. Files are hostile until proven otherwise: the header is checked against the caps
+// before any plane is allocated, and every exception of the library becomes one line.
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ class MemoryStream : public Imf::IStream {
     std::size_t at_ = 0;
 };
 
-// A file as it lies on the disk.
+// A file that is read from the disk as the library asks for it.
 class FileStream : public Imf::IStream {
   public:
     explicit FileStream(const std::filesystem::path& path)
@@ -169,8 +169,8 @@ Imf::Slice slice_of(Imf::PixelType type, std::vector<T>& plane, const Imath::Box
                             sizeof(T) * static_cast<std::size_t>(data.width));
 }
 
-// The channels inside `box`, rows of the data window. Whole numbers are read as such into `image.words`, or,
-// with `as_float`, as numbers like others, but for sums.
+// The channels inside `box`, rows of the data window. Whole numbers go into `image.words`, or, with
+// `as_float`, are read as floats; then sums are left out.
 void read_channels(Imf::InputPart& part, const Imath::Box2i& box, bool as_float, Image& image) {
     const Imf::Header& header = part.header();
     Imf::FrameBuffer frame;
@@ -207,7 +207,7 @@ Image read_frame(Imf::MultiPartInputFile& file) {
     return image;
 }
 
-// The library sizes tables from the header while it opens a file; this makes it look at the header first.
+// The library allocates tables by the header while it opens a file; this makes it check the header first.
 void limit_library() {
     Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
 }

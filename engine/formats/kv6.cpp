@@ -1,6 +1,6 @@
 // Voxlap sprites (.kv6), as Slab6 writes them. Format: the comments of Voxlap's voxlap5.c and Slab6's
-// slab6.txt (Ken Silverman, advsys.net/ken). Only voxels of the surface are there. Voxlap's z points down and
-// its views look along -y, so (x, y, z) is (x, -y, -z) of a .vox file; the pivot becomes the origin.
+// slab6.txt (Ken Silverman, advsys.net/ken). Only voxels of the surface are stored. Voxlap's z points down
+// and its views look along -y, so (x, y, z) is (x, -y, -z) of a .vox file; the pivot becomes the origin.
 
 #include <cmath>
 #include <numeric>
@@ -42,7 +42,7 @@ Kv6Header read_kv6_header(VoxBytes& in) {
     return header;
 }
 
-// The voxels of columns, after which the lengths of the columns stand. Adds those of one column.
+// Adds the voxels of one column. A file has the voxels of all columns first, then the lengths of the columns.
 void read_kv6_column(VoxBytes& in, const Kv6Header& header, glm::ivec2 column, std::uint32_t count,
                      std::size_t most, VoxelCells& into) {
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -45,7 +45,7 @@ void append(void* context, void* data, int size) {
     throw Error(ExitCode::input_refused, fmt::format("{}: not a readable PNG: {}", name, reason));
 }
 
-// Width, height and number of channels, held against the caps before anything is decoded.
+// Width, height and number of channels, checked against the caps before anything is decoded.
 struct PngSize {
     int width = 0, height = 0, channels = 0;
 };

@@ -11,8 +11,8 @@ namespace voxilux {
 
 // Caps of read_png and write_png.
 inline constexpr int kMaxPngSide = 1 << 17;  // pixels, per axis
-inline constexpr std::size_t kMaxPngBytes = std::size_t{1}
-                                            << 30;  // decoded, 4 bytes a pixel; the coder's ints
+inline constexpr std::size_t kMaxPngBytes =
+    std::size_t{1} << 30;  // decoded, 4 bytes a pixel; the library counts them in an int
 inline constexpr std::size_t kMaxPngFileBytes = std::size_t{1} << 30;  // the file as it lies on disk
 
 // Writes R G B (or Y as grey) and A, if there is one, as 8-bit sRGB; alpha is stored linear. Equal images

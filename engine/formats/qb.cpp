@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Words of compressed slices that are no colour.
+// Words of compressed slices that are not colours.
 constexpr std::uint32_t kRun = 2, kNextSlice = 6;
 // So that no sum of a place and a side leaves 32 bits.
 constexpr std::int32_t kFarthest = 1 << 28;
@@ -43,7 +43,7 @@ QbHeader read_qb_header(VoxBytes& in) {
     header.is_bgra = read_bit(in, "colour format");
     header.is_right_handed = read_bit(in, "orientation of the z axis");
     header.is_compressed = read_bit(in, "compression");
-    (void)read_bit(in, "encoding of visibility");  // an alpha of 0 is an empty cell with it and without
+    (void)read_bit(in, "encoding of visibility");  // either way, an alpha of 0 is an empty cell
     header.matrices = in.u32("number of matrices");
     return header;
 }

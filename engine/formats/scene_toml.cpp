@@ -20,13 +20,13 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;  // a person's file is a thousandth of it
+constexpr std::size_t kMaxTomlBytes = std::size_t{16} << 20;  // what a person writes is a thousandth of it
 
 constexpr int kMaxDottedKeys = 32, kMaxBrackets = 32;
 
-// The library's tables are copied and destroyed recursively, and a dotted key makes one a dot: what would
-// nest deeper than a scene ever does is refused before it is parsed. Dots count from one delimiter to the
-// next, comments and texts included.
+// The library copies and destroys tables recursively, and each dot of a key makes a table: text that would
+// nest deeper than any scene is refused before it is parsed. Dots are counted from one delimiter to the next,
+// also those in comments and strings.
 void check_nesting(std::string_view text, const std::string& path) {
     int dots = 0, brackets = 0;
     char before = '\n';
@@ -51,8 +51,8 @@ toml::table parse_toml(std::string_view text, const std::string& path) {
     }
 }
 
-// The tree of one -D option. A value that is no TOML is a text, so that -D render.sequence=white needs no
-// quotes.
+// The tree of one -D option. A value that is not TOML is taken as a string, so that -D render.sequence=white
+// needs no quotes.
 toml::table parse_override(const std::string& option) {
     const std::string path = "-D " + option;
     const std::size_t equals = option.find('=');
@@ -73,8 +73,7 @@ toml::table parse_override(const std::string& option) {
 
 void merge(toml::table& into, toml::table& from);
 
-// Replaces what is under `key` (or in its place in the list) by `value`, whose source it keeps: nodes are
-// moved.
+// Puts `value` at `place`, a key of a table or a position in a list. It is moved, and so keeps its source.
 template <class Container, class Place>
 void put(Container& into, const Place& place, toml::node& value) {
     value.visit([&](auto& node) {

@@ -32,8 +32,8 @@ void settle_surface(const TomlSection& section, Material& material) {
     if (is_polished && !section.has("roughness")) material.roughness = 0.0f;
 }
 
-// The signed permutation of one word of `rotate`: the right-handed turn of axis "x", "y", "z" by 90, 180 or
-// 270.
+// The signed permutation of one word of `rotate`: the right-handed turn about the axis "x", "y" or "z" by 90,
+// 180 or 270 degrees.
 Rotation turn(const TomlSection& section, const std::string& word) {
     const std::string_view axes = "xyz";
     const std::size_t k = word.empty() ? std::string_view::npos : axes.find(word.front());
@@ -70,8 +70,8 @@ Rotation read_rotation(const TomlSection& section) {
     return rotation;
 }
 
-// What has been added to the scene of each file, at a frame of its own or (none) moving with the scene: a
-// model that is placed often is read and kept once.
+// What each file has added to the scene, by its own frame or (none) animated with the scene: a file that is
+// placed often is read and kept once.
 using AddedFiles = std::map<std::pair<std::filesystem::path, std::optional<std::int64_t>>, AddedVox>;
 
 AddedVox add_file(TomlScene& in, const std::filesystem::path& path, std::optional<std::int64_t> frame) {
@@ -110,7 +110,7 @@ void read_materials(TomlScene& in) {
         Material material{.name = name};
         const TomlSection section =
             read_settings(*value.as_table(), fmt::format("[material.{}]", name), material);
-        if (name == kAir) section.refuse("takes the name of what carves: choose another");
+        if (name == kAir) section.refuse("has the name of what carves: choose another name");
         if (in.scene.materials.size() >= kMaxMaterials)
             section.refuse(fmt::format("is one material too many: at most {}", kMaxMaterials));
         in.materials[name] = static_cast<std::uint32_t>(in.scene.materials.size());

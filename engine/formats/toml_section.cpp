@@ -15,7 +15,7 @@
 namespace voxilux {
 namespace {
 
-// What a person reads as the value: scalars as written, the rest by its kind.
+// The value as messages show it: scalars as written, the rest by its kind.
 std::string shown(const toml::node& node) {
     if (const auto* text = node.as_string()) return fmt::format("the text \"{}\"", text->get().substr(0, 40));
     if (const auto* list = node.as_array()) return fmt::format("a list of {}", list->size());
@@ -31,7 +31,7 @@ constexpr bool kIsVector = false;
 template <glm::length_t N, class T>
 constexpr bool kIsVector<glm::vec<N, T>> = true;
 
-// What messages allow a value of type T to be.
+// What a value of type T may be, for messages.
 template <class T>
 std::string expected_of(Range range) {
     if constexpr (std::is_same_v<T, bool>) {

@@ -24,8 +24,8 @@ namespace voxilux {
 
 // One table of a scene file. Its constructor refuses keys that are not in `keys`. Each reader returns the
 // value of a key, nothing when the key is absent, and refuses any other type or a value out of range: one
-// line with the place, what was found and what is allowed. Reading a key that is not in `keys` is our
-// mistake.
+// line with the place, what was found and what is allowed. Reading a key that is not in `keys` is a defect
+// (asserted).
 class TomlSection {
   public:
     // `name` is how messages call it: "[sun]". The table must outlive the section.
@@ -50,7 +50,7 @@ class TomlSection {
         return *std::move(value);
     }
 
-    // What a row says of its key; an absent key leaves the member as it is.
+    // Reads the key of a row. An absent key leaves the member as it is.
     template <class T>
     void read(const Setting& row, T& value) const {
         if (!has(row.name)) {
@@ -83,7 +83,8 @@ class TomlSection {
     std::vector<std::string_view> keys_;
 };
 
-// The section that has a key for each row of the settings, and `others`; what it says goes to the settings.
+// Reads a section that may have a key for each row of the settings, and `others`. Its values go to the
+// settings.
 template <class Settings>
 TomlSection read_settings(const toml::table& table, std::string name, Settings& settings,
                           std::initializer_list<std::string_view> others = {}) {

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// All shapes of a file together. When every cell can be seen, gigabytes and half a minute.
+// Limit for all shapes of a file together: gigabytes and half a minute where every cell is visible.
 constexpr double kMaxShapeCells = 268435456.0;  // 2^28
 constexpr double kMaxRadius = 1 << 20;
 constexpr int kMaxFeature = 1 << 16;
@@ -90,7 +90,7 @@ Shape read_tree_shape(const TomlScene& in, const toml::table& table, const Voxel
     return tree;
 }
 
-// The section with every key that any kind knows: only to read which kind it is.
+// Reads the kind first, from a section that allows the keys of all kinds.
 Shape read_shape(const TomlScene& in, const toml::table& table, const VoxelGrid& grid) {
     constexpr std::array<std::string_view, 4> kKinds{"box", "ball", "terrain", "tree"};
     const TomlSection any(table, "[[shape]]",

@@ -15,7 +15,8 @@
 
 namespace voxilux {
 
-// Why a file is refused: a rule and the byte where it is broken. Never leaves read_vox and read_voxel_cells.
+// Why a file is refused: a rule and the byte where it is broken. Always caught by read_vox and
+// read_voxel_cells.
 class VoxRefusal : public std::runtime_error {
   public:
     VoxRefusal(std::size_t offset, std::string_view rule)

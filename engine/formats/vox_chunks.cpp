@@ -149,7 +149,7 @@ VoxRecord read_record(VoxBytes& in) {
     return record;
 }
 
-// A float that must not poison what is computed from it.
+// A float. One that is not finite would spoil what is computed from it, and becomes 0.
 float read_finite(VoxReading& reading, VoxBytes& in, std::string_view name) {
     const std::size_t start = in.offset();
     const float value = in.f32(name);

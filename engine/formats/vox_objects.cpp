@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kTextPairBytes = 8;  // of two empty texts
 
-// The dictionary that a chunk is; nothing when it is none.
+// The chunk as a dictionary; empty when it is not one.
 VoxDict dict_of(const VoxUnknownChunk& chunk) try {
     VoxBytes in(chunk.content, 0, chunk.content.size(), {chunk.id.data(), chunk.id.size()});
     const std::uint32_t count = in.count(kTextPairBytes, "attributes");
@@ -25,8 +25,8 @@ VoxDict dict_of(const VoxUnknownChunk& chunk) try {
     return {};
 }
 
-// What an older key is called in rOBJ, and the type of the object that it belongs to; no type is that of the
-// chunk itself.
+// The name in rOBJ of an older key, and the type of the object that it belongs to; an empty type means that
+// of the chunk itself.
 struct OldKey {
     std::string_view chunk;
     std::string_view key;

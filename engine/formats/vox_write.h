@@ -15,7 +15,7 @@ namespace voxilux {
 // file's own or is not the default one. Throws Error(cannot_write) over the format's 4 GiB.
 [[nodiscard]] std::vector<std::byte> write_vox(const VoxFile& file);
 
-// What has to be known of a model before its voxels are.
+// What is needed of a model before its voxels.
 struct VoxModelHead {
     glm::ivec3 size{0};  // each side in [1, kVoxMaxSide]
     std::uint64_t voxels = 0;

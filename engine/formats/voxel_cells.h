@@ -22,14 +22,14 @@ struct ColouredCell {
     bool operator==(const ColouredCell&) const = default;
 };
 
-// Cells on an axis from the first to the last that is filled, as in a voxelized mesh.
+// Most cells on an axis from the first filled one to the last, as in a voxelized mesh.
 inline constexpr int kMaxCellSide = 1 << 16;
 // A solid 323^3. Memory is 16 bytes for each, and twice that while the list grows.
 inline constexpr std::size_t kMaxColouredCells = std::size_t{1} << 25;
 
 // Voxels with a colour each and no other material: what the formats of other programs hold.
 struct VoxelCells {
-    std::vector<ColouredCell> cells;  // of one that comes twice the last counts
+    std::vector<ColouredCell> cells;  // where a cell comes twice, the last counts
     std::vector<std::string> warnings;
 };
 

@@ -33,7 +33,7 @@ VxlMap read_vxl_header(std::span<const std::byte> bytes, VoxBytes& in) {
 
 struct VxlSpan {
     std::size_t offset = 0;
-    int words = 0;  // with this head; 0 in the last span of a column
+    int words = 0;  // of the span, with this head; 0 in the last span of a column
     int first = 0;  // coloured voxels under the air
     int last = -1;
     int air = 0;  // where the air begins

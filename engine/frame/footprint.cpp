@@ -14,7 +14,7 @@ namespace {
 // Adds recordings up.
 class FootprintSum {
   public:
-    // A recording that is executed so many times; none: only its buffers count.
+    // Adds a recording that is executed `times` times. With 0, only its buffers count.
     void add(const Recording& recording, std::uint64_t times) {
         for (const BufferProxy& proxy : recording.buffers()) {
             const auto [known, is_new] = buffers_.emplace(proxy.name, sum_.buffers.size());
@@ -45,11 +45,11 @@ class FootprintSum {
     }
 
     Footprint sum_;
-    std::map<std::string, std::size_t> buffers_;  // places in sum_
+    std::map<std::string, std::size_t> buffers_;  // positions in sum_.buffers
     std::set<std::string> addressed_;
 };
 
-// Dispatch tiles of a film tile that differ in nothing but their first row.
+// Dispatch tiles of a film tile that differ only in their first row.
 struct EqualDispatchTiles {
     DispatchTile tile;
     std::uint64_t count = 0;
@@ -72,7 +72,7 @@ std::vector<EqualDispatchTiles> tiles_of(const RenderPlan& plan) {
 
 constexpr std::uint64_t kLeastPhotonStore = 1u << 20;  // bytes
 
-// After the last sample.
+// Its passes run once, after the last sample.
 void add_denoiser(glm::ivec2 size, FootprintSum& sum) {
     const std::vector<DenoiseStrip> strips = denoise_strips(size);
     for (const DenoiseStrip& strip : strips) {
@@ -92,7 +92,8 @@ gpu::FrameParams some_params() {
     return params;
 }
 
-// Where later frames may give up cells: a later frame whose table is full, so that it does.
+// The state of the frame with most passes: where later frames may evict occlusion cells, one whose table is
+// full.
 FrameState fullest_state(const RenderPlan& plan) {
     if (!plan.ao.ages) return {};
     return {.frames_done = 1, .samples_done = plan.samples(), .live_cells = plan.ao.slots};
@@ -148,7 +149,7 @@ Footprint footprint(const RenderPlan& plan, const SampleRecorder& record) {
             state.finish_sample(params);
         }
     }
-    if (plan.needs_pilot()) {  // before the first frame: what it holds is held, what it runs is none of its
+    if (plan.needs_pilot()) {  // runs before the first frame, so only its buffers count
         Recording pilot;
         record(plan_counting(plan, 0.0), tiles_of(plan).front().tile, params, {}, pilot);
         sum.add(pilot, 0);
@@ -164,7 +165,7 @@ RenderPlan plan_within_memory(const Scene& scene, const SceneFacts& facts, const
                               const PlanRequest& request, const DeviceLimits& limits) {
     RenderPlan plan = plan_render(scene, facts, world, request, limits);
     Footprint needs = footprint(plan);
-    // Shorter runs of photons give the same picture in less memory.
+    // Shorter runs of photons give the same image in less memory.
     PlanRequest with_runs = request;
     with_runs.photon_store_bytes = limits.max_binding_bytes;
     const auto is_over = [&] {

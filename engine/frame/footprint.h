@@ -13,7 +13,7 @@ namespace voxilux {
 
 struct PlannedPass {
     std::string label;
-    std::uint64_t count = 0;  // dispatches in a frame, when no tile is cut smaller
+    std::uint64_t count = 0;  // dispatches in a frame, if no dispatch tile is made smaller
 
     bool operator==(const PlannedPass&) const = default;
 };
@@ -22,7 +22,7 @@ struct PlannedBuffer {
     std::string buffer;
     std::uint64_t bytes = 0;
     bool persistent = false;  // its contents outlive a recording
-    bool by_address = false;  // shaders reach it by its address where it is too large to be bound
+    bool by_address = false;  // shaders reach it by its address, so that no binding limits it
 
     bool operator==(const PlannedBuffer&) const = default;
 };
@@ -42,12 +42,14 @@ using SampleRecorder = std::function<void(const RenderPlan&, const DispatchTile&
                                           const SampleNumber&, Recording&)>;
 
 // The footprint of the first frame, world and film included, from recordings that nobody executes: the upload
-// of the scene, the first two samples of every tile, and the denoiser. All samples after the first record
-// what the second does. Of a frame range a frame is meant that gives up occlusion cells, as later ones may.
+// of the scene, the first two samples of every tile, and the denoiser. All later samples record what the
+// second does. For a frame range, it is the footprint of a frame that evicts occlusion cells, as later frames
+// may.
 [[nodiscard]] Footprint footprint(const RenderPlan& plan, const SampleRecorder& record = record_frame);
 
-// plan_render, for a device and a budget: throws Error(out_of_memory) when a buffer would pass the device's
-// limits or all together the budget, naming the largest.
+// plan_render within the limits of a device and the memory budget of the request. Throws
+// Error(out_of_memory), which names the largest buffer, where one exceeds the limits or all together exceed
+// the budget.
 [[nodiscard]] RenderPlan plan_within_memory(const Scene& scene, const SceneFacts& facts,
                                             const WorldFacts& world, const PlanRequest& request,
                                             const DeviceLimits& limits);

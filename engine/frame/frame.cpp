@@ -19,23 +19,24 @@
 namespace voxilux {
 namespace {
 
-// Each half of the film follows a sequence of its own, scrambled apart: the halves are independent, and what
-// they disagree by tells how far their mean is off (replicates, as in P. L'Ecuyer and C. Lemieux, "Recent
-// Advances in Randomized Quasi-Monte Carlo Methods", 2002). Every other point of one sequence is no
-// replicate: such halves fill each other's gaps and disagree by far more than their mean errs by.
-// Cells of occlusion have sequences of their own, and no halves.
+// Each half of the film follows a sequence of its own, scrambled independently. The halves are therefore
+// replicates, and their difference tells the error of their mean (P. L'Ecuyer and C. Lemieux, "Recent
+// Advances in Randomized Quasi-Monte Carlo Methods", 2002). Every other point of one sequence would not do:
+// such halves fill each other's gaps and differ by far more than the error of their mean. Occlusion cells
+// have sequences of their own, and no halves.
 void number_sample(const RenderPlan& plan, std::uint32_t sample, gpu::FrameParams& params) {
     const bool halves = !plan.any(&Technique::shares_samples);
     params.sample_index = halves ? sample / 2 : sample;
     if (halves && sample % 2 == 1) params.seed = gpu::pcg_hash(params.seed);
 }
 
-// Half an axis of the image plane, such that its product with a vector in that plane is the image coordinate.
+// The dual of half an axis of the image plane: its dot product with a vector in that plane is the image
+// coordinate.
 gpu::vec3 dual_axis(gpu::vec3 half_axis) {
     return half_axis / glm::dot(half_axis, half_axis);
 }
 
-// Wanted width of an occlusion cell at distance 1, or of a camera with parallel rays at any.
+// Desired width of an occlusion cell at distance 1; for a camera with parallel rays, at any distance.
 float wanted_cell_width(const RenderPlan& plan, const gpu::FrameParams& params) {
     const float cell_px = plan.settings.ao.cell_px;
     if (plan.projection == Projection::perspective)
@@ -71,7 +72,7 @@ AoStep ao_step(const RenderPlan& plan, const gpu::FrameParams& params, const Sam
                       is_sweep_frame(plan, state.frames_done, state.live_cells)};
 }
 
-// A constant sky is a constant light and its occlusion.
+// The light of a constant sky is a parameter of the frame, and only its occlusion is a plane.
 SkyPlanes record_sky(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const AoStep& step,
                      Recording& rec) {
     if (traces_sky(plan)) return record_sky_trace(plan, tile, hits, rec);

@@ -31,7 +31,8 @@ void check_place(const char* what, const Camera& camera, glm::dvec3 local) {
     }
 }
 
-// The corner of an image on the pixel grid as a corner of voxels and the pixels from there to the image's.
+// Moves the corner of an image on the pixel grid to a corner of a voxel. Returns the pixels from there to the
+// corner of the image.
 glm::uvec2 split_corner(glm::dvec3& corner, const glm::dmat3& basis, double pixels_per_voxel) {
     glm::uvec2 pixel(0);
     for (int axis = 0; axis < 2; ++axis) {
@@ -47,7 +48,7 @@ glm::uvec2 split_corner(glm::dvec3& corner, const glm::dmat3& basis, double pixe
     return pixel;
 }
 
-// `local`: the middle of an orthographic image.
+// `local`: the middle of an orthographic image, relative to the world.
 void place_image(gpu::FrameParams& params, const Camera& camera, glm::dvec3 local, glm::dvec2 size) {
     const glm::dmat3 basis = camera_basis(camera);
     const double scale = camera.pixels_per_voxel;
@@ -105,7 +106,7 @@ void place_lights(gpu::FrameParams& params, const RenderPlan& plan) {
     params.sun_disc_radius = static_cast<float>(plan.world.lights.sun_disc.radius);
 }
 
-// Of a ground that the whole disc of the sun and all of the sky light.
+// Luminance of the ground where nothing hides the sun or the sky.
 float open_luminance(const gpu::FrameParams& params, const Ground& ground) {
     const float cosine = std::max(params.sun_direction.z, 0.0f) * (1.0f - 0.5f * params.sun_cone_height);
     const glm::vec3 light = params.sun_irradiance * (cosine / gpu::kPi) + params.sky_radiance;

@@ -15,12 +15,12 @@ struct FrameState {
 
     std::uint64_t live_cells = 0;  // of occlusion
 
-    // Call it after each sample of the whole picture.
+    // To be called after each sample of the whole image.
     void finish_sample(const gpu::FrameParams& params) {
         ++samples_done;
         last_camera = params;
     }
-    // The world is another one: what was learned of it is void.
+    // The world has changed: what was learned of the old one is void.
     void change_world() {
         samples_done = 0;
         live_cells = 0;

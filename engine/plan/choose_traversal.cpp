@@ -7,12 +7,12 @@
 namespace voxilux {
 namespace {
 
-// Most bytes that the structure of a world takes when nobody says otherwise: it leaves a small GPU or laptop
-// room for the picture.
+// Most bytes of the structure of a world where the user sets no budget: a small GPU or laptop still has room
+// for the image.
 constexpr std::uint64_t kWorldBytes = 100'000'000;
 
-// Largest grid of bricks with which 'wide' is the fastest. Above, its look-ups miss the cache, and 'deep'
-// with its small grid of chunks wins (engine/world/README.md).
+// Largest grid of bricks, bytes, with which 'wide' is the fastest. Above it, its look-ups miss the cache, and
+// 'deep' with its small grid of chunks wins (engine/world/README.md).
 constexpr std::uint64_t kCachedRootBytes = std::uint64_t{8} << 20;
 
 bool fits(const StructureBytes& bytes, std::uint64_t allowed, const DeviceLimits& limits) {
@@ -36,7 +36,7 @@ TraversalChoice choose_traversal(const WorldCensus& census, std::optional<Traver
                                        name_of(fastest), bytes(fastest).total() / 1'000'000)};
     }
     return {Traversal::naadf,
-            fmt::format("the smallest; no structure surely keeps within {} MB", allowed / 1'000'000)};
+            fmt::format("the smallest; no structure is sure to fit in {} MB", allowed / 1'000'000)};
 }
 
 }  // namespace voxilux

@@ -17,7 +17,7 @@ struct DeviceLimits {
     std::array<std::uint32_t, 3> max_groups = {65535, 65535, 65535};
     std::uint32_t max_push_bytes = 128;
     std::uint32_t max_texels = std::uint32_t{1} << 27;  // of one buffer
-    std::uint32_t subgroup_size = 8;                    // of a CPU in all its subgroups, of others at most
+    std::uint32_t subgroup_size = 8;                    // on CPUs of all subgroups, on others the largest
     bool is_cpu = true;
     std::string name = "lavapipe";
 

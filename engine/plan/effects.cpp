@@ -5,8 +5,9 @@
 namespace voxilux {
 namespace {
 
-// One row per effect: its need (without it the effect has no meaning), whether the scene calls for it, and
-// whether leaving it out all the same changes the picture.
+// What a row of the table decides: whether the need of the effect is met (without it the effect has no
+// meaning), whether the scene calls for it, and whether the image would be different with it although it is
+// left out.
 struct Verdict {
     bool possible = false;
     bool called_for = false;
@@ -124,7 +125,7 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
     return {row.effect, verdict.possible && verdict.called_for, verdict.reason, verdict.by_choice};
 }
 
-// Light that has not been let out, or finds no mirror, needs no photons.
+// Light that is not emitted, or meets no mirror, needs no further effects.
 void drop_unlit(const EffectRequest& request, EffectStates& states) {
     const auto state = [&](Effect effect) -> EffectState& {
         return states[static_cast<std::size_t>(effect)];
@@ -141,8 +142,8 @@ void drop_unlit(const EffectRequest& request, EffectStates& states) {
     if (!sky_lights) drop(Effect::indirect, "neither emitter nor sun shines");
 }
 
-// Occlusion of the sky within a reach stands for the light of the sky, which paths find as it is. Who asks
-// for occlusion gets it as an AOV.
+// Occlusion within a reach is a stand-in for the light of the sky, which paths find as it is. It stays on
+// where the user asks for it, as an AOV.
 void drop_stand_in(const EffectRequest& request, EffectStates& states) {
     const bool is_asked_for = request.switches.contains(Effect::ao);
     EffectState& ao = states[static_cast<std::size_t>(Effect::ao)];

@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// What a user would name. Order is the order of the frame.
+// What a user would name, in the order of the frame.
 enum class Effect : std::uint8_t {
     lens,
     voxels,
@@ -27,14 +27,14 @@ enum class Effect : std::uint8_t {
 };
 inline constexpr std::size_t kEffectCount = 12;
 
-// What the user says of an effect; automatic leaves it to the scene.
+// The user's choice for an effect; automatic leaves it to the scene.
 enum class Switch : std::uint8_t { automatic, on, off };
 
 struct EffectState {
     Effect effect = Effect::voxels;
     bool on = false;
     std::string reason;      // one clause, shown to the user
-    bool by_choice = false;  // off although the picture would be another one with it
+    bool by_choice = false;  // off, although the image would be different with it
 
     bool operator==(const EffectState&) const = default;
 };
@@ -52,7 +52,7 @@ struct EffectRequest {
     bool wants_aov = false;        // an output can hold more than colour
     bool traces_paths = true;      // where indirect light is on, paths find it and the light of the sky
     bool is_perspective = true;    // the camera's projection
-    bool wants_occlusion = false;  // its technique is named, and none of indirect light
+    bool wants_occlusion = false;  // a technique of ao is named, and none of indirect light
 };
 
 // Decides every effect. An effect runs when the scene calls for it: its need is met and something would

@@ -10,8 +10,8 @@
 namespace voxilux {
 namespace {
 
-// Pixels that one film tile may have with the hash: every pass then runs over the whole picture before the
-// next one starts, so that no pixel reads sums that others still add to.
+// Pixels that one film tile may have with the hash: every pass then runs over the whole image before the next
+// one starts, so that no pixel reads sums that others still add to.
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 21;
 constexpr std::uint64_t kMinSlots = std::uint64_t{1} << 12;
 constexpr std::uint64_t kMaxSlots = std::uint64_t{1} << 24;  // 128 MiB of keys: what one binding takes
@@ -19,10 +19,10 @@ constexpr double kSlotsPerCell = 3.0;
 constexpr double kMinCells = 2.0 / 3.0;  // per pixel
 constexpr double kMaxCells = 4.0;
 
-// Occlusion rays of a sample of the whole picture: one recording counts them in 32 bits.
+// Occlusion rays of a sample of the whole image: one recording counts them in 32 bits.
 constexpr std::uint64_t kMaxRays = std::numeric_limits<std::uint32_t>::max();
 
-// Why the hash cannot serve, or nothing.
+// Why the hash cannot be used, or nothing.
 std::string hindrance(const RenderSettings& settings, const AoNeeds& needs) {
     if (!needs.has_voxels) return "the scene has no voxels to share samples on";
     if (std::max({needs.world_size.x, needs.world_size.y, needs.world_size.z}) > gpu::kAoMaxEdge)
@@ -36,7 +36,7 @@ std::string hindrance(const RenderSettings& settings, const AoNeeds& needs) {
     return {};
 }
 
-// Whether pixels may rest, which they must know before the samples are taken.
+// Whether some pixels take no sample, which must be known before samples are taken.
 bool needs_slots_first(const AoSettings& ao) {
     return ao.checkerboard || ao.sample_limit != 0;
 }
@@ -51,9 +51,9 @@ void check_options(const AoSettings& ao) {
         throw Error(ExitCode::input_refused, fmt::format("[ao] 'slots' {} is not a power of two", ao.slots));
 }
 
-// Cells that a picture shows at most, per pixel: they are half as wide as wished at least, but where voxels
-// are smaller each pixel may have its own. A third of the slots may be taken (kCellProbes); the rest is also
-// room for cells that were seen before.
+// Slots for the most cells that an image shows. Cells have at least half of the desired width, but where
+// voxels are smaller, each pixel may have its own. At most a third of the slots should be taken
+// (kCellProbes); the others leave room for cells that were seen before, too.
 std::uint32_t slots_for(const AoSettings& ao, std::uint64_t pixels) {
     if (ao.slots != 0) return ao.slots;
     const double half_width = 0.5 * static_cast<double>(ao.cell_px);
@@ -70,8 +70,8 @@ AoPlan plan_ao(const RenderSettings& settings, const AoNeeds& needs) {
     check_options(ao);
     if (ao.method == AoMethod::brute) return {AoMethod::brute, "asked for"};
     const std::string hindered = hindrance(settings, needs);
-    // A CPU runs passes faster when they are one. A search that finds its cell uses no atomics, so that there
-    // reprojection pays only where cells are wide.
+    // On a CPU one pass is faster than two, and a search that finds its cell uses no atomics. Reprojection
+    // therefore pays there only where cells are wide.
     const bool reprojects = ao.reproject.value_or(!needs.is_cpu) && needs.is_perspective;
     const AoPlan hash{.method = AoMethod::hash,
                       .reason = "asked for",

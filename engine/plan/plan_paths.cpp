@@ -9,17 +9,17 @@ namespace voxilux {
 namespace {
 
 // Paths of one invocation on a CPU: enough that it does not matter when the last of them ends, and few enough
-// that a small picture has work for all threads.
+// that a small image has work for all threads.
 constexpr double kPathsPerLane = 16.0;
-constexpr double kRaysOfVertex = 3.0;   // to the sun, to an emitter, on
+constexpr double kRaysOfVertex = 3.0;   // to the sun, to an emitter, onwards
 constexpr double kVisitsOfPaths = 2.0;  // to find a sphere, and the glass around the point on it
 constexpr double kTurnsOfMarch = 16.0;  // of all loops for a ray, where eight lanes wait for the slowest
-// Of what a surface receives. Palettes hold white that no voxel has, and whiter rooms have openings; where
-// they have none, no path ends.
+// Least fraction of its light that a surface is taken to absorb. Whiter rooms have openings; where they have
+// none, no path ends.
 constexpr double kLeastLoss = 0.002;
-// A longer path than that comes once in 10^9 times.
+// The probability of a path that is longer than planned for.
 constexpr double kRarePath = 1e-9;
-// Beyond it a path is cut and counted: a closed room of albedo 1, where no path ever ends.
+// Longer paths are cut and counted: in a closed room of albedo 1 no path ever ends.
 constexpr double kMaxRounds = 16.0;
 
 }  // namespace

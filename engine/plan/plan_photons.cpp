@@ -11,27 +11,29 @@
 namespace voxilux {
 namespace {
 
-// Photons that one invocation traces on a CPU: a path's length varies, and what eight invocations do together
-// takes as long as the longest of them; over so many paths the sums of the lengths are within a few percent.
+// Photons that one invocation traces on a CPU. Path lengths vary, and eight invocations together take as long
+// as the longest of them; over so many paths, the sums of lengths are within a few percent of each other.
 constexpr double kPhotonsPerLane = 128.0;
-// Turns of all loops that one invocation may be expected to take: a quarter of what lavapipe allows.
+// Loop iterations that one invocation is expected to take at most: a quarter of what lavapipe allows.
 constexpr double kLaneTurns = 16384.0;
 constexpr double kMarchTurns = 32.0;  // of a ray through voxels
 constexpr std::uint32_t kMinPhotons = 1u << 14;
 constexpr std::uint32_t kMaxPhotons = 1u << 24;
-// Of fewer the photons that are stored may scatter beyond kStoreMargin.
+// With fewer photons, the number of stored ones may by chance exceed the expected one by more than
+// kStoreMargin.
 constexpr std::uint32_t kFewestAtOnce = 1u << 12;
 constexpr std::uint32_t kMinBuckets = 1u << 10;
 constexpr std::uint32_t kMaxBuckets = 1u << 22;
-// Places in the store that an invocation takes together where it traces many photons.
+// Places in the store that an invocation reserves together where it traces many photons.
 constexpr std::uint32_t kSlotsAtOnce = 16;
 constexpr std::uint32_t kMaxGatherLanes = 32;
-constexpr std::uint64_t kCellsPerPixel = 4;  // twice as many buckets gain nothing (passes/README.md)
-// Surfaces that receive a photon are a geometric series in the albedo; the deviation of their sum over all
-// photons is far below a half. Below: of photons that bounce between caustics only.
+constexpr std::uint64_t kCellsPerPixel = 4;  // twice as many buckets gain nothing
+// The expected number of surfaces that receive a photon is a geometric series in the albedo; the relative
+// deviation of the sum over all photons is far below a half.
 constexpr double kStoreMargin = 1.5;
 constexpr double kMaxStored = 64.0;
-// Over the rounding of a photon's power on the device, four products: no photon may seem to pass the most.
+// Covers the rounding of a photon's power on the device, four products: no photon may seem to exceed the
+// maximum.
 constexpr double kPowerMargin = 1.0 + 0x1p-20;
 
 double stored_per_photon(double max_albedo, const PhotonSettings& settings, bool keeps_indirect) {
@@ -47,14 +49,14 @@ std::uint32_t photons_per_lane(const PhotonNeeds& needs, double segments) {
     return static_cast<std::uint32_t>(std::clamp(kLaneTurns / turns, 1.0, kPhotonsPerLane));
 }
 
-// `most` of them fit in the store.
+// At most `most`, which fit in the store.
 std::uint32_t wanted_photons(const PhotonSettings& settings, std::uint64_t pixels, double most) {
     if (settings.count != 0) return settings.count;
     const auto wanted = std::clamp<std::uint64_t>(pixels, kMinPhotons, kMaxPhotons);
     return static_cast<std::uint32_t>(std::min(static_cast<double>(wanted), std::floor(most)));
 }
 
-// Photons of a run, each of which has a start and `met` places in the store: runs of equal size.
+// Photons per run, for runs of equal size. Each photon takes a start and `met` places in the store.
 std::uint32_t photons_at_once(std::uint32_t wanted, double met, std::uint64_t store_bytes) {
     const double bytes = std::max(met * sizeof(gpu::StoredPhoton), double{sizeof(gpu::PhotonStart)});
     const double most = std::max(static_cast<double>(store_bytes) / bytes, double{kFewestAtOnce});
@@ -62,8 +64,8 @@ std::uint32_t photons_at_once(std::uint32_t wanted, double met, std::uint64_t st
     return (wanted + runs - 1) / runs;
 }
 
-// No more than photons, and enough for the cells that the discs of the visible points touch: of neighbours
-// they are mostly the same.
+// No more than stored photons, and enough for the cells that the kernels of the visible points touch, which
+// are mostly the same for neighbours.
 std::uint32_t bucket_count(std::uint32_t capacity, std::uint64_t pixels) {
     const std::uint64_t cells = std::min<std::uint64_t>(capacity, kCellsPerPixel * pixels);
     const std::uint64_t most = kMaxBuckets;
@@ -109,7 +111,7 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     plan.gather_lanes = gather_lanes(limits);
     plan.radius = settings.radius.value_or(0.0);
     plan.slots_at_once = per_lane > 1 ? kSlotsAtOnce : 1;
-    // Each invocation leaves less than that many places empty.
+    // Each invocation leaves fewer than slots_at_once places empty.
     const double slots = plan.at_once * met + static_cast<double>(plan.lanes) * (plan.slots_at_once - 1);
     plan.capacity = static_cast<std::uint32_t>(std::min(slots, room));
     plan.buckets = bucket_count(plan.capacity, needs.pixels);

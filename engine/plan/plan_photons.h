@@ -13,8 +13,8 @@ namespace voxilux {
 // What a plan needs to know of the emitters.
 struct LightFacts {
     std::uint32_t count = 0;
-    double power = 0.0;         // brightness of radiance times etendue, summed
-    glm::dvec3 max_power{0.0};  // most that all photons together would carry if each were as the strongest
+    double power = 0.0;         // r + g + b of radiance times etendue, summed
+    glm::dvec3 max_power{0.0};  // of all photons together, if each were as strong as the strongest
     SunDisc sun_disc;
     double extent = 0.0;  // largest magnitude of a coordinate that a photon can meet, local to the world
 
@@ -31,7 +31,7 @@ struct PhotonPlan {
     std::uint32_t at_once = 0;        // of all these, traced and gathered together: one run of photons
     std::uint32_t lanes = 0;          // invocations that trace a run
     std::uint32_t capacity = 0;       // photons that can be stored in a run
-    std::uint32_t slots_at_once = 0;  // of these that an invocation takes together
+    std::uint32_t slots_at_once = 0;  // of these that an invocation reserves together
     std::uint32_t buckets = 0;        // that they are sorted into, a power of two
     std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
     glm::dvec3 max_power{0.0};       // of one photon, W
@@ -44,7 +44,7 @@ struct PhotonPlan {
     [[nodiscard]] std::uint32_t run_count() const { return (count() + at_once - 1) / at_once; }
 };
 
-// What the plan of photons depends on beside the settings.
+// What the plan of photons depends on besides the settings.
 struct PhotonNeeds {
     LightFacts lights;
     bool has_emitters = false;

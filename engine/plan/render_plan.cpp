@@ -14,12 +14,12 @@ namespace voxilux {
 namespace {
 
 // Pixels of one film tile: small enough that every buffer of a film tile stays far below 128 MiB, large
-// enough that pictures up to 1024 x 1024 are one film_tile.
+// enough that images up to 1024 x 1024 are one film tile.
 constexpr std::uint64_t kFilmTilePixels = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMaxImagePixels =
     (std::uint64_t{1} << 32) - 1;  // pixel numbers are 32 bits in the shaders
 constexpr int kMaxImageSide =
-    1 << 17;  // pixels; what the files of pictures take, and groups of a row stay countable
+    1 << 17;  // pixels; the limit of image files, and few enough workgroups in a row
 constexpr std::uint32_t kGroupEdge = 8;
 
 void check_settings(const RenderSettings& settings) {
@@ -62,11 +62,12 @@ void check_part(const RenderPlan& plan) {
     if (plan.part.empty()) return;
     for (const ChosenTechnique& chosen : plan.techniques) {
         if (!chosen.technique->mergeable())
-            throw Error(ExitCode::usage, fmt::format("no part of the samples: {}", chosen.technique->state));
+            throw Error(ExitCode::usage,
+                        fmt::format("samples cannot be rendered in parts: {}", chosen.technique->state));
     }
 }
 
-// What a shadow is missing is known where all light but that of the scene itself is.
+// The ground shows a shadow as the light that is missing, which is known only under a constant sky.
 void check_shadows(const RenderPlan& plan, const Scene& scene) {
     if (!plan.catches_shadows) return;
     if (!plan.sums_coverage)
@@ -84,7 +85,7 @@ void check_paths(const RenderPlan& plan) {
                     "caustics by paths need indirect light by paths; use --technique indirect=paths, too");
 }
 
-// Which techniques compute the effects that are on, and nothing for those that are off.
+// Chooses the techniques of the effects that are on, and clears what belongs to the others.
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
     plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres);
@@ -96,7 +97,7 @@ void decide_techniques(RenderPlan& plan) {
     if (!plan.any(&Technique::by_paths)) plan.paths = {};
 }
 
-// What the film sums for errors beside the picture.
+// What the film sums besides the image: for errors and for the denoiser.
 void decide_sums(RenderPlan& plan, const PlanRequest& request) {
     const bool decides = request.wants_error && plan.has_independent_samples();
     plan.sums_squares = !plan.any(&Technique::shares_samples) && (plan.has(Effect::aov) || decides);
@@ -105,7 +106,7 @@ void decide_sums(RenderPlan& plan, const PlanRequest& request) {
     plan.sums_guides = request.wants_denoised && has_halves && !plan.any(&Technique::shares_samples);
 }
 
-// One dispatch takes at most so many rows.
+// `max_rows`: most rows of one dispatch.
 void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     const auto width = static_cast<std::uint64_t>(plan.settings.size.x);
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
@@ -118,7 +119,7 @@ void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     plan.tile_rows = std::min(plan.film_tile_rows, max_rows);  // groups may be one row high
 }
 
-// Share of light below which the air between surfaces is not worth a word.
+// Fraction of light lost in the air of the scene from which on a note says so.
 constexpr float kVisibleHaze = 0.001f;
 
 void count_rays(RenderPlan& plan) {
@@ -140,7 +141,7 @@ void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
     }
     const bool is_polished = facts.has_glass || facts.has_metal;
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
-        plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
+        plan.notes.emplace_back("glass and mirrors block the light of the sky as walls do");
     if (plan.has(Effect::sun) && plan.paths_find_sun_caustics && plan.has_specular_spheres)
         plan.notes.emplace_back(
             "sunlight by way of spheres of metal and glass is found by chance: it is noisy");
@@ -266,7 +267,7 @@ RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.part = {};  // every part finds the same
     plan.settings.photons.classic = true;
     plan.settings.photons.scatter = false;
-    plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
+    plan.settings.photons.alpha = 1.0;  // with a constant radius, a pixel's count is that of its photons
     plan = plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
     for (const Effect one : {Effect::ao, Effect::sky, Effect::direct})
         plan.effects[static_cast<std::size_t>(one)].on = false;

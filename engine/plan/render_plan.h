@@ -39,7 +39,7 @@ struct WorldFacts {
 
 [[nodiscard]] WorldFacts measure_world(const MarchWorld& march_world);
 
-// Most rays that the whole render can march.
+// Upper bounds of the rays that the whole render marches.
 struct PlannedRays {
     std::uint64_t primary = 0;
     std::uint64_t ao = 0;
@@ -59,10 +59,10 @@ struct PixelWindow {
 // Everything that is decided before the first command: pure data, printable, comparable, made with no device,
 // and never changed afterwards.
 struct RenderPlan {
-    RenderSettings settings;    // `size` is that of the picture: of the window, when there is one
+    RenderSettings settings;    // `size` is what is rendered: that of the crop window, where there is one
     SampleSet part;             // the samples to take; empty: the first settings.spp
-    glm::ivec2 image_size{0};   // what the camera sees
-    glm::ivec2 first_pixel{0};  // of the picture in that image
+    glm::ivec2 image_size{0};   // of the whole image, which the camera sees
+    glm::ivec2 first_pixel{0};  // of the crop window in that image
     Projection projection = Projection::perspective;
     EffectStates effects;
     std::vector<ChosenTechnique> techniques;
@@ -75,20 +75,20 @@ struct RenderPlan {
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
     bool has_specular_spheres = false;     // of glass or metal
-    bool paths_find_sun_caustics = false;  // whoever finds those of emitters
+    bool paths_find_sun_caustics = false;  // whatever finds those of emitters
     std::uint32_t sky_resolution = 0;      // of the atmosphere; 0: the sky is constant
     PhotonPlan photons;                    // all zero without caustics and indirect light
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
     bool sums_bias = false;                // of photons
     bool sums_guides = false;              // of the denoiser, in two halves
-    bool catches_shadows = false;          // the ground, and shows nothing else
+    bool catches_shadows = false;          // the ground, which shows nothing else
     bool sums_coverage = false;            // of the scene, before a background that is not the sky
     std::uint32_t film_tile_rows = 0;      // rows of one film tile: what one set of film buffers covers
     std::uint32_t film_tile_count = 0;
     std::uint32_t tile_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
-    std::vector<std::string> notes;  // what the picture will lack, one line each
+    std::vector<std::string> notes;  // what the image will lack, one line each
 
     bool operator==(const RenderPlan&) const = default;
 
@@ -114,11 +114,13 @@ struct RenderPlan {
                    return chosen.technique->effect == effect && std::invoke(property, *chosen.technique);
                });
     }
-    // Whether photons that mirrors or glass have sent go on from diffuse surfaces: paths do not find those.
+    // Whether photons that came by mirrors or glass go on from diffuse surfaces, because paths do not find
+    // that light.
     [[nodiscard]] bool sends_caustics_on() const {
         return is_by_photons(Effect::caustics) && is_by_paths(Effect::indirect);
     }
-    // Whether paths take the light of emitters that their first rays meet, in place of a ray of direct light.
+    // Whether the first ray of a path also takes the light of emitters that it meets, in place of a
+    // surface-sampled ray of direct light.
     [[nodiscard]] bool paths_share_direct() const {
         return has(Effect::direct) && is_by_paths(Effect::indirect) && !settings.paths.plain;
     }
@@ -127,7 +129,7 @@ struct RenderPlan {
     [[nodiscard]] bool paths_keep_normals() const {
         return paths_share_direct() || (paths_find_sun_caustics && has(Effect::sun));
     }
-    // Invocations that trace the paths of so many rows.
+    // Invocations that trace the paths of `rows` rows.
     [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {
         const std::uint64_t pixels = std::uint64_t{rows} * static_cast<std::uint64_t>(settings.size.x);
         return static_cast<std::uint32_t>((pixels + paths.per_lane - 1) / paths.per_lane);
@@ -139,7 +141,7 @@ struct RenderPlan {
     }
     // Samples per pixel that this render takes: those of its part.
     [[nodiscard]] std::uint32_t samples() const { return part.empty() ? settings.spp : part.size(); }
-    // Whether the film is filtered when it is complete. A part is no whole film.
+    // Whether the film is denoised when it is complete. A part is not a whole film.
     [[nodiscard]] bool is_denoised() const { return sums_guides && part.empty(); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const {
@@ -167,25 +169,26 @@ struct PlanRequest {
     std::uint32_t frames = 1;               // that will be rendered
     bool moves_voxels = false;              // between these frames
     bool wants_error = false;               // an error target decides when to stop
-    bool wants_denoised = false;            // the picture will be denoised
+    bool wants_denoised = false;            // the image will be denoised
     bool leaves_room = false;               // worlds have room for what edits add
 };
 
-// Throws Error(input_refused) for settings out of range, a crop outside the image included. What it takes on
-// the device is another question: see footprint().
+// Throws Error(input_refused) for settings that are out of range or exclude each other, and Error(usage) for
+// a crop outside the image or a part where techniques allow none. Memory is not checked: see
+// plan_within_memory().
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
 
-// Variants of a plan, by the rules that made it. Of the first two no picture is made: they have neither AOVs
-// nor sums of squares or bias.
+// Variants of a plan, made by the same rules. No image is made of the first two, which have neither AOVs nor
+// sums of squares or bias.
 
 // The same samples without an effect.
 [[nodiscard]] RenderPlan plan_without(RenderPlan plan, Effect effect);
-// One iteration with discs of this radius, voxels, in which each pixel counts the photons of its own.
+// One iteration with kernels of this radius, voxels, in which each pixel counts the photons in its own.
 [[nodiscard]] RenderPlan plan_counting(RenderPlan plan, double radius);
-// The radius of the first iteration, voxels, where a pilot has found it.
+// The plan with the radius of the first iteration, voxels, that a pilot has found.
 [[nodiscard]] RenderPlan plan_with_radius(RenderPlan plan, double radius);
-// A strip of the picture.
+// A strip of the image.
 [[nodiscard]] RenderPlan plan_of_rows(RenderPlan plan, std::uint32_t rows);
 
 }  // namespace voxilux

@@ -8,7 +8,7 @@
 namespace voxilux {
 namespace {
 
-// Ranges of one sample that are written as one range with a step.
+// So many single samples or more at equal distances are written as one range with a step.
 constexpr std::size_t kMinStepped = 3;
 constexpr std::uint32_t kNoSample = 0xFFFFFFFF;  // one more than the largest number
 
@@ -42,7 +42,7 @@ std::optional<std::uint32_t> take_number(std::string_view& text, char before) {
     return value;
 }
 
-// One range of a text, which is taken off it; the empty set for what is none.
+// Takes a range off the text; the empty set where the text does not start with one.
 SampleSet take_range(std::string_view& text) {
     const auto first = take_number(text, '\0');
     const auto last = text.starts_with('-') ? take_number(text, '-') : first;

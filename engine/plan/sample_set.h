@@ -8,7 +8,7 @@
 
 namespace voxilux {
 
-// Most samples of a render that is taken in parts: film sums are exact as far.
+// Most samples of a render in parts: film sums are exact up to here.
 inline constexpr std::uint32_t kMaxPartSamples = 1u << 20;
 
 // Samples first, first + 1, ..., end - 1.
@@ -30,7 +30,8 @@ class SampleSet {
     [[nodiscard]] static SampleSet leading(std::uint32_t count);
     // Of those, every `shards`th from number `index` on.
     [[nodiscard]] static SampleSet shard(std::uint32_t index, std::uint32_t shards, std::uint32_t count);
-    // Nothing for a text that is none, names a sample twice, or has more than kMaxPartSamples with a step.
+    // Nothing for a text that is not a set, names a sample twice, or has more than kMaxPartSamples with a
+    // step.
     [[nodiscard]] static std::optional<SampleSet> parse(std::string_view text);
 
     bool operator==(const SampleSet&) const = default;
@@ -42,7 +43,8 @@ class SampleSet {
     [[nodiscard]] std::uint32_t first() const { return empty() ? 0 : ranges_.front().first; }
     [[nodiscard]] std::uint32_t end() const { return empty() ? 0 : ranges_.back().end; }
 
-    // Its samples in order, of which there is no last one: the numbers after its largest continue it.
+    // The sample at `index`, and the first `count` samples, in order. Past its end, a set goes on with the
+    // numbers after its largest.
     [[nodiscard]] std::uint32_t sample(std::uint32_t index) const;
     [[nodiscard]] SampleSet prefix(std::uint32_t count) const;
     // How many of the first `count` have an even number.

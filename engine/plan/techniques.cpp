@@ -79,13 +79,13 @@ const Technique* technique_named(Effect effect, std::string_view name) {
     return &*row;
 }
 
-// Ways of photons that are no default.
+// Whether the settings name a technique of photons that is not the default.
 bool names_photons(const PhotonSettings& photons) {
     return photons.scatter || photons.classic;
 }
 
-// Where emitters are all the light, and photons find their caustics anyway, photons take a half to a quarter
-// of the time of paths to an equal error (lab/notes/paths.md).
+// Where emitters are all the light, and photons find their caustics anyway, photons take half to a quarter of
+// the time of paths to an equal error (lab/notes/paths.md).
 bool favours_photons(const EffectStates& effects, const PathSettings& paths) {
     const auto is_on = [&](Effect effect) { return effects[static_cast<std::size_t>(effect)].on; };
     return is_on(Effect::caustics) && is_on(Effect::emission) && !is_on(Effect::sun) && !is_on(Effect::sky) &&

@@ -22,19 +22,19 @@ struct Technique {
     bool by_paths = false;
     bool biased = false;               // more samples do not remove all of its error
     bool tells_bias = false;           // the film can sum by how much it is off
-    bool independent_samples = false;  // of a pixel, whatever sequence leads the camera's rays
+    bool independent_samples = false;  // of a pixel, whatever sequence the camera rays follow
     bool shares_samples = false;       // between pixels, so that halves of the film tell no error
-    bool whole_frame = false;       // each pass covers the image before the next: one film tile and one tile
+    bool whole_frame = false;       // each pass covers the image before the next: one film and dispatch tile
     bool whole_tiles = false;       // a tile costs nearly as much as a film tile
     bool uneven_samples = false;    // the time of a sample depends on its number
     bool needs_pilot = false;       // to find parameters that the settings leave open
-    std::optional<NoiseLaw> noise;  // where it rules that of the picture
+    std::optional<NoiseLaw> noise;  // where it determines that of the image
     std::string_view
         state;  // why samples depend on those before, and what to use instead; empty: they do not
 
-    // State on the device outlives a sample, and with it the frame.
+    // Whether state on the device outlives a sample, and so a frame.
     [[nodiscard]] constexpr bool keeps_state() const { return !state.empty(); }
-    // Samples may be taken anywhere and in any order, and their sums added up.
+    // Whether samples may be taken anywhere and in any order, and their sums added up.
     [[nodiscard]] constexpr bool mergeable() const { return !keeps_state(); }
 };
 
@@ -49,17 +49,20 @@ struct ChosenTechnique {
     bool operator==(const ChosenTechnique&) const = default;
 };
 
-// Whether the plan leaves caustics of the sun to paths, whoever finds those of emitters. Faces of voxels send
-// sunlight on in directions that paths know. Spheres spread it over all, where chance hardly ever finds it.
+// Whether the plan leaves caustics of the sun to paths, whatever finds those of emitters. Faces of voxels
+// send sunlight on in directions that paths know. Spheres spread it over all directions, where paths hardly
+// ever find it.
 [[nodiscard]] bool leaves_sun_to_paths(const EffectStates& effects, const RenderSettings& settings,
                                        bool has_specular_spheres);
 
-// One for each effect that has techniques and is on, or off for want of one (`none`).
+// The techniques of ao where it is on, and of caustics and indirect light, which is `none` where they are
+// off.
 [[nodiscard]] std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
                                                              const RenderSettings& settings,
                                                              bool has_specular_spheres);
 
-// The request with those effects off for which the settings choose `none`, unless it has them on.
+// The request with those effects off for which the settings choose `none`, unless the request switches them
+// on.
 [[nodiscard]] EffectRequest with_techniques(EffectRequest request, const RenderSettings& settings);
 
 }  // namespace voxilux

@@ -105,8 +105,8 @@ using Command = std::variant<Upload, Clear, Dispatch, DispatchIndirect, Readback
 // A piece of work for the device as plain data: it can be built, printed and tested without one.
 class Recording {
   public:
-    // Declares a buffer. Declaring the same proxy again is fine; another size under the same name is our
-    // mistake.
+    // Declares a buffer. Declaring the same proxy again is fine; another size under the same name is a defect
+    // (asserted).
     void declare(const BufferProxy& proxy);
 
     void upload(std::string buffer, std::span<const std::byte> data, std::uint64_t offset_bytes = 0);

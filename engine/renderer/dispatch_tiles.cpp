@@ -6,7 +6,7 @@ namespace voxilux {
 namespace {
 
 // A GPU may take 250 ms at most for one dispatch; half of it leaves room for tiles of uneven cost. On a CPU
-// only the answer to Ctrl-C and to a time limit matters.
+// only the response to Ctrl-C and to a time limit matters.
 constexpr double kGpuTargetMs = 125.0;
 constexpr double kCpuTargetMs = 400.0;
 // Rays of the first tile, before anything is known: 80 ms at 50 million rays per second.

@@ -18,12 +18,12 @@ class TileGovernor {
     [[nodiscard]] DispatchTile tile_at(
         std::uint32_t row, std::uint32_t max_rows = std::numeric_limits<std::uint32_t>::max()) const;
 
-    // Sizes the tiles to come by one that was rendered: its rows and its longest dispatch.
+    // Adapts the size of later tiles to a rendered one: its rows and its longest dispatch.
     void adapt(std::uint32_t rows_done, double max_ms);
 
     [[nodiscard]] std::uint32_t rows() const { return rows_; }
 
-    // Longest dispatch that is aimed at, ms.
+    // Desired time of the longest dispatch, ms.
     [[nodiscard]] double target_ms() const { return target_ms_; }
 
   private:

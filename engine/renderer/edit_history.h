@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// Edits that can be taken back and made again. It holds as many as fit the memory, the newest ones; what is
-// forgotten stays as it is.
+// Edits that can be undone and redone: the newest ones, as many as fit in `max_bytes`. Older edits can no
+// longer be undone.
 class EditHistory {
   public:
     static constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
@@ -18,11 +18,11 @@ class EditHistory {
     EditHistory() = default;
     explicit EditHistory(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-    // An edit was made, and `back` takes it back. Edits that were taken back before are forgotten.
+    // Records an edit that was made, and the edits that undo it. Undone edits can no longer be redone.
     void add(std::vector<BoxEdit> made, std::vector<BoxEdit> back);
 
-    // What to apply to take the last edit back, or to make the next one again; nothing where there is none.
-    // Valid until add().
+    // What to apply to undo the last edit or to redo the next one; null where there is none. Valid until
+    // add().
     [[nodiscard]] const std::vector<BoxEdit>* undo();
     [[nodiscard]] const std::vector<BoxEdit>* redo();
 
@@ -40,7 +40,7 @@ class EditHistory {
     }
 
     std::deque<Entry> entries_;
-    std::size_t position_ = 0;  // the first entry that is taken back
+    std::size_t position_ = 0;  // the first undone entry
     std::size_t bytes_ = 0;
     std::size_t max_bytes_ = kMaxBytes;
 };

@@ -16,7 +16,7 @@ bool touches_border(const Box& box, glm::ivec3 cell) {
     return glm::any(glm::equal(cell, box.lo)) || glm::any(glm::equal(cell, box.hi - 1));
 }
 
-// Adds what the cell was, to the last run of cells along x where it goes on with that.
+// Adds what the cell was. Extends the last run of cells along x where the cell continues it.
 void add_back(glm::ivec3 cell, std::optional<std::uint32_t> material, std::vector<BoxEdit>& back) {
     if (!back.empty()) {
         Box& run = back.back().box;
@@ -66,7 +66,7 @@ VoxelChange EditableVoxels::apply(std::span<const BoxEdit> edits) {
                     if (!edit.paints || world_.get({x, y, z}) != VoxelWorld::kEmpty)
                         put({x, y, z}, voxel, change);
     }
-    // What was changed twice takes back the later change first.
+    // Where a cell has changed twice, the later change is undone first.
     std::ranges::reverse(change.back);
     if (may_shrink_) measure_box();
     if (const WorldGrid grid = grid_around(box_); grid != WorldGrid{world_.origin(), world_.chunks()})
@@ -92,7 +92,7 @@ void EditableVoxels::put(glm::ivec3 local, std::uint16_t voxel, VoxelChange& cha
              change.back);
 }
 
-// The same voxels counted from another corner.
+// Moves the same voxels to a grid with another corner.
 void EditableVoxels::move_to(const WorldGrid& grid) {
     VoxelWorld moved(grid.origin, grid.chunks);
     const glm::ivec3 shift = world_.origin() - grid.origin;

@@ -14,25 +14,25 @@ namespace voxilux {
 struct BoxEdit {
     Box box;
     std::optional<std::uint32_t> material;  // of the scene; nothing: air
-    bool paints = false;                    // voxels that are there, not air
+    bool paints = false;                    // changes voxels that exist, not air
 
     bool operator==(const BoxEdit&) const = default;
 };
 
-// What an edit made of the voxels.
+// What an edit has changed.
 struct VoxelChange {
-    bool has_moved = false;        // they have another grid now
-    std::vector<VoxelEdit> cells;  // that were changed, in the grid that they have now
-    std::vector<BoxEdit> back;     // edits that take all of it back, in this order
+    bool has_moved = false;        // the voxels have another grid now
+    std::vector<VoxelEdit> cells;  // changed ones; of no use where has_moved
+    std::vector<BoxEdit> back;     // edits that undo all of it, in this order
 };
 
-// The voxels of a scene that is edited, and what its facts say of them. Their grid is always that of a scene
-// that never had others.
+// The voxels of an edited scene, and their facts. Their grid is always the one that a scene with just these
+// voxels would have.
 class EditableVoxels {
   public:
     explicit EditableVoxels(const Scene& scene);
 
-    // Throws Error(input_refused) for a box beyond kMaxCoordinate or a material that the scene has not, and
+    // Throws Error(input_refused) for a box beyond kMaxCoordinate or a material that the scene lacks, and
     // Error(out_of_memory) for a grid that is too large; then nothing is changed.
     VoxelChange apply(std::span<const BoxEdit> edits);
 

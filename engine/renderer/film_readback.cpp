@@ -9,7 +9,7 @@
 namespace voxilux {
 namespace {
 
-// Rows of one film quantity, film tiles joined.
+// Rows of one film plane, film tiles joined.
 template <class T>
 std::vector<T> read_plane(const RenderPlan& plan, const FilmPlane& plane, RowRange rows, Executor& executor) {
     const std::size_t row_values = static_cast<std::size_t>(plan.settings.size.x) * plane.components;

@@ -10,13 +10,13 @@ namespace voxilux {
 // samples each row has received.
 [[nodiscard]] FilmSums read_film(const RenderPlan& plan, Executor& executor);
 
-// Rows of the picture that lie in one film tile.
+// Rows of the image that lie in one film tile.
 struct RowRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
 
-// At most `count` rows about the middle of the picture.
+// At most `count` rows around the middle of the image.
 [[nodiscard]] RowRange middle_rows(const RenderPlan& plan, std::uint32_t count);
 
 // As read_film, but only these rows: a film of that height.

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Rows of the first tile of a step, when nothing is known of how long one takes.
+// Rows of the first tile, while the time of a row is unknown.
 constexpr std::uint32_t kFirstRows = 16;
 
 }  // namespace

@@ -28,54 +28,57 @@ struct FilmPosition {
     }
 };
 
-// Of FilmSteps::step: only the time ends it.
+// For FilmSteps::step: only the time ends it.
 inline constexpr std::uint32_t kNoEnd = 0xFFFFFFFF;
 
 // What was done in a step.
 struct StepResult {
     std::uint32_t tiles = 0;
-    std::uint32_t samples = 0;  // of the whole image that ended
+    std::uint32_t samples = 0;  // of the whole image that were completed
     std::uint64_t pixels = 0;   // that got a sample
     std::array<std::uint64_t, gpu::kCounterCount> counters{};
     std::vector<PassTime> passes;
 };
 
-// Takes samples of one plan, tile by tile, on a device that holds the world: the one loop over tiles.
+// Takes samples of one plan, tile by tile, on a device that holds the world: the only loop over dispatch
+// tiles.
 class FilmSteps {
   public:
-    // The plan and the executor outlive this. `state` is what earlier frames left on the device.
+    // The plan and the executor must outlive this. `state` is what earlier frames left on the device.
     FilmSteps(const RenderPlan& plan, Executor& executor, bool is_cpu, const FrameState& state = {});
 
-    // Begins a frame. Its film is empty on the device and goes on from `start`: what it held until then is
-    // the caller's.
+    // Begins a frame. Its film starts empty on the device, at the position `start`; the caller keeps the
+    // samples before that.
     void start_frame(const gpu::FrameParams& params, FilmPosition start = {});
 
-    // The next tile that step_tile would take, or one that a step would take in so many seconds.
+    // The next tile that step_tile would take, or that a step with so many seconds left would.
     [[nodiscard]] DispatchTile next_tile() const { return governor_.tile_at(position_.rows_ahead); }
     [[nodiscard]] DispatchTile next_tile(double budget_s) const;
 
-    // Renders one tile, as large as the device should take at once.
+    // Renders one tile, as large as one dispatch should be.
     StepResult step_tile();
 
-    // Renders tiles until `budget_s` is over: one at least, and no other that is expected to end later, nor
-    // any after the sample that makes `end_samples` whole ones.
+    // Renders at least one tile, and more until `budget_s` is over or `end_samples` samples are complete. It
+    // starts no further tile that is expected to end after the budget.
     StepResult step(double budget_s, std::uint32_t end_samples = kNoEnd);
 
-    // Renders this tile, which begins at the position, into a film that need not be empty; what it did is
-    // added to `done`. `kept`: buffers to read back when it is rendered.
+    // Renders this tile, which begins at position(), without clearing the film, and adds what it did to
+    // `done`. `kept`: buffers to read back afterwards.
     RunResult take(const DispatchTile& tile, StepResult& done, std::span<const std::string> kept = {});
 
-    // The film as it is shown, in a buffer on the device. It has to begin with the first sample.
+    // The film as it is displayed, in a buffer on the device. The frame must have begun with the first
+    // sample.
     DisplayBuffer display(const DisplayLook& look);
 
-    // The film of this frame with the samples of its rows; the second one without what no error needs.
+    // The film of this frame with the sample counts of its rows; the second one only with the planes that the
+    // error is estimated from.
     [[nodiscard]] FilmSums read();
     [[nodiscard]] FilmSums read_for_error();
     // Some rows, all in one film tile.
     [[nodiscard]] FilmSums read_rows(RowRange rows);
 
     [[nodiscard]] FilmPosition position() const { return position_; }
-    // What this frame, as far as it is, leaves to the next one.
+    // What this frame, as far as it has come, leaves to the next one.
     [[nodiscard]] FrameState state() const;
 
   private:

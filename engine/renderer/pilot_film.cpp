@@ -8,7 +8,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kPilotStream = 0x70696c74u;  // any number but 0: the seed that users take
+constexpr std::uint32_t kPilotStream = 0x70696c74u;  // any number; keeps the pilot's random numbers apart
 
 gpu::FrameParams pilot_params(const RenderPlan& plan, const Scene& scene, const MarchWorld& world) {
     gpu::FrameParams params = frame_params(plan, scene, world);
@@ -32,7 +32,7 @@ PilotFilm::PilotFilm(const RenderPlan& plan, const PreparedScene& prepared, cons
     : plan_(without_part(plan)),
       params_(pilot_params(plan, scene, prepared.march_world)),
       steps_(plan_, executor, is_cpu) {
-    // A variant without occlusion takes the light of an atmosphere from what its scene was not prepared with.
+    // A variant without occlusion may need other tables of the sky than those that were prepared.
     if (traces_sky(plan_) != traces_sky(prepared.plan)) {
         Recording sky;
         record_sky_build(plan_, scene, sky);

@@ -7,8 +7,8 @@
 
 namespace voxilux {
 
-// A film of samples that no image is made of: they have random numbers of their own. The device holds the
-// world; the film that it holds is overwritten.
+// A film of samples with random numbers of their own, from which no image is made. The device must hold the
+// world; the film on it is overwritten.
 class PilotFilm {
   public:
     // `plan` may differ from the prepared one in its effects.
@@ -17,10 +17,11 @@ class PilotFilm {
     PilotFilm(const PilotFilm&) = delete;
     PilotFilm& operator=(const PilotFilm&) = delete;
 
-    // Adds the sample of this number; returns how long that took, seconds. Out of order it empties the film.
+    // Adds the sample of this number and returns how long that took, seconds. A sample out of order empties
+    // the film first.
     double take(std::uint32_t sample);
 
-    // What the error is estimated from.
+    // The planes that the error is estimated from.
     [[nodiscard]] FilmSums read() { return steps_.read_for_error(); }
 
   private:
@@ -29,7 +30,7 @@ class PilotFilm {
     FilmSteps steps_;
 };
 
-// The seed of a pilot's random numbers, those of no render of this scene.
+// The seed of a pilot's random numbers, which differ from those of the render with `seed`.
 [[nodiscard]] std::uint32_t pilot_seed(std::uint32_t seed);
 
 }  // namespace voxilux

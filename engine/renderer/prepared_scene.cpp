@@ -20,7 +20,7 @@ glm::ivec3 nearest_to_camera(const Scene& scene) {
         glm::clamp(glm::floor(camera_of(scene).position), glm::dvec3(box.lo), glm::dvec3(box.hi)));
 }
 
-// Room for edits: what bricks and chunks that become mixed add, until the structure is built anew.
+// Room for the bricks and chunks that edits make mixed, until the structure is built anew.
 constexpr std::uint64_t kMinRoomBytes = std::uint64_t{1} << 18;
 void leave_room(WorldFacts& world) {
     for (std::uint64_t* bytes : {&world.node_bytes, &world.leaf_bytes})

@@ -8,7 +8,7 @@
 
 namespace voxilux {
 
-// The world of the scene as the march needs it, and the facts and the plan that follow. No device is used.
+// The world of a scene as the march needs it, with its facts, lights and plan. Made without a device.
 struct PreparedScene {
     SceneFacts facts;
     MarchWorld march_world;
@@ -19,7 +19,7 @@ struct PreparedScene {
 [[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request,
                                           const DeviceLimits& limits);
 
-// The same of a scene with these facts whose voxels are those of `world`. The scene's own are not looked at.
+// The same for a scene with these facts and the voxels of `world` in place of its own.
 [[nodiscard]] PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts,
                                           const VoxelWorld& world, const PlanRequest& request,
                                           const DeviceLimits& limits);

@@ -14,19 +14,18 @@
 namespace voxilux {
 namespace {
 
-// With ten photons a disc's light scatters by a third, which some dozen iterations bring below the steps of a
-// display; the Cornell box gets a radius near 2, where its error is lowest (engine/passes/README.md).
+// With ten photons, the light of a kernel has a relative deviation of a third, which a dozen iterations bring
+// below the steps of a display. The Cornell box gets a radius near 2, where its error is lowest.
 constexpr double kPilotPhotons = 10.0;
 constexpr double kSmallestPilot = 0.0625;  // voxels
 constexpr double kPilotGrowth = 4.0;
 constexpr int kMaxPilots = 10;  // up to a radius of 16,384 voxels
-// Fewer photons in the middle disc say too little.
+// With fewer photons in the median kernel, their number is too noisy.
 constexpr double kEnoughPhotons = 3.0;
-// Discs that meet not even so many times the photons of discs of a quarter of their radius cover the
-// surfaces.
+// Where kernels of four times the radius gather less than so many times the photons, they cover the surfaces.
 constexpr double kLeastGain = 2.0;
-// Parts of the longest side of a world of voxels that no disc may be wider than: where hardly a photon comes,
-// noise is better than a smear.
+// The longest side of a world of voxels over the largest radius: where few photons arrive, noise is better
+// than blur.
 constexpr double kFinestParts = 128.0;
 constexpr double kUnlitRadius = 1.0;  // voxels, where no photon reaches what is seen
 

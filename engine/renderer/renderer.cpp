@@ -25,7 +25,7 @@ Scene without_voxels(const Scene& scene) {
             .settings = scene.settings};
 }
 
-// camera_of() a scene that names none, when its voxels fill `box`.
+// The camera that camera_of() gives a scene without one whose voxels fill `box`.
 Camera framing_camera_of(const Scene& scene, const Box& box) {
     const glm::dvec2 size(scene.settings.size);
     return framing_camera(united(box, sphere_bounds(scene.spheres)), View::three_quarter, size.x / size.y,
@@ -64,7 +64,7 @@ void Renderer::prepare_editable(const Scene& scene, const PlanRequest& request) 
     adopt(std::move(next), scene, with_room);
 }
 
-// The scene as it would be prepared anew: with the edited voxels, or without any.
+// Prepares the scene again: with the edited voxels, or as a scene without any.
 PreparedScene Renderer::prepare_again(const Scene& scene, const PlanRequest& request) const {
     if (!editing_) return prepare_scene(scene, request, limits_);
     const EditableVoxels& voxels = editing_->voxels;
@@ -109,13 +109,13 @@ void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted)
     replan(std::move(scene), request);
 }
 
-// The plan of a scene with the same voxels; the structure of the world stays.
+// Plans a scene with the same voxels; the structure of the world stays.
 void Renderer::replan(Scene scene, const PlanRequest& request) {
     first_radius_.reset();
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request), scene, request);
     if (!scene.camera) scene.camera = framing_camera_of(scene, prepared_->facts.box);
     const bool had_voxels = prepared_->plan.has(Effect::voxels);
-    // The structure on the host may be a grown one.
+    // The boxes of the structure on the host may have grown, but an upload needs an unexpanded one.
     if (!had_voxels && editing_) return adopt(prepare_again(scene, request), scene, request);
     RenderPlan plan = plan_within_memory(scene, prepared_->facts, prepared_->plan.world, request, limits_);
     upload();
@@ -130,7 +130,7 @@ void Renderer::replan(Scene scene, const PlanRequest& request) {
     start_plan({});
 }
 
-// The plan is a new one. One radius of photons serves all cameras, so that frames do not flicker.
+// Begins with a new plan. One photon radius serves all cameras, so that frames do not flicker.
 void Renderer::start_plan(const FrameState& state) {
     if (prepared_->plan.needs_pilot()) {
         if (!first_radius_) first_radius_ = pilot_radius(*prepared_, scene_, executor());

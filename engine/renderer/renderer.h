@@ -11,43 +11,44 @@
 
 namespace voxilux {
 
-// Renders a scene on a device in steps as small as the caller wants; what a window and a batch render both
-// call. It keeps world, pipelines and buffers as long as they are valid. Whatever changes what is seen
-// empties the film: after any changes it becomes that of a fresh renderer, bit for bit. Where a pilot chooses
-// the first radius of photons, it stays until prepare() or change(), so that frames do not flicker.
-// The renderer knows no end, no files and no forecasts.
+// Renders a scene on a device in steps as small as the caller wants, for windows and batch renders alike. It
+// keeps world, pipelines and buffers as long as they are valid. Whatever changes what is seen empties the
+// film, which then becomes that of a fresh renderer, bit for bit. Where a pilot chooses the first photon
+// radius, that radius stays until prepare() or change(), so that frames do not flicker. Stop rules, files and
+// forecasts are the caller's.
 class Renderer {
   public:
     Renderer(Device& device, const ExecutorOptions& options);
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    // Puts another scene on the device. What it throws, of a scene or a plan that cannot be, leaves the
-    // renderer as it was.
+    // Replaces the scene. Where it throws, because the scene or the plan is impossible, the renderer stays as
+    // it was.
     void prepare(const Scene& scene, const PlanRequest& request);
 
     // The same for a scene that edit() will change: its voxels are kept, and its structure has room for more.
     void prepare_editable(const Scene& scene, const PlanRequest& request);
 
-    // The same scene with other voxels or another sun, as in an animation. It can no more be edited.
+    // The same scene with other voxels or another sun, as in an animation. It can no longer be edited.
     void set_voxels(const Scene& scene);
 
-    // Another camera on the same scene. One of another projection is a change, and throws as one.
+    // Another camera for the same scene. One with another projection needs a new plan, and throws as change()
+    // does.
     void set_camera(const Camera& camera);
 
-    // Other settings, techniques or effects, as a renderer of its own would have them; the structure of the
-    // world stays, whichever `request` names. Throws as prepare does.
+    // Other settings, techniques or effects, as a fresh renderer would have them, except that the structure
+    // of the world stays, whichever one `request` names. Throws as prepare does.
     void change(const RenderSettings& settings, const PlanRequest& request);
 
-    // Other voxels, after prepare_editable; the camera stays. What the edits leave as it was stays on the
-    // device, unless the box of all voxels becomes another one or there is no more room. Throws as prepare
-    // does, and as EditableVoxels::apply. Returns the edits that take it back.
+    // Changes voxels, after prepare_editable; the camera stays. Only what has changed is sent to the device,
+    // unless the bounding box of all voxels changes or room is short. Throws as prepare and
+    // EditableVoxels::apply do. Returns the edits that undo it.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
 
     // The voxels that edit() changes; null where there are none.
     [[nodiscard]] const VoxelWorld* voxels() const { return editing_ ? &editing_->voxels.world() : nullptr; }
 
-    // Empties the film. It goes on from `start`: the samples until then are the caller's.
+    // Empties the film, which goes on from `start`; the caller keeps the samples before that.
     void restart(FilmPosition start = {});
 
     // The steps of the film (film_steps.h), uploads included. prepare() comes first.
@@ -57,7 +58,7 @@ class Renderer {
     // The film so far, read from the device.
     [[nodiscard]] FilmSums read_film() { return ready_film().read(); }
 
-    // Where the film stands, and the film with all uploads done that it depends on.
+    // The film, for its position; and the film once all uploads that it depends on are done.
     [[nodiscard]] const FilmSteps& film() const { return *steps_; }
     [[nodiscard]] FilmSteps& ready_film();
 
@@ -66,8 +67,8 @@ class Renderer {
     [[nodiscard]] const PreparedScene& prepared() const { return *prepared_; }
     // The scene without its voxels, as it is seen now.
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    // The film so far as it is shown, in a buffer on the device, for who presents it there. Nothing is read
-    // back. Looks that compare need a reference of the size of the image, as record_display_reference().
+    // The film so far as it is displayed, in a buffer on the device. Nothing is read back. Looks that compare
+    // need a reference of the size of the image first (record_display_reference()).
     DisplayBuffer display(const DisplayLook& look);
     void set_reference(std::span<const float> radiance);
 
@@ -79,7 +80,7 @@ class Renderer {
     struct Editing {
         EditableVoxels voxels;
         bool is_grown = false;  // the structure on the host has the boxes that grew on the device
-        bool is_stale = false;  // the structure is not that of the voxels
+        bool is_stale = false;  // the structure does not match the voxels
     };
 
     [[nodiscard]] PreparedScene prepare_again(const Scene& scene, const PlanRequest& request) const;
@@ -100,8 +101,8 @@ class Renderer {
     std::optional<Editing> editing_;
     std::optional<FilmSteps> steps_;
     std::optional<double> first_radius_;  // of photons, once a pilot has found it: one for all cameras
-    Recording pending_;                   // what the device lacks
-    std::vector<PassTime> upload_times_;  // that no step has told yet
+    Recording pending_;                   // uploads that the device lacks
+    std::vector<PassTime> upload_times_;  // that no step has reported yet
 };
 
 }  // namespace voxilux

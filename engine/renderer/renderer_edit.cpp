@@ -9,7 +9,7 @@
 namespace voxilux {
 namespace {
 
-// With more cells than that the device builds the structure faster than the host edits it.
+// Above so many cells, the device builds the structure faster than the host edits it.
 constexpr std::size_t kMaxCells = std::size_t{1} << 16;
 
 bool fits(const std::vector<std::uint32_t>& words, std::uint64_t bytes) {
@@ -35,7 +35,7 @@ std::vector<BoxEdit> Renderer::edit(std::span<const BoxEdit> edits) {
     return std::move(change.back);
 }
 
-// The boxes that grew on the device.
+// Reads the boxes that grew on the device.
 void Renderer::fetch_boxes() {
     if (std::exchange(editing_->is_grown, true)) return;
     MarchWorld& world = prepared_->march_world;

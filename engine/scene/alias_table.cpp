@@ -11,13 +11,13 @@
 namespace voxilux {
 namespace {
 
-// Up, so that what has any power keeps some.
+// Rounds up, so that whatever has power keeps some.
 float round_up(double probability) {
     constexpr double kSteps = 0x1p24;
     return static_cast<float>(std::min(1.0, std::ceil(probability * kSteps) / kSteps));
 }
 
-// The share of each in n times the mean; scaled first, so that no sum overflows.
+// Each power over their mean; scaled first, so that no sum overflows. Empty when there is no power.
 std::vector<double> shares_of(std::span<const double> powers) {
     double largest = 0.0;
     for (const double power : powers) {
@@ -54,7 +54,7 @@ std::vector<gpu::AliasEntry> build_alias_table(std::span<const double> powers) {
     std::vector<std::uint32_t> small, large;
     for (std::size_t i = 0; i < shares.size(); ++i)
         (shares[i] < 1.0 ? small : large).push_back(checked_cast<std::uint32_t>(i, "alias entry"));
-    // Rounding may leave one list empty before the other. Who is left over is as good as 1, but for those
+    // Rounding may empty one list before the other. What is left over is 1 up to rounding, except for entries
     // without power, which give their bucket to the strongest.
     const auto strongest = static_cast<std::uint32_t>(std::ranges::max_element(powers) - powers.begin());
     while (!small.empty() && !large.empty()) {

@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// Sine and cosine of an angle in degrees, exact at the multiples of 90: an axis-aligned view or a sun in the
+// Sine and cosine of an angle in degrees, exact at the multiples of 90: an axis-aligned view or a sun at the
 // zenith has components that are exactly 0 and 1. Valid for every finite angle.
 [[nodiscard]] double sin_deg(double angle_deg);
 [[nodiscard]] double cos_deg(double angle_deg);

@@ -10,7 +10,8 @@
 namespace voxilux {
 namespace {
 
-// What bounds_of_frames looks at: a file may have any number of keys, and a key any number of instances.
+// Limits of what bounds_of_frames looks at: a file may have any number of keys, and a key any number of
+// instances.
 constexpr std::size_t kMaxFramedKeys = 256;
 constexpr std::size_t kMaxFramedInstances = std::size_t{1} << 22;
 

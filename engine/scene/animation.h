@@ -12,17 +12,17 @@
 
 namespace voxilux {
 
-// The frames of a scene: those of the camera's keys, else of a turn of its turntable, else of its .vox files
+// The frames of a scene: those of its camera keys, else of one turn of its turntable, else of its .vox files
 // together. Nothing for a still scene.
 [[nodiscard]] std::optional<FrameRange> frames_of(const Scene& scene);
 
 // The smallest box around the scene as it is and as its .vox files show it at their key frames (256 of them,
-// evenly chosen, where there are more).
+// evenly spaced, where there are more).
 [[nodiscard]] Box bounds_of_frames(const Scene& scene);
 
-// Shows one frame after the other of a scene without copying its voxels. Any frame number has a picture:
-// beyond its keys a camera stays where it is, a turntable goes round, and a .vox file does what its nodes say
-// (those with _loop begin again, the others keep their last key).
+// Shows the frames of a scene one after the other without copying its voxels. Every frame number has an
+// image: beyond its keys a camera stays where it is, a turntable keeps turning, and the nodes of a .vox file
+// begin again (with _loop) or keep their last key.
 class FramePlayer {
   public:
     // Throws Error(input_refused) when a .vox file places an instance out of reach at a key frame.
@@ -31,7 +31,7 @@ class FramePlayer {
     // The still scene at `frame`, until the next call. Throws as the constructor does.
     const Scene& show(std::int64_t frame);
 
-    // What show() gives from now on has these settings.
+    // From now on, show() returns scenes with these settings.
     void change_settings(const RenderSettings& settings) { still_.settings = settings; }
 
     // Whether the last show() changed the voxels; true of the first.
@@ -45,7 +45,7 @@ class FramePlayer {
     Scene still_;
     Animation animation_;
     std::vector<Instance> loaded_;  // the instances as they were loaded
-    Camera rest_;                   // of the turntable
+    Camera rest_;                   // of the turntable at angle 0
     Sun rest_sun_;
     glm::dvec2 axis_{0.0};
     bool has_new_voxels_ = true;

@@ -16,8 +16,8 @@ inline constexpr std::array<std::string_view, 2> kAoSamplingNames{"cell", "pixel
 // Settings of the hash; shaders/shared/ao_cell.h says what a cell is.
 struct AoSettings {
     AoMethod method = AoMethod::automatic;
-    float cell_px = 10.0f;  // width of a cell that is wished for, pixels; cells are between half of it and it
-    // Look for a cell where the sample before saw it, before searching the table; absent: the plan chooses.
+    float cell_px = 10.0f;  // largest width of a cell, pixels; cells have at least half of it
+    // Look for a cell where the previous sample saw it before searching the table; absent: the plan chooses.
     std::optional<bool> reproject;
     std::optional<bool> merged;      // search and trace in one pass; absent: the plan chooses
     bool checkerboard = false;       // every other pixel takes samples

@@ -26,8 +26,8 @@ float disc_height(const Sun& sun) {
     return gpu::cone_height(sun.angular_diameter_deg * (std::numbers::pi_v<float> / 360.0f));
 }
 
-// The mean transmittance over the sun's disc. Air changes with the elevation only: the disc in slices of
-// equal height, each with the light of its chord.
+// The mean transmittance over the sun's disc. It depends on the elevation alone, so the disc is cut into
+// slices of equal height, each weighted by its chord.
 glm::vec3 disc_transmittance(const gpu::SkyParams& sky, float radius) {
     constexpr int kSlices = 64;
     const float elevation = std::asin(std::clamp(sky.sun_direction.z, -1.0f, 1.0f));

@@ -12,8 +12,8 @@ namespace voxilux {
 // atmosphere dims and colours it, and the planet hides what is below its horizon, as a mean over the disc.
 [[nodiscard]] glm::vec3 sunlight(const Scene& scene);
 
-// Share of light that the atmosphere takes over a horizontal distance at z = 0, in the colour that loses
-// most.
+// Fraction of the light that the atmosphere absorbs or scatters over a horizontal distance at z = 0, in the
+// channel that loses most.
 [[nodiscard]] float haze(const Scene& scene, double voxels);
 
 }  // namespace voxilux

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// One number of the camera at every key.
+// One quantity of the camera at every key.
 struct Curve {
     std::vector<double> times;  // rising
     std::vector<double> values;
@@ -22,8 +22,8 @@ double chord(const Curve& curve, std::size_t i) {
     return (curve.values[i + 1] - curve.values[i]) / (curve.times[i + 1] - curve.times[i]);
 }
 
-// Of the parabola through three keys. At an end it is that of the parabola through the last three, whose
-// slopes at two keys have the chord between them as their mean.
+// Slope of the parabola through three keys. At an end it is that of the parabola through the last three: the
+// mean of its slopes at two neighbouring keys is the chord between them.
 double slope(const Curve& curve, std::size_t i) {
     const std::size_t last = curve.times.size() - 1;
     if (last == 1) return chord(curve, 0);
@@ -34,14 +34,13 @@ double slope(const Curve& curve, std::size_t i) {
     return (after * chord(curve, i - 1) + before * chord(curve, i)) / (before + after);
 }
 
-// Between keys `i` and `i + 1`, at the share `u` of the way.
+// Value between keys `i` and `i + 1`, at the fraction `u` of the interval.
 double on_curve(const Curve& curve, CameraPath path, std::size_t i, double u) {
     const double from = curve.values[i];
     const double to = curve.values[i + 1];
     if (path == CameraPath::linear) return from + u * (to - from);
     const double length = curve.times[i + 1] - curve.times[i];
-    // Hermite's cubic in the form from + u (to - from) + what bends it; equal values without slope stay
-    // equal.
+    // Hermite's cubic as a straight line and what bends it, so that equal values without slope stay equal.
     const double bend_from = length * slope(curve, i) - (to - from);
     const double bend_to = length * slope(curve, i + 1) - (to - from);
     return from + u * (to - from) + u * (1.0 - u) * ((1.0 - u) * bend_from - u * bend_to);
@@ -57,7 +56,7 @@ Curve curve_of(std::span<const CameraKey> keys, const Value& value) {
     return curve;
 }
 
-// Each yaw written so that it is at most half a turn from the one before.
+// The yaws, each written so that it is at most half a turn from the one before.
 Curve yaw_curve(std::span<const CameraKey> keys) {
     Curve curve = curve_of(keys, [](const CameraKey& key) { return key.camera.yaw_deg; });
     for (std::size_t i = 1; i < curve.values.size(); ++i) {

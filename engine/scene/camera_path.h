@@ -19,7 +19,7 @@ namespace voxilux {
 [[nodiscard]] double angle_of(const Turntable& turntable, std::int64_t frame);
 
 // The camera of a turntable at `frame`, `rest` being that of angle 0 and `axis` x and y of the vertical line
-// it goes round. The same distance from the axis, height and pitch in all frames.
+// it goes round. Its distance from the axis, height and pitch are the same in all frames.
 [[nodiscard]] Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::dvec2 axis,
                                          std::int64_t frame);
 

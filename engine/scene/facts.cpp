@@ -53,7 +53,7 @@ std::string_view simplification(const Material& material) {
     return "";
 }
 
-// One sentence a kind, with the first of its materials.
+// One sentence for each kind of simplification, which names the first of its materials.
 class Simplifications {
   public:
     void add(const Material& material) {

@@ -31,7 +31,7 @@ struct SceneFacts {
     double aperture = 0.0;              // of the lens, voxels
     bool has_emitters = false;          // a used material with emission > 0
     bool has_glass = false;             // a used material that lets light through
-    bool has_metal = false;             // a used material with a polished share
+    bool has_metal = false;             // a used material with a mirror lobe
     bool has_reflectors = false;        // a used material that is not black
     bool has_specular_spheres = false;  // of glass or metal
 

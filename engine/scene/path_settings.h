@@ -4,10 +4,10 @@
 
 namespace voxilux {
 
-// What paths of light from the camera find, in place of photons.
+// Light that paths from the camera find, in place of photons.
 struct PathSettings {
     std::optional<bool> indirect;  // light between surfaces; absent: the plan chooses
-    std::optional<bool> caustics;  // light of sun and emitters past mirrors and glass; likewise
+    std::optional<bool> caustics;  // light of sun and emitters by mirrors and glass; likewise
     bool plain = false;            // paths meet emitters by chance alone, technique `reference`
 
     bool operator==(const PathSettings&) const = default;

@@ -9,11 +9,11 @@ namespace voxilux {
 struct PhotonSettings {
     static constexpr std::int64_t kMaxCount = std::int64_t{1} << 24;
 
-    std::uint32_t count = 0;       // per iteration; 0: as many as the picture has pixels
+    std::uint32_t count = 0;       // per iteration; 0: as many as the image has pixels
     std::optional<double> radius;  // of the first iteration, voxels; absent: from a pilot
-    double alpha = 2.0 / 3.0;      // exponent of the radius' decline; 1: it stays
-    bool scatter = false;          // photons look for visible points instead of the other way round
-    bool classic = false;          // a radius for each pixel, which declines as photons arrive
+    double alpha = 2.0 / 3.0;      // exponent of the radius reduction; 1: the radius is constant
+    bool scatter = false;          // splatting: photons add themselves to visible points
+    bool classic = false;          // per-pixel radii (Hachisuka 2008), which shrink as photons arrive
     bool roulette = true;          // ends paths by chance, without bias; false: after `depth` surfaces
     std::uint32_t depth = 24;      // surfaces on a path without roulette
     bool caustics = true;          // false: nothing finds them, technique `none`

@@ -39,7 +39,7 @@ struct Material {
     bool operator==(const Material&) const = default;
 };
 
-// Of a scene: their numbers have 15 bits in voxels on the device, and a ground has one, too.
+// Materials of a scene. Voxels on the device hold their numbers in 15 bits, and a ground takes one, too.
 inline constexpr std::size_t kMaxMaterials = 32767;
 
 // A filled cell of a model. `material` indexes Scene::materials.
@@ -58,7 +58,7 @@ struct VoxelBox {
     std::uint16_t material = 0;
 };
 
-// Each cell at most once, inside `size`: voxels of files, boxes of shapes.
+// Holds each cell at most once, inside `size`: voxels of files, boxes of shapes.
 struct VoxelModel {
     std::string name;
     glm::ivec3 size{0};
@@ -101,7 +101,7 @@ struct Instance {
 
 // The scene cell of voxel `v` of a model of `size` under `instance`.
 [[nodiscard]] glm::ivec3 world_cell(const Instance& instance, glm::ivec3 size, glm::ivec3 v);
-// The scene cells of such a box.
+// The scene cells of a box of cells of the model.
 [[nodiscard]] Box world_cells(const Instance& instance, glm::ivec3 size, const Box& box);
 
 struct Sphere {
@@ -110,8 +110,8 @@ struct Sphere {
     std::uint32_t material = 0;
 };
 
-// Light from one direction. It is out when it is switched off, `irradiance` is zero, or the direction is not
-// above the horizon (z <= 0, and that of the planet under an atmosphere): see sunlight().
+// Light from one direction. It gives no light when it is switched off, when `irradiance` is zero, or when it
+// is not above the horizon (z <= 0; under an atmosphere, that of the planet): see sunlight().
 struct Sun {
     float azimuth_deg = 215.0f;              // counter-clockwise from +x, seen from above
     float elevation_deg = 45.0f;             // above the horizon
@@ -122,7 +122,7 @@ struct Sun {
     [[nodiscard]] glm::vec3 direction() const;  // unit, from the scene towards the sun
 };
 
-// What the camera sees where it sees nothing of the scene. Light of the sky is there whatever it is.
+// What the camera sees where it sees nothing of the scene. The light of the sky does not depend on it.
 enum class Backdrop : std::uint8_t { sky, color, transparent };
 inline constexpr std::array<std::string_view, 3> kBackdropNames{"sky", "color", "transparent"};
 
@@ -131,12 +131,12 @@ struct Background {
     glm::vec3 radiance{0.0f};  // of a colour
 };
 
-// A plane without end that looks up. On the device it is the last sphere, one of curvature 0, and its
-// material the last one.
+// An infinite plane that faces up. On the device it is the last sphere, one of curvature 0, and its material
+// is the last one.
 struct Ground {
     bool on = false;
     glm::vec3 albedo{0.3f};
-    bool shadow_only = false;      // before a background that is not the sky: nothing but its shadows
+    bool shadow_only = false;      // in front of a background that is not the sky: shows only its shadows
     std::optional<double> height;  // z; that of the scene's lowest voxel or sphere once a scene is loaded
 
     [[nodiscard]] std::size_t count() const { return on ? 1 : 0; }
@@ -187,7 +187,7 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
-// A stop of the camera on its path.
+// A key of the camera's path.
 struct CameraKey {
     std::int64_t frame = 0;
     Camera camera;
@@ -198,14 +198,14 @@ struct CameraKey {
 enum class CameraPath : std::uint8_t { smooth, linear };
 inline constexpr std::array<std::string_view, 2> kCameraPathNames{"smooth", "linear"};
 
-// What a turntable turns. Voxels stand on whole cells: for a model that turns, camera and sun go round it the
+// What a turntable turns. Voxels stay on whole cells, so for a turning model camera and sun go round it the
 // other way.
 enum class Turned : std::uint8_t { camera, model, light };
 inline constexpr std::array<std::string_view, 3> kTurnedNames{"camera", "model", "light"};
 
-// The camera goes round the vertical line through the middle of the scene's box, counter-clockwise seen from
-// above; sun and sky stay. (Or the model turns so, or the sun goes round.) Frame 1 shows the angle
-// `start_deg`, frame `frames` + 1 is frame 1 again.
+// The camera, the model or the sun goes round the vertical line through the middle of the scene's box,
+// counter-clockwise seen from above; the others stay. Frame 1 shows the angle `start_deg`, and frame `frames`
+// + 1 equals frame 1.
 struct Turntable {
     std::int64_t frames = 0;  // of a turn, >= 1
     double degrees = 360.0;   // of a turn; negative goes clockwise
@@ -240,15 +240,15 @@ struct Animation {
     [[nodiscard]] bool is_still() const { return camera_keys.empty() && !turntable && placements.empty(); }
 };
 
-// A camera that a file has saved. An orthographic one shows so many voxels from top to bottom.
+// A camera saved in a file. An orthographic one shows `height` voxels from top to bottom.
 struct SavedCamera {
     std::string name;
     Camera camera;
     double height = 0.0;
 };
 
-// All that a picture depends on, as plain data. An animated one is the still scene of the frame that it was
-// loaded for; scene_at_frame gives the others.
+// All that an image depends on, as plain data. An animated scene holds the instances of the frame that it was
+// loaded for; scene_at_frame gives the other frames.
 struct Scene {
     std::vector<Material> materials;
     std::vector<VoxelModel> models;
@@ -259,14 +259,14 @@ struct Scene {
     Background background;
     Ground ground;
     Lens lens;
-    std::optional<Camera> camera;     // absent: default_camera() frames the scene
-    double framing_fov_y_deg = 45.0;  // with this
+    std::optional<Camera> camera;     // absent: camera_of() frames the scene
+    double framing_fov_y_deg = 45.0;  // with this, degrees
     RenderSettings settings;
     Animation animation;
     std::vector<SavedCamera> cameras;
-    std::optional<float> exposure_ev;   // of PNGs, stops, unless a flag says another
+    std::optional<float> exposure_ev;   // of PNGs, stops, unless a flag sets another
     std::vector<std::string> warnings;  // what was dropped or repaired while loading, one line each
-    std::vector<std::string> notes;     // what a file asks for and is not shown, likewise
+    std::vector<std::string> notes;     // what a file asks for that is not shown, likewise
 };
 
 }  // namespace voxilux

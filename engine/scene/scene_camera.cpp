@@ -1,10 +1,10 @@
-// Framing a box. In camera axes a corner (a, b, c) = (right, up, forward) is inside the picture of a camera
+// Framing a box. In camera axes a corner (a, b, c) = (right, up, forward) is inside the image of a camera
 // at (u, v, w) when |a - u| <= tx (c - w) and |b - v| <= ty (c - w), tx and ty being the tangents of the half
 // angles. Each inequality is linear, so over all corners they read
 //   max(a - tx c) + tx w <= u <= min(a + tx c) - tx w
 // and the same for v: the largest w that leaves both intervals non-empty is the nearest camera, and the
-// middle of each interval centres the box. Seen with a field of view wider than the box's own corner that
-// camera would sit on the corner itself, hence one more bound on w.
+// middle of each interval centres the box. With a field of view wider than the corner of the box, that camera
+// would sit on the corner itself, hence one more bound on w.
 
 #include "scene/scene_camera.h"
 
@@ -23,7 +23,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kEmptySceneDistance = 64.0;     // voxels: a model of the usual size would fit the picture
+constexpr double kEmptySceneDistance = 64.0;     // voxels: a model of the usual size would fit the image
 constexpr double kWidestPanoramaFraming = 90.0;  // degrees
 constexpr double kMaxSpriteSide = 65535.0;       // pixels, as of [render] size
 // What the rounding of sines may add to the extent of a scene, pixels.
@@ -52,7 +52,7 @@ YawPitch direction_of(View view) {
     return {};
 }
 
-// The interval of camera offsets on one picture axis, at forward coordinate w: [low + t w, high - t w].
+// The interval of camera offsets on one image axis, at forward coordinate w: [low + t w, high - t w].
 struct Slack {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -63,7 +63,7 @@ struct Slack {
     }
 };
 
-// Corners of the polygon that stands for a circle around it: the camera is at most 0.2 % too far away.
+// Corners of the polygon around a circle that stands for it: the camera is at most 0.2 % too far away.
 constexpr int kCircleCorners = 48;
 
 // The corners of a box relative to its centre, so that a box far from the origin loses no bits.
@@ -75,7 +75,7 @@ std::vector<glm::dvec3> corners_of(const Box& box) {
     return corners;
 }
 
-// The same of the upright cylinder around a box: what the box covers when it turns.
+// The same for the upright cylinder around a box: what the box covers when it turns.
 std::vector<glm::dvec3> corners_of_turning(const Box& box) {
     const glm::dvec3 half = 0.5 * glm::dvec3(box.extent());
     const double radius = glm::length(glm::dvec2(half)) / cos_deg(180.0 / kCircleCorners);

@@ -14,8 +14,8 @@
 namespace voxilux {
 namespace {
 
-// fields_of(): the members of a struct that a picture depends on. Each names all members first, so that one
-// that is added later does not compile until somebody has decided.
+// fields_of(): the members of a struct that an image depends on. Each function names all members first, so
+// that a member added later does not compile until somebody has decided.
 
 auto fields_of(const Material& material) {
     const auto& [name, albedo, emission, surface, roughness, ior, metallic, transmission] = material;
@@ -123,7 +123,7 @@ auto fields_of(const Animation& animation) {
     return std::tie(camera_keys, camera_path, turntable, files, placements);
 }
 
-// The rest of a scene are sections.
+// The other members are hashed as sections, by their settings.
 auto fields_of(const Scene& scene) {
     const auto& [materials, models, instances, spheres, sun, sky, background, ground, lens, camera,
                  framing_fov_y_deg, settings, animation, cameras, exposure_ev, warnings, notes] = scene;

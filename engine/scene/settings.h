@@ -2,8 +2,8 @@
 
 // The settings of a scene as rows: name, what is allowed, what it means, and the member that holds it. Scene
 // files and -D are read, flags checked, scenes hashed and the tables of scenes/README.md written from these
-// rows. Each list of rows starts by naming every member of its struct, so that one without a row does not
-// compile unnoticed.
+// rows. Each list of rows starts by naming every member of its struct, so that a new member does not compile
+// until somebody has decided.
 
 #include <array>
 #include <cstdint>
@@ -53,11 +53,11 @@ inline constexpr Range kTurn{-3600, 3600};
 inline constexpr Range kPitch{-90, 90};  // degrees
 inline constexpr Range kPlace{-kMaxCoordinate, kMaxCoordinate};
 inline constexpr double kMaxPixelsPerVoxel = 4096;
-// Centre and radius of a sphere: their sum is a place, too.
+// Centre and radius of a sphere, whose sum is then in kPlace.
 inline constexpr Range kReach{-kMaxCoordinate / 2, kMaxCoordinate / 2};
 
-// One row. A number is in `range`; what has `choices` is written as one of these names, in the order of the
-// values.
+// One row. A number is in `range`. A value with `choices` is written as one of these names, which are in the
+// order of the values.
 struct Setting {
     std::string_view name;
     Range range;
@@ -78,7 +78,7 @@ struct HexColour {
     std::string_view linear_key;
 };
 
-// What a scene file says of where the camera stands. A direction is a point to look at, or yaw and pitch.
+// What a scene file says about where the camera stands. A direction is a point to look at, or yaw and pitch.
 struct CameraPlacement {
     std::optional<glm::dvec3> position;
     std::optional<glm::dvec3> look_at;
@@ -254,8 +254,8 @@ void visit_settings(Sphere& sphere, auto&& visit) {
     visit(required({"radius", above(0, kReach.high), "voxels"}), radius);
 }
 
-// Calls visit(name, settings) for the sections of which a scene file has at most one, but for [camera]: that
-// one is no part of the scene, which keeps the camera it leads to.
+// Calls visit(name, settings) for each section that a scene file has at most once, except for [camera]: a
+// scene keeps the camera that this section leads to, not its settings.
 void visit_sections(auto& scene, auto&& visit) {
     visit("render", scene.settings);
     visit("ao", scene.settings.ao);

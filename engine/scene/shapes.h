@@ -13,7 +13,7 @@
 
 namespace voxilux {
 
-// What a shape leaves in its cells; nothing is air, which carves.
+// What a shape fills its cells with; nothing means air, which carves.
 using Filling = std::optional<std::uint16_t>;
 
 // The cells from <= c < to. Hollow: only those with a face neighbour outside.

@@ -12,7 +12,7 @@ enum class SkyModel : std::uint8_t { constant, atmosphere };
 inline constexpr std::array<std::string_view, 2> kSkyModelNames{"constant", "atmosphere"};  // in that order
 
 // What surrounds the scene: the same radiance from every direction, or an atmosphere that scatters sunlight.
-// Multipliers are of the Earth's clear air.
+// Multipliers are relative to the Earth's clear air.
 struct Sky {
     SkyModel model = SkyModel::constant;
     glm::vec3 radiance{0.55f, 0.7f, 1.0f};  // of the constant sky

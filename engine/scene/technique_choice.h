@@ -29,7 +29,7 @@ void choose_technique(std::string_view effect, std::string_view name, RenderSett
 
 // Why two choices exclude each other.
 inline constexpr const char* kUnlikePhotons =
-    "excludes another way of photons: caustics and indirect share them";
+    "excludes another technique of photons: caustics and indirect share them";
 
 // Whether the settings are as that choice leaves them. A later choice may have changed them: photons of
 // caustics and of indirect light are the same ones.

@@ -33,8 +33,8 @@ std::int64_t lattice_height(std::int64_t i, std::int64_t j, std::uint32_t octave
     return gpu::hash4(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), octave, seed) >> 16;
 }
 
-// Adds an octave to the sums of the columns x, x + 1, ... of a row. A row meets each lattice cell and each
-// place in a cell but once.
+// Adds an octave to the sums of the columns x, x + 1, ... of a row. Heights of the lattice are looked up once
+// for each of its cells, and weights are computed once for each place in a cell.
 void add_octave(const TerrainShape& terrain, std::uint32_t octave, int x, int y,
                 std::span<std::int64_t> sums) {
     const std::int64_t cell = std::max(1, terrain.feature >> octave);

@@ -18,7 +18,8 @@ bool has_several_keys(const VoxNode& node) {
     return false;
 }
 
-// read_vox has checked every key of the file; one that a program has made and that is none counts as 0.
+// read_vox has checked every key of a file that was read. An invalid one, in a file that a program has made,
+// counts as 0.
 void append_frame(const VoxDict& attributes, std::vector<std::int64_t>& frames) {
     const auto frame = parse_frame(attributes);
     frames.push_back(std::clamp<std::int64_t>(frame ? frame.value() : 0, 0, kMaxFrame));

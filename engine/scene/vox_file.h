@@ -29,7 +29,7 @@ inline constexpr std::uint64_t kVoxMaxVisits = std::uint64_t{1} << 22;
 // Voxels, on each axis, of a key frame's translation and of a whole chain of them. Keeps cell arithmetic in
 // 32 bits.
 inline constexpr std::int64_t kVoxMaxTranslation = std::int64_t{1} << 28;
-// A hostile file can earn a warning for every few bytes; the rest are counted.
+// A hostile file can cause a warning for every few bytes; warnings beyond this are counted.
 inline constexpr std::size_t kVoxMaxWarnings = 64;
 
 // Attributes in file order. A key that repeats: the last one counts.

@@ -77,7 +77,7 @@ std::uint32_t append_postorder(const VoxFile& file, const VoxGraph& graph, std::
     return kVoxNoNode;
 }
 
-// How many paths lead from node 0 to each node decides what a walk costs, before anything is walked.
+// Counts the paths from node 0 to each node, which tell the cost of a walk before anything is walked.
 std::optional<VoxGraphFault> count_paths(const VoxFile& file, VoxGraph& graph) {
     std::vector<std::uint64_t> paths(file.nodes.size(), 0);
     if (!graph.order.empty()) paths[graph.order.front()] = 1;

@@ -37,12 +37,12 @@ struct VoxGraphFault {
 // allow. Iterative: its depth is bounded by nothing but the number of nodes.
 [[nodiscard]] std::variant<VoxGraph, VoxGraphFault> build_graph(const VoxFile& file);
 
-// A graph needs a transform; shapes and groups alone are ignored, as every reader does.
+// A graph needs a transform; shapes and groups alone are ignored, as by other readers.
 [[nodiscard]] bool has_graph(const VoxFile& file);
 
 [[nodiscard]] std::int32_t id_of(const VoxNode& node);
 [[nodiscard]] const VoxDict& attributes_of(const VoxNode& node);
-// Ids. Valid as long as `node`.
+// The ids of its children. Valid as long as `node`.
 [[nodiscard]] std::span<const std::int32_t> children_of(const VoxNode& node);
 
 struct VoxKey {
@@ -61,7 +61,8 @@ struct VoxKey {
 
 [[nodiscard]] bool is_flagged(const VoxDict& attributes, std::string_view key);  // the value is "1"
 
-// The whole of `text` (blanks around it allowed) as a number in C notation, or nothing. Not finite: as it is.
+// The whole of `text` (blanks around it allowed) as a number in C notation, or nothing. Infinities and NaN
+// are returned, too.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view text);
 

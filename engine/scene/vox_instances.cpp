@@ -70,8 +70,8 @@ Result<Pose> pose_of(const VoxShape& shape, std::size_t models, std::int64_t fra
     return pose;
 }
 
-// The pose of each node of the graph, indexed by its position: so that a node that is reached on many paths
-// has its attributes read once.
+// The pose of each node of the graph, indexed by its position, so that the attributes of a node that is
+// reached on many paths are read once.
 Result<std::vector<Pose>> measure_poses(const VoxFile& file, const VoxGraph& graph, std::int64_t frame) {
     const std::vector<std::int32_t> hidden = hidden_layers(file);
     std::vector<Pose> poses(file.nodes.size());
@@ -141,7 +141,7 @@ Result<std::vector<VoxInstance>> walk(const VoxFile& file, const VoxGraph& graph
         }
         if (top.world.model != kVoxNoNode) {
             if (!is_within_limit(top.world.translation)) {
-                return Failure{fmt::format("node {}: its place is beyond {} voxels from the origin",
+                return Failure{fmt::format("node {}: its position is beyond {} voxels from the origin",
                                            id_of(file.nodes[top.node]), kVoxMaxTranslation)};
             }
             instances.push_back(instance_at(top));

@@ -20,8 +20,8 @@ struct VoxInstance {
 
 // The instances that frame `frame` shows, hidden ones too, in the order of the file. A key frame holds from
 // its number to the next; with _loop, numbers past the last key start again at the first. Without a graph
-// every model stands at the origin's corner, and the models of a PACK file are shown one per frame. Fails as
-// build_graph and parse_key do.
+// every model has its low corner at the origin, and the models of a PACK file are shown one per frame. Fails
+// as build_graph and parse_key do.
 [[nodiscard]] Result<std::vector<VoxInstance>> vox_instances(const VoxFile& file, std::int64_t frame = 0);
 
 // Without a graph: one instance of every model, its low corner at the origin.

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Range of a property; outside it MagicaVoxel's sliders do not go, and arithmetic on it stays finite.
+// Range of a property. MagicaVoxel's sliders do not leave it, and arithmetic on it stays finite.
 struct Range {
     double low = 0.0;
     double high = 1.0;
@@ -89,7 +89,7 @@ void apply(const VoxDict& properties, int index, Material& material, std::vector
     }
 }
 
-// MATT in the words of MATL.
+// The properties of MATT by their names in MATL.
 VoxDict as_properties(const VoxOldMaterial& old, std::vector<std::string>& warnings) {
     constexpr std::string_view kTypes[] = {"_diffuse", "_metal", "_glass", "_emit"};
     constexpr std::string_view kValues[] = {"_plastic", "_rough", "_spec", "_ior", "_att", "_flux", "_glow"};

@@ -19,8 +19,8 @@ constexpr std::size_t kMaxMaterials =
     std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;  // Voxel::material
 constexpr std::size_t kMaxNameBytes = 64;  // a file may give one huge name to many models
 
-// Scene::materials of each palette index, added as voxels ask for them. One that is in the scene already is
-// shared.
+// The index in Scene::materials of each palette index, added when a voxel needs it. A material that is in the
+// scene already is shared.
 class MaterialTable {
   public:
     MaterialTable(Scene& scene, const VoxFile& file)
@@ -65,7 +65,8 @@ std::string model_name(const VoxFile& file, const VoxInstance& instance) {
     return name.empty() ? fmt::format("model {}", instance.model) : name;
 }
 
-// Scene::models of each model of the file, added when an instance first shows it; none for an empty one.
+// The index in Scene::models of each model of the file, added when an instance first shows it; kNoModel for
+// an empty one.
 class ModelTable {
   public:
     ModelTable(Scene& scene, const VoxFile& file)
@@ -99,7 +100,7 @@ bool is_in_range(glm::i64vec3 t) {
     return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
 }
 
-// What the file places, as instances of the scene's models: `model_of` gives the model that one shows.
+// The visible instances of a file, as instances of the scene's models; `model_of` gives the model of each.
 std::vector<Instance> shown_instances(const std::vector<VoxInstance>& placed,
                                       const std::function<std::uint32_t(const VoxInstance&)>& model_of,
                                       const std::function<std::size_t(std::uint32_t)>& voxel_count) {

@@ -10,8 +10,8 @@
 
 namespace voxilux {
 
-// Voxels of all visible instances together: what the world has to hold at most. Above it a file is refused
-// here, by its name, not later by an allocation. 2^31 is twice a solid 1024^3 scene.
+// Most voxels of all visible instances together. A file above it is refused here, with its name, not later by
+// a failed allocation. 2^31 is twice a solid 1024^3 scene.
 inline constexpr std::uint64_t kVoxMaxInstancedVoxels = std::uint64_t{1} << 31;
 
 struct VoxSceneOptions {
@@ -46,7 +46,8 @@ struct AddedVox {
     std::optional<std::size_t> animated;  // in Animation::files; nothing when all frames are alike
 };
 
-// Adds a file of which each frame of the scene shows its own, `frame` first. Throws as scene_from_vox does.
+// Adds a file that is animated with the scene; the instances are those of `frame`. Throws as scene_from_vox
+// does.
 [[nodiscard]] AddedVox add_vox(Scene& scene, const VoxFile& file, std::int64_t frame);
 
 // Adds its instances to the scene as place_instances does, with what later frames need.

@@ -1,7 +1,7 @@
-// The keys have no public specification. Taken from the settings' names in the editor and from what readers
-// of the format state: the camera and sun of opengametools (ogt_vox.h: focus, angle as pitch, yaw and roll,
-// radius, frustum; the sun's angle as elevation and azimuth, an area of 1 being about 43.5 degrees). The rest
-// is assumed, and scenes/README.md says so.
+// The keys have no public specification. Their meaning is taken from the names of the settings in the editor
+// and from other readers of the format: camera and sun from opengametools (ogt_vox.h: focus, angle as pitch,
+// yaw and roll, radius, frustum; the sun's angle as elevation and azimuth, an area of 1 being about 43.5
+// degrees). The rest is assumed, and scenes/README.md says so.
 
 #include "scene/vox_settings.h"
 
@@ -30,7 +30,7 @@ constexpr double kMaxIntensity = 1000.0;  // far above the editor's sliders
 constexpr double kMaxExposureStops = 16.0;
 constexpr double kUnusedRadius = 1.0;  // of a camera slot that was never set, at most
 
-// What the editor writes for somebody who has changed nothing, in all versions. A key that an object lacks,
+// What the editor writes, in all its versions, when the user has changed nothing. A key that an object lacks,
 // or that is not here, decides nothing.
 struct Usual {
     std::string_view type;
@@ -58,7 +58,7 @@ bool is_usual(std::string_view type, std::string_view key, std::string_view valu
     });
 }
 
-// The first three numbers of a text, 0 for those that it lacks; nothing when a word is no number.
+// The first three numbers of a text, 0 for those that it lacks; nothing when a word is not a number.
 std::optional<glm::dvec3> numbers_of(std::string_view text) {
     glm::dvec3 numbers(0.0);
     for (int i = 0; i < 3 && !text.empty(); ++i) {
@@ -108,7 +108,7 @@ class Settings {
         if (inside != value) warn(fmt::format("{} {} is {}, taken as {}", type, key, value, inside));
         return inside;
     }
-    // Linear, from 0 to 255 of each.
+    // The linear colour of three sRGB codes from 0 to 255.
     [[nodiscard]] glm::vec3 colour(std::string_view type, std::string_view key, double usual) const {
         const glm::dvec3 codes = glm::clamp(numbers(type, key, glm::dvec3(usual)), 0.0, 255.0);
         return {decode_srgb(codes.x / 255.0), decode_srgb(codes.y / 255.0), decode_srgb(codes.z / 255.0)};
@@ -130,7 +130,7 @@ class Settings {
     Scene& scene_;
 };
 
-// Azimuth of what stands at `angle`, which turns clockwise from the front.
+// Azimuth of the editor's `angle`, which is clockwise from the front.
 double azimuth_of(double angle_deg) {
     return kFrontAzimuth - angle_deg;
 }
@@ -159,8 +159,8 @@ void apply_atmosphere(const Settings& settings, Sky& sky) {
     sky.mie_g = static_cast<float>(settings.number("_atm", "_mie_g", 0.85, -0.99, 0.99));
 }
 
-// Modes: 0 a uniform sky, 1 an atmosphere, 2 an image. (The one file at hand that names another image than
-// the editor's has mode 2.)
+// Modes: 0 a uniform sky, 1 an atmosphere, 2 an image. (The one known file that names an image of its own has
+// mode 2.)
 void apply_sky(const Settings& settings, Scene& scene) {
     const double mode = settings.number("_env", "_mode", 0.0, 0.0, 2.0);
     if (mode == 1.0) return apply_atmosphere(settings, scene.sky);

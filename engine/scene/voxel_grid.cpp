@@ -58,8 +58,8 @@ void VoxelGrid::fill_row(int x0, int x1, glm::ivec2 yz, std::optional<std::uint1
     VX_ASSERT(std::max({x1 - 1, yz.x, yz.y}) < kMaxGridCoordinate);
     const auto place = rows_.try_emplace({yz.x, yz.y}).first;
     Row& row = place->second;
-    // The runs that the new cells cover or touch, and what becomes of them: at most a run before, the cells
-    // and a run behind.
+    // The runs that the new cells cover or touch, and what becomes of them: at most a run before the cells,
+    // the cells, and a run after them.
     const auto first = std::ranges::partition_point(row, [&](const Run& run) { return run.x1 < x0; });
     const auto last = std::partition_point(first, row.end(), [&](const Run& run) { return run.x0 <= x1; });
     std::array<Run, 3> parts;

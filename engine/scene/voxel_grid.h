@@ -17,8 +17,7 @@ namespace voxilux {
 inline constexpr int kMaxGridCoordinate = 1 << 23;
 
 // A sparse grid of cells that shapes are drawn into: each holds a material index or nothing. Time and memory
-// are in proportion to the runs of equal cells along x, hence to the faces that can be seen, not to the
-// cells.
+// are in proportion to the runs of equal cells along x, and so to the visible faces, not to the cells.
 class VoxelGrid {
   public:
     // Sets the cells [x0, x1) of a row; an absent material empties them. Coordinates within
@@ -28,11 +27,11 @@ class VoxelGrid {
         fill_row(cell.x, cell.x + 1, {cell.y, cell.z}, material);
     }
 
-    // z of the highest voxel of a column.
+    // z of the highest voxel of a column; nothing in an empty one.
     [[nodiscard]] std::optional<int> top_of_column(int x, int y) const;
 
-    // Adds the voxels to the scene as the boxes of a model, each cell where it is here: no model when the
-    // grid is empty. The boxes depend only on the cells that are filled.
+    // Adds the voxels to the scene as the boxes of a model, each cell at its place; an empty grid adds no
+    // model. The boxes depend only on which cells are filled.
     void append_to(Scene& scene, const std::string& name) const;
 
   private:

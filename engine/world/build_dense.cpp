@@ -13,7 +13,7 @@ void put_half(std::vector<std::uint32_t>& words, std::size_t i, std::uint32_t ha
     words[i / 2] |= half << (16 * (i % 2));
 }
 
-// One root cell of a masked structure and, when it is mixed, its voxels at the ends of nodes and leaves.
+// Packs one root cell of a masked structure. The voxels of a mixed one are appended to nodes and leaves.
 std::uint32_t pack_masked(const VoxelWorld& world, MarchWorld& built, glm::ivec3 corner, int edge) {
     const auto count = static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge * edge);
     std::vector<std::uint16_t> voxels;

@@ -18,8 +18,7 @@ void build_unexpanded(const VoxelWorld& world, MarchWorld& built);
 [[nodiscard]] std::vector<std::uint32_t>& level_words(MarchWorld& built, int log2);
 [[nodiscard]] const std::vector<std::uint32_t>& level_words(const MarchWorld& built, int log2);
 
-// Where the blocks of 64 cells of a level are, the cell of the parent; empty for chunks, which have no
-// blocks.
+// For each block of 64 cells of a level, the cell of its parent; empty for chunks, which have no blocks.
 [[nodiscard]] std::vector<glm::ivec3> level_homes(const MarchWorld& built, int log2);
 
 // Grows the boxes of such a level; those of all larger cells must have grown before.
@@ -33,8 +32,8 @@ struct GrowingLevel {
     bool operator==(const GrowingLevel&) const = default;
 };
 
-// What growing an unexpanded structure on the device takes: bytes of scratch, and the levels, in the order
-// they grow in.
+// What the distance-field build on the device needs for an unexpanded structure: bytes of scratch buffers,
+// and the levels, in the order they grow in.
 struct GrowthNeeds {
     std::uint64_t home_bytes = 0;
     std::uint64_t grown_bytes = 0;

@@ -14,12 +14,12 @@
 namespace voxilux {
 namespace {
 
-// Bricks whose boxes are redone for a batch of edits, five bytes each.
+// Most bricks whose boxes are redone for a batch of edits; each takes five bytes.
 constexpr std::int64_t kMostRegrown = std::int64_t{1} << 26;
 
-// Words between two that changed which are put into one range with them.
+// Changed words with at most so many words between them share a range.
 constexpr std::size_t kMaxGap = 16;
-// In place of a block's number.
+// In place of a block's number, until the block is stored.
 constexpr std::uint32_t kNoBlock = gpu::kCellPayloadMask;
 
 template <class Visit>
@@ -31,7 +31,7 @@ void for_each_cell(CellBounds bounds, glm::ivec3 size, const Visit& visit) {
                 visit(glm::ivec3(x, y, z));
 }
 
-// The words of these numbers, and all from `first_new` to `end`.
+// Ranges that cover the words with these numbers, and all from `first_new` to `end`.
 std::vector<WordRange> ranges_of(std::vector<std::size_t> words, std::size_t first_new, std::size_t end) {
     std::ranges::sort(words);
     std::vector<WordRange> ranges;
@@ -71,7 +71,7 @@ class Edit {
         if (has_nodes_) close_chunk(brick >> 2);
     }
 
-    // False, with boxes left undone, when edits lie so far apart that the box of both is too large.
+    // False, with stale boxes, when edits lie so far apart that the bounds of all are too large.
     [[nodiscard]] bool grow() {
         if (has_nodes_)
             bricks_.include(
@@ -82,7 +82,7 @@ class Edit {
         return true;
     }
 
-    // Gives a mixed brick the block that its voxels and those of the bricks around it call for.
+    // Gives a mixed brick the block that follows from its voxels and those of the bricks around it.
     void store_leaf(glm::ivec3 brick) {
         if (!world_.contains(brick * 4)) return;
         std::uint32_t* word = brick_word(brick);
@@ -111,7 +111,7 @@ class Edit {
         note(word);
     }
 
-    // Remembers that a root or a node is another one now.
+    // Remembers that a root or a node has changed.
     void note(const std::uint32_t* word) {
         const std::uint32_t* roots = built_.roots.data();
         const bool is_root = !std::less<>()(word, roots) && std::less<>()(word, roots + built_.roots.size());
@@ -139,7 +139,7 @@ class Edit {
         return word != nullptr ? *word : chunk_word(brick >> 2);
     }
 
-    // The cell of a brick as the voxels have it now, without its block yet when it is mixed.
+    // The cell of a brick as its voxels are now. A mixed one has no block yet.
     std::uint32_t pack(glm::ivec3 brick) const {
         const std::uint16_t first = world_.get(brick * 4);
         for (std::uint32_t i = 1; i < 64; ++i) {
@@ -149,7 +149,7 @@ class Edit {
         return gpu::cell_of_voxel(first);
     }
 
-    // Gives a chunk of one cell its 64 bricks.
+    // Splits a chunk of one cell into 64 bricks.
     void open_chunk(glm::ivec3 chunk) {
         std::uint32_t& root = chunk_word(chunk);
         if (gpu::cell_state(root) == gpu::kCellMixed) return;
@@ -162,7 +162,7 @@ class Edit {
         built_.node_homes.push_back(chunk);
     }
 
-    // Takes them away when all have become one cell.
+    // Joins the bricks of a chunk into one cell when all have become equal.
     void close_chunk(glm::ivec3 chunk) {
         std::uint32_t& root = chunk_word(chunk);
         const auto cells = std::span(built_.nodes).subspan(std::size_t{gpu::cell_payload(root)} * 64, 64);
@@ -180,7 +180,7 @@ class Edit {
         return log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
     }
 
-    // Redoes the boxes of the roots or nodes in the bounds and returns the cells whose boxes are others now.
+    // Redoes the boxes of the roots or nodes in the bounds and returns the cells whose boxes have changed.
     CellBounds regrow(int log2, const CellBounds& bounds) {
         const glm::ivec3 level = built_.size() >> log2;
         GrowingBox box(bounds, level);

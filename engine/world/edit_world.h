@@ -19,7 +19,7 @@ struct WordRange {
     std::size_t end = 0;
 };
 
-// Where words may not be what they were, ascending.
+// Where words may have changed, ascending.
 struct WorldChanges {
     bool is_rebuilt = false;  // all of them
     std::vector<WordRange> roots;
@@ -28,10 +28,10 @@ struct WorldChanges {
 };
 
 // Sets and clears voxels in a world and in its structure. Afterwards every cell and every box is what
-// build_march_world would make of the edited world; blocks of leaves may be numbered otherwise, and those
-// that are no longer used stay. wide and deep redo the boxes around the edits only: up to one brick around an
-// edit inside bricks that stay mixed, up to 31 cells around a brick or chunk that becomes empty or stops
-// being so. The other structures are built anew.
+// build_march_world would make of the edited world; blocks of leaves may be numbered differently, and unused
+// ones stay. For wide and deep, only the boxes around the edits are redone: up to one brick around an edit
+// inside bricks that stay mixed, up to 31 cells around a brick or chunk that becomes empty or stops being so.
+// The other structures are built anew.
 WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits);
 
 }  // namespace voxilux

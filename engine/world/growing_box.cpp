@@ -5,11 +5,11 @@
 namespace voxilux {
 namespace {
 
-// Lines along y or z that are copied at once: as many as cells side by side fill a line of the cache.
+// Lines along y or z that are copied at once: as many as there are cells in a cache line.
 constexpr int kLines = 16;
 
-// How far around the wanted cells the steps after this one look: 2, 4, 8 and 16 cells along each axis in the
-// rounds to come, and as far as in this round along the axes that it has not had.
+// How far around the wanted cells the steps after this one look: 2, 4, 8 and 16 cells along each axis in
+// later rounds, and as far as in this round along the axes still to come in it.
 glm::ivec3 margin_after(const gpu::GrowthStep& step) {
     glm::ivec3 margin(GrowingBox::kReach - step.bound);
     for (int axis = static_cast<int>(step.axis) + 1; axis < 3; ++axis)
@@ -60,8 +60,8 @@ void GrowingBox::take_step(const gpu::GrowthStep& step) {
     }
 }
 
-// Cells range[0] <= i < range[1] of `width` lines side by side, the first of which begins at `start`. What
-// lies beyond a line lies outside the world.
+// Grows cells range[0] <= i < range[1] of `width` lines side by side, the first of which begins at `start`.
+// What lies beyond a line lies outside the world.
 void GrowingBox::grow_lines(std::size_t start, int width, const gpu::GrowthStep& step, glm::ivec2 range) {
     const std::size_t stride = strides_[step.axis];
     const auto lines = static_cast<std::size_t>(width);

@@ -10,11 +10,11 @@
 namespace voxilux {
 
 // The boxes around a part of a level, grown from nothing by the steps of aadf.h. Copied out of the structure,
-// the cells of a line lie side by side, which makes an edit several times as fast as looking each up.
+// the cells of a line lie side by side, and an edit is several times as fast as with a look-up of each.
 class GrowingBox {
   public:
-    // How far the boxes of a level depend on its cells: the sum of the longest looks of all rounds, 1 + 2 + 4
-    // + 8 + 16.
+    // How far the boxes of a level depend on its cells: the sum of how far all rounds look, 1 + 2 + 4 + 8 +
+    // 16.
     static constexpr int kReach = 31;
 
     // For the boxes of the cells in `wanted`, in a level of so many cells.
@@ -22,7 +22,7 @@ class GrowingBox {
 
     // The cells whose contents are to be set: all that the wanted boxes depend on.
     [[nodiscard]] const CellBounds& cells() const { return cells_; }
-    // A cell whose box grows, and one that stays as it is: distances, or kNotEmpty.
+    // Set a cell whose box grows, and one that is fixed: its distances, or kNotEmpty.
     void set_empty(glm::ivec3 cell) {
         is_growing_[index(cell)] = 1;
         for (int axis = 0; axis < 3; ++axis)
@@ -41,7 +41,8 @@ class GrowingBox {
         return static_cast<std::size_t>(place.x) + strides_[1] * static_cast<std::size_t>(place.y) +
                strides_[2] * static_cast<std::size_t>(place.z);
     }
-    // The number of the line along an axis that a cell is in; those beside it along x, or else y, come next.
+    // The number of the line along an axis through a cell. Numbers ascend along x, or along y where x is the
+    // axis.
     [[nodiscard]] std::size_t line_of(glm::ivec3 cell, int axis) const {
         const glm::ivec3 place = cell - cells_.low;
         const int across = axis == 0 ? 1 : 0;
@@ -60,7 +61,7 @@ class GrowingBox {
     std::vector<std::uint32_t> distances_;
     std::vector<std::uint8_t> is_growing_;
     std::array<std::vector<std::uint8_t>, 3> has_growing_;  // of lines along each axis
-    std::vector<std::uint32_t> line_;                       // or several, as they were before the step
+    std::vector<std::uint32_t> line_;  // one or several lines, as they were before the step
 };
 
 }  // namespace voxilux

@@ -12,7 +12,7 @@ namespace voxilux {
 // Bit x + 4y + 16z of each filled voxel.
 [[nodiscard]] std::uint64_t filled_mask(const VoxelWorld::Brick& brick);
 
-// The filled masks of all bricks of a world, for those who look around many bricks.
+// The filled masks of all bricks of a world, for use with many bricks.
 class FilledMasks {
   public:
     explicit FilledMasks(const VoxelWorld& world);
@@ -25,7 +25,7 @@ class FilledMasks {
     std::vector<std::uint64_t> masks_;  // by brick number
 };
 
-// What around() gives, of one brick of a world.
+// What around() gives, for a single brick.
 [[nodiscard]] BrickSurroundings surroundings_of(const VoxelWorld& world, glm::ivec3 cell);
 
 // The words of a mixed brick: 16 bits per voxel, two to a word (world_cell.h). `boxes` are the distances of

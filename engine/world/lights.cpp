@@ -11,10 +11,10 @@ namespace voxilux {
 namespace {
 
 constexpr std::size_t kMaxLights = std::size_t{1} << 24;
-// Spheres up to this many voxels count as things that the sun lights; larger ones are walls and grounds,
-// whose disc would waste all photons.
+// Largest radius, voxels, of spheres that the sun's photons are aimed at. Larger ones serve as walls and
+// grounds, and a disc that covers them would waste nearly all photons.
 constexpr double kLargestLitSphere = 1024.0;
-constexpr double kDiscMargin = 1.001;  // over the rounding of positions on the disc
+constexpr double kDiscMargin = 1.001;  // covers the rounding of positions on the disc
 
 bool is_open(const Scene& scene, const VoxelWorld& world, glm::ivec3 cell) {
     const std::uint16_t voxel = world.get(cell);
@@ -51,7 +51,7 @@ void collect_spheres(const Scene& scene, Collector& lights) {
 }
 
 void collect_faces(const Scene& scene, const VoxelWorld& world, Collector& lights) {
-    // Looking at every voxel for nothing would be half of what an edit of a large world takes.
+    // Without emitters, a look at every voxel would take half the time of an edit of a large world.
     const auto emits = [](const Material& material) { return gpu::brightness(material.emission) > 0.0f; };
     if (std::ranges::none_of(scene.materials, emits)) return;
     world.for_each_voxel([&](glm::ivec3 cell, std::uint16_t voxel) {

@@ -21,8 +21,8 @@ struct SunDisc {
 struct LightList {
     std::vector<gpu::LightRecord> records;  // spheres are numbered as sphere_order() says
     std::vector<gpu::AliasEntry> table;     // draws an emitter by its power
-    double power = 0.0;                     // brightness of radiance times etendue, summed
-    glm::dvec3 max_power{0.0};              // per channel the most that radiance times etendue / pdf comes to
+    double power = 0.0;                     // r + g + b of radiance times etendue, summed
+    glm::dvec3 max_power{0.0};              // per channel, the maximum of radiance times etendue / pdf
     SunDisc sun_disc;                       // radius 0 where there is nothing to light
 };
 

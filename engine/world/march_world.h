@@ -12,7 +12,7 @@
 
 namespace voxilux {
 
-// Structures that a ray can be marched through; shaders/shared/world_cell.h tells what each holds. All give
+// Structures that a ray can be marched through; shaders/shared/world_cell.h says what each holds. All give
 // the same hits.
 enum class Traversal : std::uint8_t {
     dda = gpu::kTraversalDda,
@@ -26,7 +26,7 @@ inline constexpr std::size_t kTraversalCount = gpu::kTraversalCount;
 
 [[nodiscard]] std::span<const Traversal> all_traversals();
 
-// Whether boxes may leave their parent on every level.
+// Whether boxes may reach beyond their parent on every level.
 [[nodiscard]] bool has_free_boxes(Traversal traversal);
 
 [[nodiscard]] std::string_view name_of(Traversal traversal);
@@ -42,7 +42,7 @@ struct MarchWorld {
     std::vector<std::uint32_t> roots;  // dense, x fastest
     std::vector<std::uint32_t> nodes;
     std::vector<std::uint32_t> leaves;
-    // Where the blocks of nodes are whose boxes grow in chunks.
+    // The chunk of each block of 64 nodes.
     std::vector<glm::ivec3> node_homes;
 
     [[nodiscard]] glm::ivec3 size() const { return chunks_size * 16; }

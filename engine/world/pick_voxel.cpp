@@ -19,7 +19,7 @@ glm::dvec2 span_of(double start, double direction, double lo, double hi) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-// A box that a ray is in: when it leaves, and by which axis.
+// Where a ray leaves a box that it is in, and along which axis.
 struct Exit {
     double distance = kNever;
     int axis = 0;

@@ -15,8 +15,9 @@ struct PickedVoxel {
     double distance = 0.0;  // voxels along `direction`, if that is a unit vector
 };
 
-// By cells and, where these are empty, whole chunks (J. Amanatides and A. Woo 1987, "A Fast Voxel Traversal
-// Algorithm for Ray Tracing"), in double precision. `start` is in scene space. Spheres are no voxels.
+// Walks by cells and, where a chunk is empty, by the whole chunk (J. Amanatides and A. Woo 1987, "A Fast
+// Voxel Traversal Algorithm for Ray Tracing"), in double precision. `start` is in scene space. Spheres are
+// not looked at.
 [[nodiscard]] std::optional<PickedVoxel> pick_voxel(const VoxelWorld& world, glm::dvec3 start,
                                                     glm::dvec3 direction);
 

@@ -10,9 +10,10 @@
 namespace voxilux {
 namespace {
 
-// Of a sphere's coordinates: the rounding of its record, where an anchor is small and a centre may be large.
+// Relative to a sphere's coordinates: bounds the rounding of its record, where the anchor is small but the
+// centre may be large.
 constexpr double kRecordError = 1.0e-6;
-// Splits by cost may be lopsided. From here on halves are equal, so recursion ends soon.
+// Splits by cost may be lopsided. From this depth on, halves are equal, so recursion ends soon.
 constexpr int kMostLopsided = 64;
 
 struct Bounds {
@@ -40,7 +41,7 @@ Bounds bounds_of(const gpu::Sphere& sphere) {
     return {centre - reach, centre + reach};
 }
 
-// The sphere by its point nearest to the world's corner, in double until it is small.
+// The sphere by its point nearest to the world's corner, which is computed in double.
 gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
     const glm::dvec3 centre = sphere.centre - glm::dvec3(origin);
     const double distance = glm::length(centre);

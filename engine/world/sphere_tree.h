@@ -13,11 +13,11 @@ namespace voxilux {
 [[nodiscard]] std::vector<gpu::SphereRecord> sphere_records(const Scene& scene, glm::ivec3 origin);
 
 // The hierarchy over spheres that rays walk where there are more than gpu::kFewSpheres
-// (shared/sphere_tree.h): 2 n - 1 nodes, none for none.
+// (shared/sphere_tree.h): 2 n - 1 nodes for n spheres, none for none.
 [[nodiscard]] std::vector<gpu::SphereNode> build_sphere_tree(std::span<const gpu::SphereRecord> spheres);
 
-// Nodes that a ray visits in the mean, when it crosses the whole hierarchy and nothing stops it: a box is met
-// in proportion to its surface (Goldsmith and Salmon 1987).
+// Mean number of nodes that a ray visits when it crosses the whole hierarchy and nothing stops it: the
+// probability to meet a box is in proportion to its surface (Goldsmith and Salmon 1987).
 [[nodiscard]] double mean_visits(std::span<const gpu::SphereNode> nodes);
 
 }  // namespace voxilux

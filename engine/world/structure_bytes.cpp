@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kMixed = 0xFFFFFFFFu;  // no 16 bits of a voxel
+constexpr std::uint32_t kMixed = 0xFFFFFFFFu;  // more than the 16 bits of a voxel
 
 // The 16 bits that all voxels of the brick have, or kMixed.
 std::uint32_t content_of(const VoxelWorld& world, std::uint32_t number) {

@@ -34,7 +34,7 @@ struct StructureBytes {
 
 [[nodiscard]] StructureBytes bytes_of(const MarchWorld& built);
 
-// What bytes_of will say once the structure is built; at most that where equal bricks are stored once.
+// What bytes_of will return once the structure is built; an upper bound where equal bricks are stored once.
 [[nodiscard]] StructureBytes predict_bytes(const WorldCensus& census, Traversal traversal);
 
 }  // namespace voxilux

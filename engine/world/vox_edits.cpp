@@ -37,7 +37,7 @@ struct PlacedModel {
     [[nodiscard]] bool covers(glm::ivec3 cell) const {
         return glm::all(glm::greaterThanEqual(cell, box.lo)) && glm::all(glm::lessThan(cell, box.hi));
     }
-    // The model's own cell.
+    // The cell in the model's own coordinates.
     [[nodiscard]] glm::ivec3 local(glm::ivec3 cell) const {
         glm::ivec3 v(0);
         for (int i = 0; i < 3; ++i) {
@@ -68,7 +68,7 @@ std::vector<PlacedModel> placed_models(const VoxFile& file, std::span<const VoxI
     return placed;
 }
 
-// Palette indices of the materials of a scene: the lowest that looks so.
+// For each material of a scene, the lowest palette index that looks like it; 0 where none does.
 std::vector<std::uint8_t> palette_indices(const VoxFile& file, std::span<const Material> materials) {
     std::vector<std::string> warnings;
     const std::array<Material, 256> looks = vox_materials(file, warnings);
@@ -80,7 +80,7 @@ std::vector<std::uint8_t> palette_indices(const VoxFile& file, std::span<const M
     return indices;
 }
 
-// A world whose materials are those of a palette.
+// A world, and the palette indices of its materials.
 struct IndexedWorld {
     const VoxelWorld& world;
     std::vector<std::uint8_t> indices;
@@ -167,7 +167,7 @@ std::int32_t root_group(VoxFile& file) {
     refuse_edits("the file's graph has no group below its root");
 }
 
-// Adds a model for the cells of each block of the scene that has some.
+// Adds a model for each block of 256^3 scene cells that holds some of the cells.
 void add_models(VoxFile& file, const Cells& cells) {
     const auto block_of = [](int v) { return v >= 0 ? v / kVoxMaxSide : (v + 1) / kVoxMaxSide - 1; };
     std::map<Key, Cells> blocks;

@@ -24,7 +24,8 @@ class VoxelWorld {
 
     // Fills a cell; `material` < 32768. The last call for a cell wins.
     void set(glm::ivec3 local, std::uint16_t material);
-    // The same for every cell of a box. Bricks that it alone fills, to equal parts, are stored once.
+    // The same for every cell of a box. Bricks that only this box fills are stored once where it fills the
+    // same part of them.
     void fill(const Box& local, std::uint16_t material);
 
     // Sets a cell to the 16 bits that get() gives: kEmpty clears it.
@@ -83,10 +84,10 @@ class VoxelWorld {
 
   private:
     [[nodiscard]] std::size_t chunk_index(glm::ivec3 chunk_cell) const;
-    // Where the number of the brick stands; a chunk is made where there is none.
+    // The slot that holds the number of the brick; its chunk is made where there is none.
     [[nodiscard]] std::uint32_t& brick_slot(glm::ivec3 brick_cell);
     std::uint32_t add_brick(const Brick& brick, bool is_shared);
-    // The brick, which no other cell shares from now on.
+    // The brick for writing: made where there is none, copied where it is shared.
     [[nodiscard]] Brick& own_brick(std::uint32_t& number);
     [[nodiscard]] std::uint32_t shared_brick(const Box& part, std::uint16_t voxel);
     void write(Brick& brick, glm::ivec3 cell, std::uint16_t voxel);
@@ -97,11 +98,11 @@ class VoxelWorld {
     std::vector<std::uint32_t> chunk_slots_;  // dense, kNoBrick where empty
     std::vector<ChunkBricks> chunk_bricks_;
     std::vector<Brick> bricks_;
-    std::vector<bool> is_shared_;                              // a brick, by cells
+    std::vector<bool> is_shared_;                              // whether cells share a brick, by its number
     std::unordered_map<std::uint32_t, std::uint32_t> shared_;  // bricks that one box fills, by part and voxel
 };
 
-// Where a world lies: its scene cell 0, and its chunks.
+// Where a world lies: the scene cell of its local cell 0, and its chunks.
 struct WorldGrid {
     glm::ivec3 origin{0};
     glm::ivec3 chunks{1};

@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "s.toml:2:1: unknown key 'indirct' in [technique]; did you mean 'indirect'?"},
         RefusedText{"techniques_of_unlike_photons",
                     "[technique]\ncaustics = \"photons\"\nindirect = \"splatting\"\n",
-                    "s.toml:2:12: 'caustics' in [technique] excludes another way of photons: caustics and "
-                    "indirect share them"},
+                    "s.toml:2:12: 'caustics' in [technique] excludes another technique of photons: caustics "
+                    "and indirect share them"},
         RefusedText{"section_near", "\n[rendr]\nspp = 1\n",
                     "s.toml:2:2: unknown key 'rendr' in the scene; did you mean 'render'?"},
         RefusedText{"syntax", "[sun\n",
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedText{"material_value", "[material]\na = 1\n",
                     "s.toml:2:5: 'a' in [material] must be a section [material.a]"},
         RefusedText{"material_air", "[material.air]\n",
-                    "s.toml:1:1: [material.air] takes the name of what carves: choose another"},
+                    "s.toml:1:1: [material.air] has the name of what carves: choose another name"},
         RefusedText{
             "albedo_high", "[material.a]\nalbedo = [0.5, 1.5, 0.5]\n",
             "s.toml:2:16: 'albedo' in [material.a] must be [x, y, z] with numbers in [0, 1], not 1.5"},

@@ -181,7 +181,7 @@ TEST(VoxHostile, sum_of_translations_beyond_the_limit_is_refused) {
     ASSERT_TRUE(file) << file.reason();
     const auto instances = vox_instances(file.value());
     ASSERT_FALSE(instances);
-    EXPECT_EQ(instances.reason(), "node 2: its place is beyond 268435456 voxels from the origin");
+    EXPECT_EQ(instances.reason(), "node 2: its position is beyond 268435456 voxels from the origin");
 }
 
 struct Amplifier {

@@ -204,8 +204,7 @@ TEST(PlanNotes, what_the_picture_lacks_is_said) {
     };
     EXPECT_TRUE(notes_of("technique.indirect=auto").empty());
     EXPECT_EQ(notes_of("technique.indirect=photons"),
-              std::vector<std::string>{
-                  "light of the sky reaches surfaces past glass and mirrors as through a wall"});
+              std::vector<std::string>{"glass and mirrors block the light of the sky as walls do"});
     EXPECT_EQ(notes_of("technique.caustics=paths"),
               std::vector<std::string>{
                   "sunlight by way of spheres of metal and glass is found by chance: it is noisy"});

@@ -221,8 +221,7 @@ TEST(Streams, what_a_picture_lacks_is_noted_on_standard_error) {
                          "-D",          "material.red.surface='metal'",
                          "--technique", "indirect=photons",
                          "-o",          scratch / "a.png"};
-    EXPECT_EQ(run(words).err,
-              "note: light of the sky reaches surfaces past glass and mirrors as through a wall\n");
+    EXPECT_EQ(run(words).err, "note: glass and mirrors block the light of the sky as walls do\n");
     Words quiet = words;
     quiet.push_back("-q");
     EXPECT_EQ(run(quiet).err, "");
