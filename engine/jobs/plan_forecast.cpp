@@ -15,9 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Errors beside the one asked for, over it: what a finer and a coarser picture would take.
+// Other error targets to forecast, relative to the requested one: a finer and a coarser image.
 constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
-// Relative: files and pipelines that are in a cache the second time, or no more.
+// Relative: files and pipelines may be cached in one process and not in the other.
 constexpr double kPilotDoubt = 0.4;
 
 std::string forecast_line(const Forecast& forecast) {
@@ -37,7 +37,7 @@ std::string mib_text(std::uint64_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 0x1p20);
 }
 
-// The effects that the picture would be another one with, but for the user.
+// The effects that would change the image if the user had not switched them off.
 std::vector<Effect> forced_off(const RenderPlan& plan, const PlanRequest& request) {
     std::vector<Effect> effects;
     for (const auto& [effect, choice] : request.effects.switches)
@@ -62,7 +62,7 @@ void add_price(const EffectPrice& price, PilotedPlan& result) {
         price.ms_per_sample);
 }
 
-// What the user's choices cost in error: a session of its own, which stops at no error.
+// What the user's choices cost in error, from a session of its own without an error target.
 void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOptions& options,
                       PilotedPlan& result) {
     const std::vector<Effect> effects = forced_off(result.plan, options.plan);

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Columns of times; ao.trace is what brute force has instead of ao.sample.
+// Columns of times. Brute force has ao.trace in place of ao.sample.
 constexpr std::array<std::string_view, 8> kPasses = {"ao.age",    "ao.lookup",  "ao.reproject", "ao.search",
                                                      "ao.sample", "ao.resolve", "ao.filter",    "ao.trace"};
 

@@ -14,14 +14,14 @@
 namespace voxilux {
 namespace {
 
-// Adds configurations that differ from the first in one thing.
+// Adds configurations that differ from the first in one setting.
 class Designer {
   public:
     explicit Designer(const Configuration& base) { design_.configurations.push_back(base); }
 
     void begin(Parameter parameter) { design_.parameters.push_back(std::move(parameter)); }
 
-    // A configuration that is there already is used again.
+    // A configuration that exists already is reused.
     void add(const std::string& name, const std::function<void(Configuration&)>& change) {
         Configuration configuration = design_.configurations.front();
         change(configuration);
@@ -37,7 +37,7 @@ class Designer {
 
     [[nodiscard]] const Configuration& base() const { return design_.configurations.front(); }
 
-    // Parameters with one setting have nothing to compare.
+    // Parameters with only one setting are left out.
     [[nodiscard]] ParameterDesign result() {
         std::erase_if(design_.parameters, [](const Parameter& parameter) {
             return parameter.name != "samples" && parameter.settings.size() < 2;
@@ -113,7 +113,7 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
                      [&](Configuration& configuration) { configuration.settings.ao_rays = factor * rays; });
 }
 
-// What paths cost and save against what is there without them.
+// Cost and gain of paths against the techniques that replace them.
 void design_indirect(const RenderPlan& plan, Designer& designer) {
     designer.begin(
         {.name = "indirect",
