@@ -18,8 +18,8 @@ struct AoStep {
     bool sweeps = false;  // cells that have not been seen for long are released first
 };
 
-// The same from cells shared in a hash table. The tile is the whole image. The table is emptied first when no
-// sample came before (`params.has_last` is 0).
+// The same from cells shared in a hash table. The tile is the whole crop window. The table is emptied first
+// when no sample came before (`params.has_last` is 0).
 [[nodiscard]] Plane record_ao_cells(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                     const AoStep& step, Recording& recording);
 

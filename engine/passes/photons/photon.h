@@ -44,7 +44,7 @@ struct PhotonPlanes {
 // radius.
 enum class PhotonRadii { common, own };
 
-// The irradiance at each hit from the sorted photons around it. The tile is the whole image.
+// The irradiance at each hit from the sorted photons around it. The tile is the whole crop window.
 [[nodiscard]] PhotonPlanes record_photon_gather(const RenderPlan& plan, const DispatchTile& tile,
                                                 const Plane& hits, PhotonRadii radii, Recording& recording);
 
