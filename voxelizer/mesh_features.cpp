@@ -119,7 +119,7 @@ constexpr MeshFeature kFeatures[] = {
     {kMap, "-s", read},
     {kMap, "-o", read},
     {kMap, "-clamp", read},
-    {kMap, "-blendu", no_effect},  // these four tell how to filter; textures are averaged over each voxel
+    {kMap, "-blendu", no_effect},  // these four control filtering; textures are averaged over each voxel
     {kMap, "-blendv", no_effect},
     {kMap, "-boost", no_effect},
     {kMap, "-texres", no_effect},
