@@ -1,6 +1,6 @@
-// libFuzzer target of the .vox reader. Property: whatever the bytes, read_vox keeps its memory bound and
-// either refuses with a byte offset or gives a file that can be placed, summarised, made a scene, written,
-// and read again equal.
+// libFuzzer target of the .vox reader. Property: whatever the bytes, read_vox stays within its memory bound
+// and either refuses with a byte offset or returns a file that can be placed, summarised, made a scene,
+// written, and read again with an equal result.
 
 #include <cstdint>
 #include <span>
@@ -17,9 +17,9 @@
 
 namespace {
 
-// read_vox promises 64 MiB + 64 bytes per byte of the file. The fixed part is there for tables: the largest
-// is the 2 MiB set of cells, which doubles as it grows. The target holds the reader to that, so that small
-// inputs can show a breach.
+// read_vox promises 64 MiB + 64 bytes per byte of the file. The fixed part is for tables; the largest is the
+// 2 MiB set of cells, which doubles as it grows. The target allows less for them, so that small inputs can
+// exceed the bound.
 constexpr std::size_t kTableBytes = std::size_t{8} << 20;
 constexpr std::size_t kBytesPerByte = 64;
 
@@ -29,7 +29,7 @@ void check_rewrite(const voxilux::VoxFile& file) {
     require(again.ok(), "a written file is refused");
     voxilux::VoxFile second = std::move(again).value();
     require(voxilux::write_vox(second) == bytes, "a second write differs");
-    second.warnings = file.warnings;  // they name bytes, and repairs are not needed twice
+    second.warnings = file.warnings;  // they name bytes, and nothing needs repair twice
     require(second == file, "a written file reads back different");
 }
 
