@@ -60,7 +60,7 @@ void check(const Mesh& mesh) {
     const MaterialSampler sampler(mesh);
     for (std::uint32_t i = 0; i < mesh.materials.size(); ++i) {
         const SurfaceColor color = sampler.sample(i, {.uv0 = {7.3f, -2.1f}, .span0 = glm::mat2(0.7f)});
-        require(is_finite(glm::dvec3(color.base_color)) && color.base_color.r >= 0.0f, "a colour is none");
+        require(is_finite(glm::dvec3(color.base_color)) && color.base_color.r >= 0.0f, "a colour is invalid");
     }
 }
 

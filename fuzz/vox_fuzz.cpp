@@ -39,12 +39,12 @@ void check_settings(const voxilux::VoxFile& file) {
     const glm::vec3 light = scene.sun.irradiance + scene.sky.radiance + scene.background.radiance;
     require(glm::all(glm::greaterThanEqual(light, glm::vec3(0.0f))) && light.x + light.y + light.z < 1e6f,
             "light is not finite");
-    require(scene.framing_fov_y_deg > 0.0 && scene.framing_fov_y_deg < 180.0, "a field of view is none");
+    require(scene.framing_fov_y_deg > 0.0 && scene.framing_fov_y_deg < 180.0,
+            "a field of view is out of range");
     for (const voxilux::SavedCamera& saved : scene.cameras) {
         const glm::dvec3 at = saved.camera.position;
-        require(glm::length(at) < 4e9, "a camera is nowhere");
-        require(saved.camera.pitch_deg >= -90.0 && saved.camera.pitch_deg <= 90.0,
-                "a camera stands on its head");
+        require(glm::length(at) < 4e9, "a camera is out of range");
+        require(saved.camera.pitch_deg >= -90.0 && saved.camera.pitch_deg <= 90.0, "a camera is upside down");
     }
 }
 

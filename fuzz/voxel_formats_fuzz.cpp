@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 "a reader takes more memory than it promises");
         if (voxels)
             require(!voxels.value().cells.empty() && voxels.value().cells.size() <= kMost,
-                    "a number of cells");
+                    "no cells or too many");
         else
             require(voxels.reason().starts_with("at byte "), "a refusal names no byte");
     }

@@ -131,7 +131,7 @@ void note_features(const json& document, MeshNotes& notes) {
     const auto animations = document.find("animations");
     if (animations == document.end() || !animations->is_array()) return;
     if (const auto moving = std::ranges::count_if(*animations, moves_nodes); moving > 0)
-        notes["an animation is ignored: the mesh is read in its pose of rest"] +=
+        notes["an animation is ignored: the mesh is read in its rest pose"] +=
             static_cast<std::size_t>(moving);
 }
 

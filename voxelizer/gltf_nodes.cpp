@@ -222,7 +222,7 @@ PlacedNodes place_nodes(const GltfDocument& document, std::optional<std::size_t>
             placed.meshes.push_back({*mesh, matrix * instance});
         if (placed.meshes.size() > document.limits.parts)
             throw MeshFault(fmt::format("over {} parts of meshes are not read", document.limits.parts));
-        if (node.skin != -1) ++notes["a skin is ignored: the mesh is read in its pose of rest"];
+        if (node.skin != -1) ++notes["a skin is ignored: the mesh is read in its rest pose"];
     }
     return placed;
 }

@@ -217,7 +217,7 @@ void finish_glass(const Entry& entry, MeshMaterial& material, MeshNotes& notes) 
         material.base_color = glm::vec4(unit(*entry.filter), material.base_color.a);
     // The format does not scatter refracted light; a highlight width, where given, applies to both.
     if (!entry.roughness && !entry.shine) material.roughness = 0.0f;
-    if (entry.base_color && entry.filter) ++notes["map_Kd is read as the filter of a glass"];
+    if (entry.base_color && entry.filter) ++notes["map_Kd is read as the filter colour of glass"];
 }
 
 void finish_emission(const Entry& entry, MtlLibrary& library, Mesh& mesh, MeshMaterial& material,
@@ -235,7 +235,7 @@ void finish_alpha(const Entry& entry, MeshMaterial& material, MeshNotes& notes) 
     if (entry.alpha && entry.base_color && entry.alpha->file == entry.base_color->file)
         material.alpha_mode = AlphaMode::mask;
     else if (entry.alpha)
-        ++notes["map_d is ignored: it is another picture than map_Kd"];
+        ++notes["map_d is ignored: it is not the image of map_Kd"];
 }
 
 // Evaluates what depends on several fields, whatever their order.

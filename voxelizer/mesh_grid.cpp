@@ -68,7 +68,7 @@ class GridBox {
         const glm::dvec3 extent = high_ - low_;
         const double longest = std::max({extent.x, extent.y, extent.z});
         if (!std::isfinite(longest))
-            throw Error(ExitCode::input_refused, "the mesh is larger than numbers can say");
+            throw Error(ExitCode::input_refused, "the mesh is too large: its extent is not finite");
         // A mesh that is a single point fills one cell at any scale.
         grid.scale = request.metres_per_voxel ? 1.0 / *request.metres_per_voxel
                                               : request.resolution / (longest > 0.0 ? longest : 1.0);

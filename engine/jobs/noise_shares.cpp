@@ -25,12 +25,12 @@ std::string reason_without_share(Effect effect) {
     switch (effect) {
         case Effect::voxels:
         case Effect::spheres:
-            return "where edges cross a pixel is noise of whatever is seen there";
+            return "at edges, its noise is that of whatever is seen there";
         case Effect::specular:
-            return "it decides what all others are seen through";
+            return "all other effects are seen through it";
         case Effect::sky:
         case Effect::emission:
-            return "the same in every sample that sees it";
+            return "it is the same in every sample that sees it";
         default:
             return {};
     }
@@ -92,7 +92,7 @@ std::vector<NoiseShare> share_noise(const ShareJob& job, Executor& executor) {
     for (NoiseShare& share : shares) {
         if (!share.reason.empty()) continue;
         if (is_expensive || (job.stops && job.stops())) {
-            share.reason = "a sample takes too long to find out";
+            share.reason = "a sample takes too long to measure it";
             continue;
         }
         share.share =

@@ -57,8 +57,8 @@ void add_price(const EffectPrice& price, PilotedPlan& result) {
         row["ms_per_sample"] = price.ms_per_sample;
     }
     result.text += fmt::format(
-        "without   {:<10} the picture is off by {} ({} to {}); with it a sample takes {:.1f} ms more\n", name,
-        percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
+        "without   {:<10} the image has an error of {} ({} to {}); with it a sample takes {:.1f} ms more\n",
+        name, percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
         price.ms_per_sample);
 }
 
@@ -83,7 +83,7 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
     PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
     if (!pilot) {
         result.text =
-            "forecast  unknown: samples depend on those before, so that their error cannot be told\n";
+            "forecast  unknown: samples depend on earlier ones, so their error cannot be estimated\n";
         return result;
     }
     const double error = *options.error_target;
@@ -95,7 +95,7 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
     const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);
     result.json["forecast"] = forecast_json(asked);
     result.text =
-        asked ? forecast_line(*asked) : "forecast  unknown: the picture has no noise yet to tell from\n";
+        asked ? forecast_line(*asked) : "forecast  unknown: the image has no noise yet to estimate from\n";
     result.json["forecasts"] = Json::array({forecast_json(asked)});
     for (const double factor : kOtherErrors) {
         const std::optional<Forecast> other = make_forecast(*pilot, factor * error, needs);

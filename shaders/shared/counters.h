@@ -58,8 +58,8 @@ VX_END
 #ifdef __cplusplus
 namespace voxilux::gpu {
 inline constexpr auto kCounterNames = []<uint... numbers>(std::integer_sequence<uint, numbers...>) {
-    static_assert(((kCounterName<numbers> != nullptr) && ...), "a number below kTallyCount has no counter");
-    static_assert(kCounterName<kCounterCount> == nullptr, "kTallyCount is that of a counter");
+    static_assert(((kCounterName<numbers> != nullptr) && ...), "a number below kCounterCount has no counter");
+    static_assert(kCounterName<kCounterCount> == nullptr, "kCounterCount is the number of a counter");
     return std::array{kCounterName<numbers>...};
 }
 (std::make_integer_sequence<uint, kCounterCount>());
