@@ -20,7 +20,7 @@ struct AoCell {
     ivec3 voxel;  // local to the world, each component below kAoMaxEdge
     uint face;    // 0..5
     uint level;   // 0..kAoLevels-1: the cell is 2^-level voxels wide
-    uvec2 part;   // of the face, in cells along face_u and face_v
+    uvec2 part;   // position on the face in cells, along the axes of on_face()
 };
 
 // A point of a face: its coordinates along the two axes that follow the normal's in cyclic order.

@@ -59,7 +59,7 @@ struct SurfaceMaterial {
 };
 VX_CONST(uint, kMaterialTexels, 3u);
 
-// An emitter, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
+// An emitter: an emitting sphere, or a face of an emitting voxel (light.h packs `what`).
 struct LightRecord {
     ivec3 cell;  // of a face: its voxel, local to the world
     uint what;
