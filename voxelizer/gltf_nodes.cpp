@@ -56,8 +56,8 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, const std::string& name) {
     return *matrix;
 }
 
-// The numbers of one attribute of EXT_mesh_gpu_instancing. Sets `count` for the first attribute; the others
-// must match it.
+// The numbers of one attribute of EXT_mesh_gpu_instancing. Sets `count` for the first attribute; all others
+// must have as many.
 std::optional<AccessorValues> instance_attribute(const GltfDocument& document, const tinygltf::Value& list,
                                                  const char* key, std::size_t width, const std::string& name,
                                                  std::optional<std::size_t>& count) {

@@ -1,7 +1,7 @@
 // How far all camera rays of a tile of pixels run through empty space: a beam around them is marched once,
 // and the rays start where it ends.
 //
-// A beam is a cone with its tip at the camera: at ray parameter t it reaches `spread` * t beyond t *
+// A beam is a cone with its tip at the camera: at time t it reaches `spread` * t beyond t *
 // `axis` on each of the three axes of the world. It moves from empty box to empty box (the boxes of
 // world_cell.h) as long as the whole cross-section fits into one. (Beams for primary rays: Amanatides, Ray
 // Tracing with Cones, 1984; their use as starting points: Laine & Karras, Efficient Sparse Voxel Octrees,
@@ -81,7 +81,7 @@ VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
     return beam;
 }
 
-// Ray parameter at which one axis of the beam leaves an interval of positions relative to the tip; below 0
+// Time at which one axis of the beam leaves an interval of positions relative to the tip; below 0
 // when it is not inside at t.
 VX_FN float leave_interval(float axis, float spread, float low, float high, float t) {
     const float upper = axis + spread;
@@ -92,7 +92,7 @@ VX_FN float leave_interval(float axis, float spread, float low, float high, floa
     return min(rise, fall);
 }
 
-// Ray parameter up to which the beam stays in the empty box around a cell, whose position is relative to the
+// Time up to which the beam stays in the empty box around a cell, whose position is relative to the
 // tip's cell; below 0 when the beam is not inside at t. The space around the world is empty.
 VX_FN float leave_box(VX_WORLD_PARAM Beam beam, ivec3 cell, float t, ivec3 chunks) {
     const ivec3 size = chunks << kChunkLog2;
@@ -121,7 +121,7 @@ VX_FN float leave_box(VX_WORLD_PARAM Beam beam, ivec3 cell, float t, ivec3 chunk
     return min(x, min(y, z));
 }
 
-// Ray parameter before which no ray of the beam hits a solid cell: kUnbounded when none ever does, 0 when
+// Time before which no ray of the beam hits a solid cell: kUnbounded when none ever does, 0 when
 // nothing is gained. Where the edge of the cross-section has reached the end of a box but its centre has not,
 // the box of a cell further ahead may contain both.
 VX_FN float beam_start(VX_WORLD_PARAM Beam beam, ivec3 chunks) {

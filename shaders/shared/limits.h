@@ -43,7 +43,7 @@ VX_CONST(int, kMaxPlanes, 1 << 24);
 // t_max of an unbounded ray; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
 
-// Beams (beam.h). Error of directions, positions and ray parameters relative to the distance: 2^-18, tens of
+// Beams (beam.h). Error of directions, positions and times relative to the distance: 2^-18, tens of
 // times the roundings of 2^-24 that cause it.
 VX_CONST(float, kBeamError, 3.814697265625e-6f);
 // Factor of a beam's spread: far more than the rounding of an image position, relative to a tile.

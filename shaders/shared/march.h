@@ -166,7 +166,7 @@ VX_FN MarchHit march_nothing(Ray ray) {
     return hit;
 }
 
-// The hit of march() for a ray that is known to hit no solid cell before ray parameter `start`: it steps from
+// The hit of march() for a ray that is known to hit no solid cell before the time `start`: it steps from
 // there. The loop has one way out and changes few values, because software devices blend each of them for all
 // invocations at each way out.
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {

@@ -4,8 +4,7 @@
 
 namespace voxilux {
 
-// A buffer with the ray parameter t at which the camera rays of each beam tile may start
-// (shaders/shared/beam.h).
+// A buffer with the time at which the camera rays of each beam tile may start (shaders/shared/beam.h).
 [[nodiscard]] std::string record_primary_beam(const RenderPlan& plan, const DispatchTile& tile,
                                               Recording& recording);
 
