@@ -1,4 +1,5 @@
-// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as column_count x row_count.
+// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as column_count x
+// row_count.
 #ifndef VX_FRAME_ACCESS_GLSL
 #define VX_FRAME_ACCESS_GLSL
 
