@@ -1,4 +1,4 @@
-// Writes the seed corpus of mesh_fuzz into a folder: one small file for each thing that the readers know.
+// Writes the seed corpus of mesh_fuzz into a folder: one small file for each feature of the readers.
 
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Writes the seed corpus of vox_fuzz into a folder: one small file for each thing that the reader knows.
+// Writes the seed corpus of vox_fuzz into a folder: one small file for each feature of the reader.
 
 #include <cstdio>
 #include <filesystem>

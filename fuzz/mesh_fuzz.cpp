@@ -1,6 +1,6 @@
 // libFuzzer target of the mesh readers: glTF, GLB, OBJ, MTL, STL and PLY. Property: whatever the bytes, the
-// reader keeps its memory bound and either refuses with one line or gives a mesh whose numbers are finite and
-// whose indices lie inside its lists.
+// reader stays within its memory bound and either refuses with one line or returns a mesh whose numbers are
+// finite and whose indices are inside its lists.
 
 #include <cmath>
 #include <string_view>
@@ -18,9 +18,9 @@ namespace {
 
 using namespace voxilux;
 
-// Small limits, so that small inputs can show a breach. What they let through fits the fixed part: 64 bytes
-// for the attributes of a vertex and as much for reading them, 16 for a triangle, 4 for a texel; lists double
-// as they grow.
+// Small limits, so that small inputs can exceed the memory bound. What they admit fits the fixed part: 64
+// bytes for the attributes of a vertex and as much for reading them, 16 for a triangle, 4 for a texel; lists
+// double as they grow.
 constexpr MeshLimits kLimits{.vertices = 1 << 16,
                              .triangles = 1 << 16,
                              .parts = 1 << 12,
@@ -28,7 +28,7 @@ constexpr MeshLimits kLimits{.vertices = 1 << 16,
                              .texels = 1 << 16,
                              .file_bytes = 1 << 16};
 constexpr std::size_t kFixedBytes = std::size_t{48} << 20;
-constexpr std::size_t kBytesPerByte = 1024;  // tinygltf's material of 2 kB takes 3 bytes of JSON
+constexpr std::size_t kBytesPerByte = 1024;  // 3 bytes of JSON become a tinygltf material of 2 kB
 
 bool is_finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -60,7 +60,7 @@ void check(const Mesh& mesh) {
     const MaterialSampler sampler(mesh);
     for (std::uint32_t i = 0; i < mesh.materials.size(); ++i) {
         const SurfaceColor color = sampler.sample(i, {.uv0 = {7.3f, -2.1f}, .span0 = glm::mat2(0.7f)});
-        require(is_finite(glm::dvec3(color.base_color)) && color.base_color.r >= 0.0f, "a colour is none");
+        require(is_finite(glm::dvec3(color.base_color)) && color.base_color.r >= 0.0f, "a colour is invalid");
     }
 }
 

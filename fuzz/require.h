@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-// Ends the process, which libFuzzer takes for a find, where a property does not hold.
+// Aborts where a property does not hold; libFuzzer records that as a crash.
 inline void require(bool holds, const char* property) {
     if (holds) return;
     std::fprintf(stderr, "property broken: %s\n", property);

@@ -1,6 +1,6 @@
-// libFuzzer target of the .vox reader. Property: whatever the bytes, read_vox keeps its memory bound and
-// either refuses with a byte offset or gives a file that can be placed, summarised, made a scene, written,
-// and read again equal.
+// libFuzzer target of the .vox reader. Property: whatever the bytes, read_vox stays within its memory bound
+// and either refuses with a byte offset or returns a file that can be placed, summarised, made a scene,
+// written, and read again with an equal result.
 
 #include <cstdint>
 #include <span>
@@ -17,9 +17,9 @@
 
 namespace {
 
-// read_vox promises 64 MiB + 64 bytes per byte of the file. The fixed part is there for tables: the largest
-// is the 2 MiB set of cells, which doubles as it grows. The target holds the reader to that, so that small
-// inputs can show a breach.
+// read_vox promises 64 MiB + 64 bytes per byte of the file. The fixed part is for tables; the largest is the
+// 2 MiB set of cells, which doubles as it grows. The target allows less for them, so that small inputs can
+// exceed the bound.
 constexpr std::size_t kTableBytes = std::size_t{8} << 20;
 constexpr std::size_t kBytesPerByte = 64;
 
@@ -29,7 +29,7 @@ void check_rewrite(const voxilux::VoxFile& file) {
     require(again.ok(), "a written file is refused");
     voxilux::VoxFile second = std::move(again).value();
     require(voxilux::write_vox(second) == bytes, "a second write differs");
-    second.warnings = file.warnings;  // they name bytes, and repairs are not needed twice
+    second.warnings = file.warnings;  // they name bytes, and nothing needs repair twice
     require(second == file, "a written file reads back different");
 }
 
@@ -39,12 +39,12 @@ void check_settings(const voxilux::VoxFile& file) {
     const glm::vec3 light = scene.sun.irradiance + scene.sky.radiance + scene.background.radiance;
     require(glm::all(glm::greaterThanEqual(light, glm::vec3(0.0f))) && light.x + light.y + light.z < 1e6f,
             "light is not finite");
-    require(scene.framing_fov_y_deg > 0.0 && scene.framing_fov_y_deg < 180.0, "a field of view is none");
+    require(scene.framing_fov_y_deg > 0.0 && scene.framing_fov_y_deg < 180.0,
+            "a field of view is out of range");
     for (const voxilux::SavedCamera& saved : scene.cameras) {
         const glm::dvec3 at = saved.camera.position;
-        require(glm::length(at) < 4e9, "a camera is nowhere");
-        require(saved.camera.pitch_deg >= -90.0 && saved.camera.pitch_deg <= 90.0,
-                "a camera stands on its head");
+        require(glm::length(at) < 4e9, "a camera is out of range");
+        require(saved.camera.pitch_deg >= -90.0 && saved.camera.pitch_deg <= 90.0, "a camera is upside down");
     }
 }
 

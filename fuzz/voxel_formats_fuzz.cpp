@@ -1,5 +1,5 @@
-// libFuzzer target of the readers of other voxel formats. Property: whatever the bytes, each reader keeps its
-// memory bound and either refuses with a byte offset or gives cells that spread no further than promised.
+// libFuzzer target of the readers of other voxel formats. Property: whatever the bytes, each reader stays
+// within its memory bound and either refuses with a byte offset or returns cells within the promised extent.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// Small, so that small inputs can show a breach.
+// Small, so that small inputs can exceed the bound.
 constexpr std::size_t kMost = std::size_t{1} << 16;
 constexpr std::size_t kTextBytes = 4096;
 
@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 "a reader takes more memory than it promises");
         if (voxels)
             require(!voxels.value().cells.empty() && voxels.value().cells.size() <= kMost,
-                    "a number of cells");
+                    "no cells or too many");
         else
             require(voxels.reason().starts_with("at byte "), "a refusal names no byte");
     }

@@ -15,7 +15,7 @@ struct EmbeddedShader {
 // Entry points of shaders/passes.
 [[nodiscard]] std::span<const EmbeddedShader> pass_shaders();
 
-// Entry points of shaders/window, of the stages that draw.
+// Entry points of shaders/window, which belong to graphics pipelines.
 [[nodiscard]] std::span<const EmbeddedShader> window_shaders();
 
 // Entry points of shaders/probe; only tests link them.

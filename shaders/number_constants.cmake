@@ -1,5 +1,5 @@
-# Numbers the specialization constants of all shaders: one number for each name, so that no two in a shader can clash.
-# Local sizes have theirs from 100 on (lib/invocation.glsl).
+# Numbers the specialization constants of all shaders: one number per name, so that no two in a shader can
+# clash. Local sizes use the numbers from 100 on (lib/invocation.glsl).
 file(GLOB_RECURSE sources ${FOLDER}/*.glsl ${FOLDER}/*.comp)
 set(names "")
 foreach(source IN LISTS sources)

@@ -8,11 +8,11 @@
 namespace voxilux {
 namespace {
 
-constexpr int kBlocksPerModel = kModelCells / kBlockCells;  // on an axis
+constexpr int kBlocksPerModel = kModelCells / kBlockCells;  // per axis
 constexpr int kTriangleBits = 32;
 
-// Blocks of a model follow each other: the number of the model above that of the block in it. A grid of
-// 65536^3 cells has 2^30 blocks.
+// Blocks of a model have consecutive numbers: the number of the model in the high bits, the block's in the
+// low ones. A grid of 65536^3 cells has 2^30 blocks.
 class BlockNumbers {
   public:
     explicit BlockNumbers(glm::ivec3 cells) : models_(model_counts(cells)) {}
@@ -54,7 +54,7 @@ std::uint32_t model_of(glm::ivec3 cell, glm::ivec3 cells) {
 Bins bin_triangles(const Mesh& mesh, std::span<const std::uint32_t> triangles,
                    std::span<const glm::ivec3> lattice, glm::ivec3 cells) {
     const BlockNumbers numbers(cells);
-    std::vector<std::uint64_t> pairs;  // block above triangle
+    std::vector<std::uint64_t> pairs;  // block in the high bits, triangle in the low ones
     for (const std::uint32_t index : triangles) {
         const glm::uvec3 v = mesh.triangles[index].vertices;
         const LatticeTriangle triangle = {lattice[v.x], lattice[v.y], lattice[v.z]};

@@ -105,7 +105,7 @@ CellPiece PieceCutter::next_cell(int x) {
         rest_ = rest;
     } else {
         piece = measure(rest_);
-        rest_.count = 0;  // a triangle that ends on the next cell's face only touches that cell
+        rest_.count = 0;  // a triangle that ends on the next cell's face touches that cell in no area
     }
     if (piece.area == 0.0f) piece.centre = point_near(glm::vec3(x, row_.x, row_.y) + 0.5f);
     return piece;
@@ -129,7 +129,7 @@ CellPiece PieceCutter::measure(const ConvexPolygon& polygon) const {
     return {area, origin + moment / (3.0f * twice)};
 }
 
-// What a cell shows that is barely touched: its middle brought onto the triangle along the axis it faces.
+// The point for a cell that is barely touched: its centre moved onto the triangle along the axis it faces.
 glm::vec3 PieceCutter::point_near(glm::vec3 p) const {
     const auto& [a, b, c] = triangle_;
     const float whole = cross(b - a, c - a, u_, v_);

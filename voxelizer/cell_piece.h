@@ -1,8 +1,8 @@
 #pragma once
 
 // The part of a triangle inside a cell: its area and its centroid. The triangle is cut into slabs of z, these
-// into rows of y, and a row into cells, so that a cut is shared by all that lies behind it. Weights need no
-// exactness (which cells are touched is decided elsewhere), so this is in floats, in the space of a block.
+// into rows of y, and a row into cells, so that each cut is shared by everything behind it. Weights need not
+// be exact (which cells are touched is decided elsewhere), so this uses floats, in the space of a block.
 
 #include <array>
 
@@ -27,8 +27,8 @@ struct CellPiece {
 // first corner; zero for a triangle without area.
 [[nodiscard]] std::array<glm::vec3, 2> barycentric_slopes(glm::vec3 edge_b, glm::vec3 edge_c);
 
-// Cuts one triangle; rows are asked for with ascending z, in each z with ascending y, cells with
-// ascending x; all within the triangle's box.
+// Cuts one triangle. Rows must be requested with ascending z, then ascending y, and cells with ascending x,
+// all within the triangle's bounding box.
 class PieceCutter {
   public:
     explicit PieceCutter(const std::array<glm::vec3, 3>& triangle);
@@ -51,7 +51,7 @@ class PieceCutter {
     int slab_z_ = -1;
     glm::ivec2 row_{0};
     ConvexPolygon slab_, rest_;
-    float rest_from_ = 0.0f;  // x from which `rest_` has not been given away
+    float rest_from_ = 0.0f;  // x up to which `rest_` has been handed out
 };
 
 }  // namespace voxilux

@@ -5,8 +5,8 @@
 
 namespace voxilux {
 
-// The cells as a set of diffuse voxels that keep their places: cell (0, 0, 0) is at the origin of the scene.
-// `voxels` holds at least one, and they spread over kMaxCellSide at most. Takes them, so that memory holds
+// The cells as a set of diffuse voxels that keep their positions: cell (0, 0, 0) is at the origin of the
+// scene. `voxels` holds at least one, and spans at most kMaxCellSide. Consumes them, so that memory holds
 // them once.
 [[nodiscard]] VoxelSet voxel_set_of(VoxelCells&& voxels);
 

@@ -11,7 +11,7 @@ namespace {
 
 const std::array<float, 256> kLinear = decoded_srgb_codes();
 
-// Between the bytes by straight lines: for means of bytes that are close to each other.
+// Interpolates linearly between the bytes: for means of bytes that are close to each other.
 float linear_at(float srgb) {
     const float inside = glm::clamp(srgb, 0.0f, 255.0f);
     const auto low = static_cast<std::size_t>(inside);
@@ -57,7 +57,7 @@ glm::u8vec3 srgb_of_oklab(glm::vec3 c) {
 
 glm::dvec3 cielab_of(glm::u8vec3 srgb) {
     const glm::dvec3 c(kLinear[srgb.r], kLinear[srgb.g], kLinear[srgb.b]);
-    // Rec. 709 primaries to XYZ, over the white of D65.
+    // Rec. 709 primaries to XYZ, relative to the D65 white.
     const double x = lab_response((0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b) / 0.95047);
     const double y = lab_response(0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b);
     const double z = lab_response((0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b) / 1.08883);

@@ -3,15 +3,16 @@
 namespace voxilux {
 namespace {
 
-// Lattice steps that a triangle and a cell may have together, so that 6 extent^3 stays below 2^63.
+// The largest extent of a triangle and a cell together, in lattice steps, so that 6 extent^3 stays below
+// 2^63.
 constexpr std::int64_t kNarrowExtent = std::int64_t{1} << 20;
 
-// A quotient beyond any cell; the wide division stops there.
+// A quotient beyond any cell; the wide division saturates there.
 constexpr std::int64_t kFarQuotient = std::int64_t{1} << 40;
 
 // a (u unit + [a > 0] unit - p) + b (...) >= 0 for the cell's corner farthest along (a, b), written for u, v.
 HalfPlane half_plane(std::int64_t a, std::int64_t b, glm::ivec2 p, std::int64_t unit) {
-    const bool is_strict = a > 0 || b > 0;  // the corner is not of the cell
+    const bool is_strict = a > 0 || b > 0;  // the corner is not part of the cell
     const std::int64_t bound = a * (p.x - (a > 0 ? unit : 0)) + b * (p.y - (b > 0 ? unit : 0));
     return {a * unit, b * unit, bound + (is_strict ? 1 : 0)};
 }

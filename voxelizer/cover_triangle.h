@@ -3,10 +3,10 @@
 // Which cells a triangle touches: separating axes of a triangle and a box (T. Akenine-Moller, "Fast 3D
 // Triangle-Box Overlap Testing", 2001) in the form of half-planes in three projections and a slab (M. Schwarz
 // and H.-P. Seidel, "Fast Parallel Surface and Solid Voxelization on GPUs", 2010), in exact integers. Each
-// half-plane is linear in x, so a row of cells along x is an interval: one division per half-plane, no test
-// per cell. Cells are half open, [c, c+1): a point belongs to one cell, also on a grid plane, and a surface
-// has no hole because each of its points lies in a cell that it touches. A bound that a box approaches but
-// does not reach is strict, hence the +1 in `bound`.
+// half-plane is linear in x, so the cells of a row along x are an interval: one division per half-plane, no
+// test per cell. Cells are half open, [c, c+1): a point belongs to one cell even on a grid plane, and a
+// surface has no hole because each of its points lies in a cell that it touches. A bound that a box
+// approaches but does not reach is strict, hence the +1 in `bound`.
 
 #include <algorithm>
 #include <array>
@@ -50,7 +50,7 @@ struct PlaneProjection {
     std::array<HalfPlane, 6> rules;
     int count = 0;
 
-    // The part of `range` (of u) that holds at v.
+    // The part of `range` (of u) that satisfies all of them at v.
     [[nodiscard]] CellRange cells_at(std::int32_t v, CellRange range) const;
 };
 
@@ -62,16 +62,16 @@ struct Slab {
     T high{};                     // likewise against n
     T low_bound{}, high_bound{};  // low >= low_bound, high <= high_bound
     glm::ivec3 origin{0};
-    bool is_needed = false;  // not for planes across an axis, where the bounding box says it all
+    bool is_needed = false;  // not for axis-aligned planes, where the bounding box suffices
 
     [[nodiscard]] CellRange cells_at(std::int32_t y, std::int32_t z, CellRange range) const;
 };
 
-// Integer division towards minus infinity; b > 0. For the wide type the quotient is cut to 2^40.
+// Integer division rounded towards minus infinity; b > 0. For the wide type the quotient saturates at 2^40.
 [[nodiscard]] std::int64_t floor_quotient(std::int64_t a, std::int64_t b);
 [[nodiscard]] std::int64_t floor_quotient(__int128 a, __int128 b);
 
-// All that is known of a triangle before cells are visited.
+// Everything that is computed of a triangle before cells are visited.
 struct TriangleCover {
     CellBox box;
     PlaneProjection xy, xz, yz;  // u is the first axis
@@ -87,7 +87,7 @@ void for_each_span(const TriangleCover& cover, const CellBox& within, const Emit
 
 // ---- templates ----
 
-// The part of `range` from `first` to `last`.
+// The intersection of `range` with first..last.
 [[nodiscard]] inline CellRange inside(CellRange range, std::int64_t first, std::int64_t last) {
     first = std::max<std::int64_t>(range.first, first);
     last = std::min<std::int64_t>(range.last, last);
@@ -106,8 +106,8 @@ CellRange Slab<T>::cells_at(std::int32_t y, std::int32_t z, CellRange range) con
     return inside(range, first, last);
 }
 
-// Calls emit(y, z, first x, last x) for the rows of cells in `within` that the triangle touches, z by z and
-// in each z by y.
+// Calls emit(y, z, first x, last x) for the rows of cells in `within` that the triangle touches, ordered by
+// z, then y.
 template <class Emit>
 void for_each_span(const TriangleCover& cover, const CellBox& within, const Emit& emit) {
     constexpr int kTableRows = 64;  // rows whose xy interval is kept: those of a block

@@ -1,8 +1,8 @@
 #include "voxelizer/decode_image.h"
 
-// The decoder is compiled here, and not taken from the library of the system, because it asks for as much
-// memory as a file says: a PNG of 100 bytes can ask for 2 GiB. Here it gets its memory from a budget, and
-// knows only the two formats that glTF has.
+// The decoder is compiled here instead of using the system's library, because it allocates as much memory as
+// a file claims to need: a PNG of 100 bytes can request 2 GiB. Here its memory comes from a budget, and it
+// supports only the two formats of glTF.
 
 #include <algorithm>
 #include <cstdlib>
@@ -64,7 +64,7 @@ constexpr std::size_t kBytesPerTexel = 32;
 constexpr std::size_t kBytesPerFileByte = 4;
 constexpr std::size_t kFixedBytes = std::size_t{1} << 20;
 
-// A progressive JPEG goes over all texels once for each scan, however short that is. Encoders write about
+// A progressive JPEG passes over all texels once per scan, however short the scan is. Encoders write about
 // ten.
 constexpr int kMaxScans = 64;
 

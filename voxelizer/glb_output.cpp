@@ -22,13 +22,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of the glTF 2.0 specification.
+// Constants of the glTF 2.0 specification.
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementBuffer = 34963,
               kNearest = 9728, kClampToEdge = 33071;
 constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbJsonChunk = 0x4E4F534A, kGlbBinChunk = 0x004E4942;
 
-// Lengths in the file are words of 32 bits. Four corners of position, normal and uv, and six indices; the
-// JSON of 255 materials and the palette stay far below the rest.
+// Lengths in the file are 32-bit words. A quad has four corners of position, normal and uv, and six indices;
+// the JSON of 255 materials and the palette stay far below the rest.
 constexpr std::uint64_t kMaxGlbBytes = 0xFFFFFFFF, kBytesPerQuad = 4 * (3 + 3 + 2) * 4 + 6 * 4,
                         kMaxOtherBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMaxQuads = (kMaxGlbBytes - kMaxOtherBytes) / kBytesPerQuad;
@@ -47,12 +47,12 @@ void put_vector(std::vector<std::byte>& bytes, glm::vec3 v) {
         put_float(bytes, v[axis]);
 }
 
-// From z up to y up.
+// Converts z up to y up.
 glm::vec3 upright(glm::ivec3 v) {
     return {v.x, v.z, -v.y};
 }
 
-// What a material of glTF says beside the colour; indices that agree share one.
+// The properties of a glTF material besides its colour; palette indices with equal ones share it.
 struct GlbLook {
     bool emits = false;
     float gain = 1.0f;  // of the emission over the palette's colour
@@ -123,7 +123,7 @@ class GlbWriter {
         root_["images"][0] = {{"mimeType", "image/png"}, {"bufferView", add_view(png, 0)}};
     }
 
-    // The quads of one look.
+    // Adds the quads of one look.
     void add_part(const GlbLook& look, const std::vector<VoxelQuad>& quads) {
         std::vector<std::byte> positions, normals, uvs, indices;
         glm::vec3 low(1e30f), high(-1e30f);

@@ -16,8 +16,8 @@ struct GlbOutput {
 
 // The visible voxels of a file at frame 0 as a mesh for game engines (binary glTF 2.0): rectangles of one
 // palette index, flat normals, one texture of 256 x 1 texels that holds the palette, one material for each
-// kind of surface. A voxel is a unit long; z up becomes y up. Deterministic. Throws Error(input_refused) when
-// the graph cannot be walked, no voxel is visible, or the file would hold over 4 GiB.
+// kind of surface. A voxel is one unit long; z up becomes y up. Deterministic. Throws Error(input_refused)
+// when the graph cannot be traversed, no voxel is visible, or the file would exceed 4 GiB.
 [[nodiscard]] GlbOutput glb_of(const VoxFile& file);
 
 }  // namespace voxilux

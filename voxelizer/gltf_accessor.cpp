@@ -72,15 +72,15 @@ struct ElementType {
     std::size_t width = 1;
 };
 
-// A block of elements as the model gives it, and what to call it in messages.
+// A block of elements as given by the model, and its name in messages.
 struct ByteBlock {
     std::string name;
     int view = -1;
     std::uint64_t offset = 0;
 };
 
-// `count` elements of a block. Products stay below 2^64: counts, offsets and strides are held against the
-// view before they are multiplied.
+// Locates `count` elements of a block. Products stay below 2^64: counts, offsets and strides are checked
+// against the view before they are multiplied.
 Elements locate(const GltfDocument& document, const ByteBlock& block, const ElementType& type,
                 std::uint64_t count) {
     const auto& views = document.model.bufferViews;
@@ -151,13 +151,13 @@ std::uint64_t checked_count(const GltfDocument& document, std::uint64_t count, c
     return count;
 }
 
-// accessors[index], checked but for its ranges.
+// accessors[index], checked except for its ranges.
 struct Source {
     const tinygltf::Accessor& accessor;
     std::string name;
     ElementType type;
     std::size_t count = 0;
-    std::optional<Elements> elements;  // zeros without
+    std::optional<Elements> elements;  // zeros if absent
 };
 
 Source read_source(const GltfDocument& document, std::size_t index) {
@@ -184,7 +184,7 @@ void for_each_sparse(const GltfDocument& document, const Source& source, Put put
     const auto& sparse = source.accessor.sparse;
     if (!sparse.isSparse) return;
     const std::string name = source.name + ".sparse";
-    // A number below 0, which the form of a document lets no field have, is far above every limit.
+    // A number below 0, which the form of a document excludes, would be far above every limit.
     const std::uint64_t stored = checked_count(document, static_cast<std::uint64_t>(sparse.count), name);
     if (stored > source.count) throw MeshFault(name + ".count is above that of its accessor");
     const Component index_type = checked_component(sparse.indices.componentType, name + ".indices");

@@ -95,8 +95,8 @@ void check_required_extensions(const JsonItem& root) {
     }
 }
 
-// How many objects of a document have each extension; one that the document has for its own lists alone
-// counts once. Iterative: a file may be nested as deep as it is long.
+// How many objects of a document use each extension; one that only the document itself uses counts once.
+// Iterative: a file may be nested as deep as it is long.
 std::map<std::string, std::size_t> extension_uses(const json& document) {
     std::map<std::string, std::size_t> uses;
     std::vector<const json*> open = {&document};
@@ -124,18 +124,18 @@ bool moves_nodes(const json& animation) {
     });
 }
 
-// What the document says that is not read, or not as it stands.
+// Notes what the document contains that is not read, or not exactly.
 void note_features(const json& document, MeshNotes& notes) {
     for (const auto& [name, uses] : extension_uses(document))
         note_feature(FeatureKind::gltf_extension, name, notes, uses);
     const auto animations = document.find("animations");
     if (animations == document.end() || !animations->is_array()) return;
     if (const auto moving = std::ranges::count_if(*animations, moves_nodes); moving > 0)
-        notes["an animation is ignored: the mesh is read in its pose of rest"] +=
+        notes["an animation is ignored: the mesh is read in its rest pose"] +=
             static_cast<std::size_t>(moving);
 }
 
-// The form of the document, once it is known to be one that is read.
+// The form of the document, after checking that it is of a kind that is read.
 json checked_form(Bytes text, MeshNotes& notes) {
     const json document = parse_json(text);
     if (!document.is_object()) throw MeshFault("the JSON is not an object");
@@ -151,7 +151,7 @@ const json& list_of(const json& form, const char* key) {
     return found == form.end() ? kNone : *found;
 }
 
-// tinygltf refuses indices without a view, and does not say why there is none.
+// tinygltf refuses indices without a view, but does not say why there is none.
 void check_index_views(const json& form) {
     const json& accessors = list_of(form, "accessors");
     for (const json& mesh : list_of(form, "meshes")) {
@@ -167,7 +167,7 @@ void check_index_views(const json& form) {
     }
 }
 
-// tinygltf takes the place of a picture in its buffer without a look at the size of either.
+// tinygltf takes the range of an image in its buffer without checking the size of either.
 void check_image_views(const json& form) {
     const json &images = list_of(form, "images"), &views = list_of(form, "bufferViews"),
                &buffers = list_of(form, "buffers");
@@ -188,8 +188,9 @@ void check_image_views(const json& form) {
     }
 }
 
-// The distances between elements, by their view, which tinygltf would refuse a whole file for: some writers
-// use others than multiples of 4 up to 252. They are held against their elements when those are read.
+// Removes the strides, keyed by view, because tinygltf would refuse the whole file for some of them: some
+// writers use values other than multiples of 4 up to 252. They are checked against their elements when those
+// are read.
 std::map<std::size_t, std::uint64_t> take_strides(json& form) {
     std::map<std::size_t, std::uint64_t> strides;
     for (std::size_t i = 0; i < list_of(form, "bufferViews").size(); ++i) {
@@ -202,8 +203,8 @@ std::map<std::size_t, std::uint64_t> take_strides(json& form) {
     return strides;
 }
 
-// tinygltf refuses a file for one camera that lacks what is not read here. A camera that is not a perspective
-// one becomes one without an angle.
+// tinygltf refuses a file for a camera that lacks fields that are not read here. A camera that is not
+// perspective becomes one without an angle.
 void complete_cameras(json& form) {
     if (!form.contains("cameras")) return;
     for (json& camera : form["cameras"]) {
@@ -213,8 +214,8 @@ void complete_cameras(json& form) {
     }
 }
 
-// The URIs of a list, in whose place its items get their own number. Only that is given to tinygltf: its
-// decoding of URIs takes a + for a space, and lets broken base64 pass.
+// Removes the URIs of a list and replaces each by the index of its item. Only the index is passed to
+// tinygltf: its URI decoding reads a + as a space, and accepts broken base64.
 std::vector<std::optional<std::string>> take_uris(json& form, const char* key) {
     std::vector<std::optional<std::string>> uris;
     if (!form.contains(key)) return uris;
@@ -226,7 +227,7 @@ std::vector<std::optional<std::string>> take_uris(json& form, const char* key) {
     return uris;
 }
 
-// Images have a uri or a bufferView, or lack both: then they stay without a picture.
+// Images have a uri or a bufferView, or neither: those remain without an image.
 std::vector<std::optional<std::string>> take_image_uris(json& form) {
     auto uris = take_uris(form, "images");
     for (std::size_t i = 0; i < uris.size(); ++i) {
@@ -239,7 +240,7 @@ std::vector<std::optional<std::string>> take_image_uris(json& form) {
     return uris;
 }
 
-// What a buffer is read from.
+// The sources of a buffer.
 struct BufferSources {
     std::vector<std::optional<std::string>> uris;
     std::vector<std::uint64_t> lengths;

@@ -11,16 +11,16 @@
 
 namespace voxilux {
 
-// What tinygltf read of a .gltf or .glb file. Nothing in the model is to be trusted before it is checked: its
-// indices may lie outside its lists, and its ranges outside their buffers.
+// What tinygltf read from a .gltf or .glb file. Nothing in the model is valid until checked: its indices may
+// be out of range, and its ranges outside their buffers.
 struct GltfDocument {
     std::filesystem::path folder;
     MeshLimits limits;
     tinygltf::Model model;  // its images are not read: each has its uri or bufferView
 };
 
-// The document of a file's bytes, with all of its buffers: its container, version, required extensions and
-// the types of its fields are checked here, the rest where it is read; extensions that are not read are
+// Parses a file's bytes into a document with all of its buffers. Its container, version, required extensions
+// and the types of its fields are checked here, the rest where it is read; extensions that are not read are
 // noted. Throws MeshFault. Source: glTF 2.0 specification, sections 3 and 4.
 [[nodiscard]] GltfDocument parse_gltf(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                                       const MeshLimits& limits, MeshNotes& notes);

@@ -21,7 +21,7 @@ enum class Kind {
     text,
     object,   // of Field::fields
     objects,  // a list of them
-    mark,     // only that it is there counts
+    mark,     // only its presence matters
 };
 
 struct Field {
@@ -170,12 +170,12 @@ json value_of(const JsonItem& item, const Field& field) {
     return {};
 }
 
-// Recursion goes as deep as the tables above.
+// Recursion is as deep as the tables above.
 json form_of(const JsonItem& item, std::span<const Field> fields) {
     json form = json::object();
     for (const Field& field : fields) {
         const bool is_there = has(item, field.key);
-        // A required object that is missing is named by the field that it lacks.
+        // A missing required object is reported by the field that it lacks.
         if (!is_there && field.is_required && field.kind != Kind::object)
             refuse(item, field.key, "is missing");
         if (is_there || field.is_required) form[field.key] = value_of(item, field);

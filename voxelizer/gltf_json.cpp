@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLargestWhole = 9007199254740992.0;  // 2^53: whole numbers are exact in a double up to here
+constexpr double kLargestWhole = 9007199254740992.0;  // 2^53: integers up to here are exact in a double
 
 const json* find(const JsonItem& item, const char* key) {
     const auto found = item.json->find(key);

@@ -7,8 +7,8 @@
 
 namespace voxilux {
 
-// A JSON object of a glTF file, and what to call it in messages: "accessors[3]". Nothing that the functions
-// below give has a wrong type: they throw MeshFault instead.
+// A JSON object of a glTF file, and its name in messages: "accessors[3]". The functions below throw MeshFault
+// where a value has the wrong type.
 struct JsonItem {
     const nlohmann::json* json = nullptr;
     std::string name;
@@ -27,12 +27,12 @@ struct JsonItem {
 // Throws MeshFault: "accessors[3].count is missing".
 [[noreturn]] void refuse(const JsonItem& item, const char* key, const std::string& what);
 
-// The functions below read a key that is there.
+// The functions below read a key that must exist.
 
-// A whole number from 0 to 2^53.
+// An integer from 0 to 2^53.
 [[nodiscard]] std::uint64_t read_whole(const JsonItem& item, const char* key);
 
-// A whole number that an int holds.
+// An integer that an int holds.
 [[nodiscard]] int read_int(const JsonItem& item, const char* key);
 [[nodiscard]] std::vector<int> read_ints(const JsonItem& item, const char* key);
 

@@ -97,7 +97,7 @@ Texture read_image(Reader& reader, std::size_t index) {
     return decode_texture(view_bytes(reader.document, *view), name, budget);
 }
 
-// Adds the texture of a key to the mesh. A picture that is missing or broken costs its colours, not the mesh.
+// Adds the texture of a key to the mesh. A missing or broken image loses its colours, not the mesh.
 std::optional<std::uint32_t> add_texture(Reader& reader, const TextureKey& key) {
     try {
         Texture texture = read_image(reader, key.image);
@@ -172,7 +172,7 @@ glm::vec4 colour_factor(const std::vector<double>& v, const std::string& name) {
     return glm::clamp(glm::vec4(glm::dvec4(v[0], v[1], v[2], v[3])), 0.0f, 1.0f);
 }
 
-// A material of the file, and what to call it in messages.
+// A material of the file, and its name in messages.
 struct Item {
     const tinygltf::Material& material;
     std::string name;
@@ -187,7 +187,7 @@ void read_metallic_roughness(Reader& reader, const Item& item, const MaterialUse
         read_texture_use(reader, info_of(pbr.baseColorTexture), name + ".baseColorTexture", use);
     material.metallic = unit_number(pbr.metallicFactor);
     material.roughness = unit_number(pbr.roughnessFactor);
-    // The roughness of what is neither metal nor glass does not show in a voxel.
+    // Roughness is visible only on metal and glass voxels.
     if (material.metallic > 0.0f || item.material.extensions.contains("KHR_materials_transmission"))
         material.metallic_roughness_texture = read_texture_use(reader, info_of(pbr.metallicRoughnessTexture),
                                                                name + ".metallicRoughnessTexture", use);
@@ -195,8 +195,7 @@ void read_metallic_roughness(Reader& reader, const Item& item, const MaterialUse
 
 constexpr const char* kSpecularGlossinessName = "KHR_materials_pbrSpecularGlossiness";
 
-// Its diffuse part is the base colour of a material without metal; the specular colour has no place in a
-// voxel.
+// The diffuse part is the base colour of a material without metal; a voxel cannot show the specular colour.
 void read_specular_glossiness(Reader& reader, const Item& item, const MaterialUse& use,
                               MeshMaterial& material) {
     const Value* old = find_extension(item.material.extensions, kSpecularGlossinessName);
@@ -240,7 +239,7 @@ MeshMaterial read_material(Reader& reader, const MaterialUse& use) {
     else
         read_metallic_roughness(reader, item, use, material);
     if (extensions.contains(
-            "KHR_materials_unlit")) {  // its colour is the base colour, and nothing else counts
+            "KHR_materials_unlit")) {  // its colour is the base colour, and nothing else matters
         material.metallic = 0.0f;
         material.metallic_roughness_texture.reset();
     } else {

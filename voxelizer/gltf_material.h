@@ -27,16 +27,16 @@ struct TextureKey {
     auto operator<=>(const TextureKey&) const = default;
 };
 
-// Materials and textures that were read so far, by what asked for them. An image that cannot be read is noted
-// and kept as nothing.
+// Materials and textures read so far, by their keys. An image that cannot be read is noted and stored as
+// absent.
 struct GltfMaterials {
     std::map<MaterialUse, std::uint32_t> materials;
     std::map<TextureKey, std::optional<std::uint32_t>> textures;
     TexelBudget budget;
 };
 
-// The index in mesh.materials of a material, which is read, with the images that it uses, on its first use.
-// Source: glTF 2.0, section 3.9; the KHR_materials extensions of the same name as the fields.
+// The index of a material in mesh.materials. It is read, with its images, on first use. Source: glTF 2.0,
+// section 3.9; the KHR_materials extensions of the same name as the fields.
 [[nodiscard]] std::uint32_t use_material(const GltfDocument& document, const MaterialUse& use,
                                          GltfMaterials& known, Mesh& mesh, MeshNotes& notes);
 

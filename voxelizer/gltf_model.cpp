@@ -1,6 +1,6 @@
-// tinygltf is compiled here, and not taken from the library of the system, without its own access to files
-// and its own decoder of images: neither knows a bound.
-#include <fstream>  // its writer of files, which is not used, needs it
+// tinygltf is compiled here instead of using the system's library, without its file access and its image
+// decoder, neither of which has limits.
+#include <fstream>  // needed by its file writer, which is not used
 
 #define TINYGLTF_IMPLEMENTATION
 #include "voxelizer/gltf_model.h"

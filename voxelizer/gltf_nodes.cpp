@@ -26,8 +26,8 @@ std::array<double, size> numbers_or(const std::vector<double>& numbers, const st
     return result;
 }
 
-// `t`, `r` (x, y, z, w) and `s` in one; nothing where the rotation is zero. A rotation is read as it stands:
-// the specification asks for a unit quaternion, and rounding is not a fault.
+// `t`, `r` (x, y, z, w) and `s` combined; nothing where the rotation is zero. A rotation is used
+// unnormalised: the specification requires a unit quaternion, and rounding errors in it are no fault.
 std::optional<glm::dmat4> placement(const std::array<double, 3>& t, const std::array<double, 4>& r,
                                     const std::array<double, 3>& s) {
     const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
@@ -56,8 +56,8 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, const std::string& name) {
     return *matrix;
 }
 
-// The numbers of one attribute of EXT_mesh_gpu_instancing; `count` becomes theirs, or is that of an attribute
-// before.
+// The numbers of one attribute of EXT_mesh_gpu_instancing. Sets `count` for the first attribute; all others
+// must have as many.
 std::optional<AccessorValues> instance_attribute(const GltfDocument& document, const tinygltf::Value& list,
                                                  const char* key, std::size_t width, const std::string& name,
                                                  std::optional<std::size_t>& count) {
@@ -84,7 +84,7 @@ std::array<double, size> element_or(const std::optional<AccessorValues>& values,
     return element;
 }
 
-// Where the copies of a node's mesh stand in the node's space: one at its origin without
+// The transforms of the copies of a node's mesh in the node's space: one identity without
 // EXT_mesh_gpu_instancing. Source: that extension.
 std::vector<glm::dmat4> instances_of(const GltfDocument& document, const tinygltf::Node& node,
                                      const std::string& name) {
@@ -210,7 +210,7 @@ PlacedNodes place_nodes(const GltfDocument& document, std::optional<std::size_t>
         const Step step = open.back();
         open.pop_back();
         const tinygltf::Node& node = model.nodes[step.node];
-        if (is_hidden(node)) continue;  // and all below it
+        if (is_hidden(node)) continue;  // and everything below it
         const std::string name = fmt::format("nodes[{}]", step.node);
         const glm::dmat4 matrix = step.parent * local_matrix(node, name);
         enter(children_of(model, step.node), matrix);
@@ -222,7 +222,7 @@ PlacedNodes place_nodes(const GltfDocument& document, std::optional<std::size_t>
             placed.meshes.push_back({*mesh, matrix * instance});
         if (placed.meshes.size() > document.limits.parts)
             throw MeshFault(fmt::format("over {} parts of meshes are not read", document.limits.parts));
-        if (node.skin != -1) ++notes["a skin is ignored: the mesh is read in its pose of rest"];
+        if (node.skin != -1) ++notes["a skin is ignored: the mesh is read in its rest pose"];
     }
     return placed;
 }

@@ -11,10 +11,10 @@
 namespace voxilux {
 namespace {
 
-// Faces of one plane and row, side by side, of one index.
+// Adjacent faces of one index in one row of a plane.
 struct FaceRun {
     int plane = 0;
-    int row = 0;  // place on the last axis
+    int row = 0;  // position on the last axis
     int first = 0, last = 0;
     std::uint8_t index = 0;
 };
@@ -23,14 +23,14 @@ auto face_order(const glm::ivec3& cell, int axis) {
     return std::tuple(cell[(axis + 2) % 3], cell[(axis + 1) % 3], cell[axis]);
 }
 
-// Cells in the order of place_of: whether b is the one behind a.
+// Whether b is the neighbour of a along the axis, with cells in the order of place_of.
 bool is_next(const IndexedCell& a, const IndexedCell& b, int axis) {
     glm::ivec3 behind = a.cell;
     ++behind[axis];
     return behind == b.cell;
 }
 
-// The faces that look along `axis`, upwards or downwards, as runs of one.
+// The faces that point along `axis`, upwards or downwards, as runs of length one.
 std::vector<FaceRun> faces_of(std::span<const IndexedCell> cells, const std::array<bool, 256>& is_clear,
                               int axis, bool is_positive) {
     std::vector<FaceRun> faces;
@@ -64,8 +64,8 @@ std::vector<FaceRun> joined(const std::vector<FaceRun>& faces) {
     return runs;
 }
 
-// Joins runs that are alike in consecutive rows. `open` are the rectangles that end in the row before, by
-// their first cell.
+// Joins equal runs in consecutive rows. `open` are the rectangles that end in the previous row, by their
+// first cell.
 class QuadMaker {
   public:
     QuadMaker(int axis, bool is_positive, std::vector<VoxelQuad>& quads)
@@ -134,7 +134,7 @@ std::vector<IndexedCell> cells_of_file(const VoxFile& file) {
     }
     const auto place = [](const IndexedCell& c) { return face_order(c.cell, 0); };
     std::ranges::stable_sort(cells, {}, place);
-    // Of equal places the last, which comes first from the other end.
+    // At equal positions the last cell counts, which comes first in reverse order.
     const auto same = [](const IndexedCell& a, const IndexedCell& b) { return a.cell == b.cell; };
     cells.erase(cells.begin(), std::unique(cells.rbegin(), cells.rend(), same).base());
     return cells;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Voxels as few rectangles: faces between a voxel and what can be seen through, joined along rows and then
-// across them where they have one palette index (M. Lysenko, "Meshing in a Minecraft Game", 2012).
+// Voxels as few rectangles: faces between a voxel and transparent or empty cells, joined along rows and then
+// across them where they have the same palette index (M. Lysenko, "Meshing in a Minecraft Game", 2012).
 
 #include <array>
 #include <cstdint>
@@ -30,11 +30,11 @@ struct VoxelQuad {
 };
 
 // The cells of all visible instances at frame 0, each once: where several fill one, the last counts. Throws
-// Error(input_refused) where the graph cannot be walked, and beyond 2^25 cells.
+// Error(input_refused) where the graph cannot be traversed, and beyond 2^25 cells.
 [[nodiscard]] std::vector<IndexedCell> cells_of_file(const VoxFile& file);
 
-// The faces of the cells, which come once each. Those of an index that is clear show what lies behind them.
-// Throws Error(input_refused) as soon as there are over `max_quads`.
+// The faces of the cells, which must be unique. Cells with a transparent index do not hide the faces behind
+// them. Throws Error(input_refused) as soon as there are over `max_quads`.
 [[nodiscard]] std::vector<VoxelQuad> greedy_quads(std::vector<IndexedCell> cells,
                                                   const std::array<bool, 256>& is_clear,
                                                   std::size_t max_quads);

@@ -19,7 +19,7 @@ std::string shown(const std::filesystem::path& path) {
     return printable(path.string(), kUncut);
 }
 
-// The set as a file, and what a note says of it.
+// Makes a file of the set, and the note about it.
 ImportedVoxels imported(const std::filesystem::path& path, const VoxelSet& set, const Mesh& mesh,
                         const std::string& origin) {
     const VoxelPalette palette(set, false);
@@ -71,7 +71,7 @@ ImportedVoxels import_voxels(const std::filesystem::path& path, const GridReques
     const VoxelFormat* const format = voxel_format_of(path);
     if (format == nullptr) return import_mesh(path, grid);
     VoxelCells voxels = load_cells(path, *format);
-    Mesh rest;  // what else a set may come with: no camera, and warnings
+    Mesh rest;  // carries warnings; it has no camera
     rest.warnings = std::move(voxels.warnings);
     return imported(path, voxel_set_of(std::move(voxels)), rest, "");
 }

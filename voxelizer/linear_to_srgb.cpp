@@ -12,8 +12,8 @@ namespace {
 constexpr int kBuckets = 4096;
 
 struct Table {
-    std::array<float, 257> from;                   // the least linear value that rounds to each byte
-    std::array<std::uint8_t, kBuckets + 1> start;  // the byte of a bucket's low end
+    std::array<float, 257> from;                   // the smallest linear value that rounds to each byte
+    std::array<std::uint8_t, kBuckets + 1> start;  // the byte at the low end of a bucket
 };
 
 Table make_table() {
@@ -34,9 +34,9 @@ Table make_table() {
 const Table kTable = make_table();
 
 std::uint8_t srgb_byte(float linear) {
-    const float inside = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // a NaN gives 0, too
+    const float inside = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;  // NaN also gives 0
     const std::uint8_t byte = kTable.start[static_cast<std::size_t>(inside * kBuckets)];
-    // A bucket holds at most one step: bytes are 1 / (12.92 * 255) apart at least.
+    // A bucket contains at most one step: steps are at least 1 / (12.92 * 255) apart.
     return static_cast<std::uint8_t>(byte + (kTable.from[byte + std::size_t{1}] <= inside ? 1 : 0));
 }
 

@@ -15,7 +15,7 @@
 namespace voxilux {
 namespace {
 
-// The accessors of a primitive's vertices. Primitives of one node with the same ones share their vertices.
+// The accessors of a primitive's vertices. Primitives of one node with equal accessors share their vertices.
 using AttributeKey = std::array<std::optional<std::size_t>, 4>;  // POSITION, TEXCOORD_0, TEXCOORD_1, COLOR_0
 
 struct VertexRange {
@@ -32,7 +32,7 @@ struct Loading {
     std::uint64_t triangles_read = 0;
 };
 
-// A part of a mesh of the file, and what to call it in messages.
+// A part of a mesh of the file, and its name in messages.
 struct Part {
     const tinygltf::Primitive& primitive;
     std::string name;
@@ -60,7 +60,7 @@ AccessorValues read_attribute(Loading& loading, std::size_t accessor, std::size_
     return values;
 }
 
-// Appends uv coordinates; the vertices before them, which had none, get zeros.
+// Appends uv coordinates; earlier vertices without any get zeros.
 void append_uv(Loading& loading, std::optional<std::size_t> accessor, const VertexRange& range,
                std::vector<glm::vec2>& uvs) {
     if (!accessor) {
@@ -97,7 +97,8 @@ void append_colors(Loading& loading, std::optional<std::size_t> accessor, const 
     }
 }
 
-// Positions that are all zero by omission are those of a mesh whose data only an extension can unpack.
+// Positions that are all zero because no data is given belong to a mesh whose data only an extension can
+// unpack.
 void check_has_data(const Loading& loading, const Part& part, std::size_t positions) {
     const tinygltf::Accessor& accessor = loading.document.model.accessors[positions];
     if (accessor.bufferView != -1 || accessor.sparse.isSparse) return;
@@ -152,7 +153,7 @@ struct Corners {
     std::vector<std::uint32_t> indices;  // empty: the vertices in their order
     VertexRange vertices;
     Topology topology = Topology::list;
-    bool is_mirrored = false;  // the node turns clockwise into counter-clockwise; see glTF 2.0, section 3.7.4
+    bool is_mirrored = false;  // the node reverses the winding order; see glTF 2.0, section 3.7.4
 };
 
 void append_triangles(Loading& loading, const Corners& corners, std::uint32_t material, bool is_indexed) {

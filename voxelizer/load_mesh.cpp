@@ -29,14 +29,14 @@ constexpr MeshFormat kMeshFormats[] = {{".gltf", load_gltf},     {".glb", load_g
                                        {".obj", load_obj},       {".stl", load_stl},
                                        {".ply", load_ply, true}, {".xyz", load_xyz, true}};
 
-// That of a file's ending, or nullptr.
+// The format of a file's extension, or nullptr.
 const MeshFormat* mesh_format_of(const std::filesystem::path& path) {
     const auto found = std::ranges::find_if(
         kMeshFormats, [&](const MeshFormat& format) { return has_ending(path, format.ending); });
     return found == std::end(kMeshFormats) ? nullptr : found;
 }
 
-// Texture coordinates that no texture reads would only take memory.
+// Texture coordinates that no texture uses would only take memory.
 void drop_unread_coordinates(Mesh& mesh) {
     bool is_read[2] = {false, false};
     for (const MeshMaterial& material : mesh.materials) {

@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// What a mesh file may grow to while it is read. A file over a limit is refused before memory is taken.
+// Limits of a mesh file while it is read. A file over a limit is refused before its memory is allocated.
 struct MeshLimits {
     std::uint64_t vertices = std::uint64_t{1} << 27;
     std::uint64_t triangles = std::uint64_t{1} << 27;
@@ -27,17 +27,17 @@ struct MeshRequest {
     MeshLimits limits;
 };
 
-// The endings of files that load_mesh reads, as ".gltf, .glb, ...", and whether a file has one of them.
+// The extensions of files that load_mesh reads, as ".gltf, .glb, ...", and whether a file has one of them.
 [[nodiscard]] std::string mesh_endings();
 [[nodiscard]] bool is_mesh(const std::filesystem::path& path);
 
-// The triangles, materials and textures of a mesh file, chosen by its ending. Vertices that are not finite
-// take their triangles with them, counted in the warnings. Throws Error(input_refused) with
-// one line that names the file: unknown suffix, broken or unsupported content, a missing buffer, no
-// triangles, and with is_strict any warning.
+// The triangles, materials and textures of a mesh file; the extension selects the reader. Triangles with a
+// vertex that is not finite are left out and counted in the warnings. Throws Error(input_refused) with one
+// line that names the file: unknown extension, broken or unsupported content, a missing buffer, no triangles,
+// and with is_strict any warning.
 [[nodiscard]] Mesh load_mesh(const std::filesystem::path& path, const MeshRequest& request = {});
 
-// What is wrong inside a mesh file, without its name: load_mesh adds that.
+// What is wrong inside a mesh file, without its name, which load_mesh adds.
 class MeshFault : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -34,7 +34,7 @@ struct Entry {
     bool has_metallic = false;
 };
 
-// What a line is read with.
+// What the parsing of a line needs.
 struct MtlLine {
     ObjLines& lines;
     std::string key;
@@ -45,8 +45,8 @@ float unit(double value) {
     return std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 1.0f;
 }
 
-// Up to three numbers; what follows a lone first one counts as equal to it. Nothing, and a note, for colours
-// in other terms (spectral, xyz).
+// Up to three numbers; missing ones equal the first. Nothing, and a note, for colours in other terms
+// (spectral, xyz).
 std::optional<glm::dvec3> read_rgb(const MtlLine& line) {
     ObjLines& lines = line.lines;
     const std::string_view first = lines.peek_word();
@@ -118,7 +118,7 @@ double read_opacity(const MtlLine& line) {
     return line.lines.require_number();
 }
 
-// A keyword that is not read: noted, but for a line that asks for nothing.
+// Skips a keyword that is not read; a line that changes nothing needs no note.
 void skip_field(const MtlLine& line) {
     std::vector<std::string_view> words;
     while (!line.lines.rest().empty())
@@ -198,8 +198,8 @@ std::optional<TextureUse> texture_use(const std::optional<MapLine>& map, MtlLibr
     return use;
 }
 
-// Whether the illumination model is one of glass, and a note where it is none that is read. 4 and 9 are glass
-// by their refractive index: writers give them to opaque materials, too, with none or that of air.
+// Whether the illumination model is one of glass; notes models that are not supported. 4 and 9 count as glass
+// only with a refractive index: writers also use them for opaque materials, without one or with that of air.
 bool is_glass(const Entry& entry, MeshNotes& notes) {
     const double model = entry.illumination;
     if (model == 6.0 || model == 7.0) return true;
@@ -215,14 +215,14 @@ void finish_glass(const Entry& entry, MeshMaterial& material, MeshNotes& notes) 
     material.transmission = 1.0f;
     if (entry.filter && *entry.filter != glm::dvec3(0.0))
         material.base_color = glm::vec4(unit(*entry.filter), material.base_color.a);
-    // The format scatters no refracted light; a width of highlights, where there is one, is that of both.
+    // The format does not scatter refracted light; a highlight width, where given, applies to both.
     if (!entry.roughness && !entry.shine) material.roughness = 0.0f;
-    if (entry.base_color && entry.filter) ++notes["map_Kd is read as the filter of a glass"];
+    if (entry.base_color && entry.filter) ++notes["map_Kd is read as the filter colour of glass"];
 }
 
 void finish_emission(const Entry& entry, MtlLibrary& library, Mesh& mesh, MeshMaterial& material,
                      MeshNotes& notes) {
-    // A texture without a factor counts as it is.
+    // A texture without a factor is used unchanged.
     const glm::dvec3 fallback(entry.emissive ? 1.0 : 0.0);
     material.emissive = emission_in_range(entry.emission.value_or(fallback), notes);
     if (material.emissive != glm::vec3(0.0f))
@@ -235,10 +235,10 @@ void finish_alpha(const Entry& entry, MeshMaterial& material, MeshNotes& notes) 
     if (entry.alpha && entry.base_color && entry.alpha->file == entry.base_color->file)
         material.alpha_mode = AlphaMode::mask;
     else if (entry.alpha)
-        ++notes["map_d is ignored: it is another picture than map_Kd"];
+        ++notes["map_d is ignored: it is not the image of map_Kd"];
 }
 
-// What depends on several fields, whatever their order.
+// Evaluates what depends on several fields, whatever their order.
 MeshMaterial finish(Entry& entry, MtlLibrary& library, Mesh& mesh, MeshNotes& notes) {
     MeshMaterial& material = entry.material;
     material.base_color.a = unit(entry.opacity.value_or(1.0 - entry.transparency.value_or(0.0)));
@@ -313,7 +313,7 @@ std::filesystem::path find_beside(const std::filesystem::path& folder, const std
         const std::filesystem::path inside = path_inside(folder, path);
         if (std::filesystem::exists(inside, ignored)) return inside;
     } catch (const MeshFault&) {
-        // Of another machine, or out of the folder: only its last name counts.
+        // A path of another machine, or out of the folder: only its last component is used.
     }
     return path_inside(folder, path.substr(path.find_last_of('/') + 1));
 }

@@ -13,8 +13,8 @@
 
 namespace voxilux {
 
-// Materials and textures of the MTL files that were read so far, by name. A texture that cannot be read is
-// noted and kept as nothing.
+// Materials and textures of the MTL files read so far, by name. A texture that cannot be read is noted and
+// stored as absent.
 struct MtlLibrary {
     std::filesystem::path folder;
     TexelBudget budget;
@@ -23,15 +23,15 @@ struct MtlLibrary {
 };
 
 // Reads the text of an MTL file into `mesh` and `library`. Factors are linear. Source: Wavefront MTL, and the
-// fields Pm, Pr, Ke and map_Ke of its extension for physically based shading. Throws MeshFault for a broken
+// fields Pm, Pr, Ke and map_Ke of its extension for physically based shading. Throws MeshFault for an invalid
 // number.
 void read_mtl(std::string_view text, MtlLibrary& library, Mesh& mesh, MeshNotes& notes);
 
 // The same for the file `name`; one that cannot be read is noted.
 void load_mtl(const std::string& name, MtlLibrary& library, Mesh& mesh, MeshNotes& notes);
 
-// Where a file that an OBJ or MTL names lies: inside `folder` as named, else there under its last name, for
-// paths of another machine. Throws MeshFault for a name that cannot be a file.
+// The path of a file that an OBJ or MTL names: inside `folder` as named, else there under its last component,
+// for paths of another machine. Throws MeshFault for a name that cannot be a file.
 [[nodiscard]] std::filesystem::path find_beside(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace voxilux

@@ -28,7 +28,7 @@ struct ObjPoints {
     std::vector<glm::vec2> uvs;
 };
 
-// The vertex of the mesh that a v line first became, and with which vt line.
+// The vertex of the mesh that a v line first became, and its vt line.
 struct FirstCopy {
     std::uint32_t vertex = kNone;
     std::uint32_t uv = kNone;
@@ -64,13 +64,13 @@ void read_position(ObjLines& lines, ObjPoints& points) {
 
 void read_uv(ObjLines& lines, ObjPoints& points, MeshNotes& notes) {
     const double u = lines.require_number(), v = lines.next_number().value_or(0.0);
-    const glm::vec2 uv(static_cast<float>(u), static_cast<float>(1.0 - v));  // row 0 of a texture is on top
+    const glm::vec2 uv(static_cast<float>(u), static_cast<float>(1.0 - v));  // texture row 0 is at the top
     const bool is_finite = std::isfinite(uv.x) && std::isfinite(uv.y);
     if (!is_finite) ++notes["texture coordinates that are not finite are read as 0"];
     points.uvs.push_back(is_finite ? uv : glm::vec2(0.0f));
 }
 
-// The rest of the line is one name with blanks where such a file is there, else each word is a name.
+// The rest of the line is one name with blanks if such a file exists; otherwise each word is a name.
 void read_libraries(ObjLoading& loading, ObjLines& lines) {
     const std::string whole(lines.rest());
     std::error_code ignored;
@@ -81,7 +81,7 @@ void read_libraries(ObjLoading& loading, ObjLines& lines) {
         load_mtl(std::string(word), loading.library, loading.mesh, loading.notes);
 }
 
-// What faces name, wherever it stands in the file.
+// Reads what faces refer to, wherever it is in the file.
 void read_definitions(std::string_view text, ObjLoading& loading) {
     ObjLines lines(text);
     const std::uint64_t limit = loading.request.limits.vertices;
@@ -118,7 +118,7 @@ std::uint32_t vertex_of(ObjLoading& loading, std::uint32_t position, std::uint32
     return added;
 }
 
-// The line that an index of a face names: from 1, or from -1 backwards.
+// The line that an index of a face refers to: from 1, or from -1 backwards.
 std::uint32_t line_of(const ObjLines& lines, std::string_view text, std::size_t so_far, std::size_t size) {
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);

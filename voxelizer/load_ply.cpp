@@ -14,7 +14,7 @@
 namespace voxilux {
 namespace {
 
-// Where a value of a vertex goes: x, y, z, red, green, blue.
+// The slots of a vertex's values: x, y, z, red, green, blue.
 constexpr std::size_t kSlots = 6;
 
 std::optional<std::size_t> slot_of(std::string_view name) {
@@ -72,7 +72,7 @@ class PlyReader {
             read_vertex(element, has_colour);
     }
 
-    // Colours of 8 and 16 bits are sRGB; those in floats, which most programs write so, too.
+    // Colours of 8 and 16 bits are sRGB, and so are floats, because most programs write them that way.
     void read_vertex(const PlyElement& element, bool has_colour) {
         std::array<double, kSlots> vertex{};
         for (const PlyProperty& property : element.properties) {

@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// A .ply file: vertices with colours, and faces. Without faces it is a cloud of points: positions and no
-// triangle. z up. `folder` is not used. Throws MeshFault.
+// A .ply file: vertices with colours, and faces. Without faces it is a point cloud: positions and no
+// triangles. z up. `folder` is not used. Throws MeshFault.
 [[nodiscard]] Mesh load_ply(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                             const MeshRequest& request, MeshNotes& notes);
 

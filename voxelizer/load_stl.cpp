@@ -24,8 +24,8 @@ std::uint32_t stl_word(std::span<const std::byte> bytes, std::size_t at) {
     return word;
 }
 
-// Where the triangles of a binary file end; nothing for text. Titles of binary files begin with "solid", too,
-// and some programs add bytes; a number of triangles that is made of letters, though, needs gigabytes.
+// Where the triangles of a binary file end; nothing for text. Titles of binary files may begin with "solid",
+// too, and some programs append bytes. A triangle count made of letters, however, would need gigabytes.
 std::optional<std::uint64_t> stl_binary_end(std::span<const std::byte> bytes) {
     if (bytes.size() < kStlHeadBytes) return std::nullopt;
     const std::uint64_t triangles = stl_word(bytes, kStlHeadBytes - 4);
@@ -81,7 +81,7 @@ void read_stl_binary(std::span<const std::byte> bytes, StlMesh& mesh) {
     }
 }
 
-// In any case. "facet normal", "outer loop" and what ends them say nothing that three vertices do not.
+// Case-insensitive. "facet normal", "outer loop" and their ends add nothing to the three vertices.
 void read_stl_text(std::string_view text, StlMesh& mesh) {
     constexpr std::string_view kOther[] = {"solid", "facet", "outer", "endloop", "endfacet", "endsolid"};
     ObjLines lines(text, LineRules::plain);

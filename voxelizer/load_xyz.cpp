@@ -15,7 +15,7 @@ bool is_code(double value) {
     return value >= 0.0 && value <= 255.0 && value == std::floor(value);
 }
 
-// How many numbers a line has, and the first six of them.
+// Reads the first six numbers of a line and returns how many it has.
 std::size_t read_point(ObjLines& lines, double (&numbers)[6]) {
     std::size_t count = 0;
     for (auto number = lines.next_number(); number; number = lines.next_number(), ++count)

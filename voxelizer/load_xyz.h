@@ -9,9 +9,9 @@
 
 namespace voxilux {
 
-// A cloud of points as text, a point a line: x y z, or x y z red green blue with colours from 0 to 255. Where
-// a line has other numbers behind its place, no point has a colour, with a warning. A first line of one
-// number, the number of points, is skipped. z up. `folder` is not used. Throws MeshFault.
+// A point cloud as text, a point per line: x y z, or x y z red green blue with colours from 0 to 255. If any
+// line has other numbers after its position, no point has a colour, with a warning. A first line with a
+// single number, the number of points, is skipped. z up. `folder` is not used. Throws MeshFault.
 [[nodiscard]] Mesh load_xyz(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                             const MeshRequest& request, MeshNotes& notes);
 

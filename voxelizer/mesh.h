@@ -14,9 +14,8 @@ namespace voxilux {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// A mesh file as the voxelizer reads it (a cloud of points has no triangle): triangles in the world space of
-// the file (glTF: right handed, y up, metres), after all node transforms. Vertex attributes are shared by
-// index.
+// A mesh file as the voxelizer reads it (a point cloud has no triangles): triangles in the world space of the
+// file (glTF: right handed, y up, metres), after all node transforms. Vertex attributes are shared by index.
 
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 

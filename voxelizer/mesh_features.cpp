@@ -19,7 +19,7 @@ constexpr FeatureKind kObj = FeatureKind::obj_keyword;
 constexpr std::string_view kOneLobe = "is left out: a voxel is diffuse, metal, glass or an emitter";
 constexpr std::string_view kFactorOnly = "is left out: a texture of this property is not read";
 constexpr std::string_view kClearGlass = "is left out: glass is clear inside";
-constexpr std::string_view kAtRest = "is left out: the mesh is read in its pose of rest";
+constexpr std::string_view kAtRest = "is left out: the mesh is read in its rest pose";
 constexpr std::string_view kOnlyVoxelsEmit = "is left out: in a .vox file only voxels emit";
 constexpr std::string_view kPlainMap = "is left out: the texture is read as it is";
 constexpr std::string_view kNoFreeForm = "is left out: free-form curves and surfaces are not read";
@@ -119,7 +119,7 @@ constexpr MeshFeature kFeatures[] = {
     {kMap, "-s", read},
     {kMap, "-o", read},
     {kMap, "-clamp", read},
-    {kMap, "-blendu", no_effect},  // these four tell how to filter; textures are averaged over each voxel
+    {kMap, "-blendu", no_effect},  // these four control filtering; textures are averaged over each voxel
     {kMap, "-blendv", no_effect},
     {kMap, "-boost", no_effect},
     {kMap, "-texres", no_effect},

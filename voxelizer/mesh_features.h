@@ -1,8 +1,8 @@
 #pragma once
 
-// What the formats of meshes can say, and what becomes of it here: one row for each extension of glTF in the
-// Khronos registry and each keyword of MTL and OBJ. Nothing that a file says gets lost unsaid: it is read,
-// has no effect on a voxel, or is counted in a note, which --strict makes an error.
+// What mesh formats can express, and what happens to it here: one row for each extension of glTF in the
+// Khronos registry and each keyword of MTL and OBJ. Nothing in a file is dropped silently: it is read, has no
+// effect on a voxel, or is counted in a note, which --strict makes an error.
 
 #include <cstdint>
 #include <span>
@@ -16,8 +16,8 @@ enum class FeatureKind : std::uint8_t { gltf_extension, mtl_keyword, mtl_map_opt
 
 enum class FeatureFate : std::uint8_t {
     read,
-    no_effect,  // metadata, or what no voxel shows
-    fallback,   // the file holds the same in a form that is read, or is refused where that is missing
+    no_effect,  // metadata, or what no voxel can show
+    fallback,   // the file has an equivalent that is read, or is refused if that is missing
     noted,      // left out or approximated: `said` says how
 };
 
@@ -33,7 +33,7 @@ struct MeshFeature {
 // The row of a name, or nullptr.
 [[nodiscard]] const MeshFeature* find_feature(FeatureKind kind, std::string_view name);
 
-// Counts `uses` of a feature that is not read as it is, or that no row names.
+// Counts `uses` of a feature that is not read exactly, or that has no row.
 void note_feature(FeatureKind kind, std::string_view name, MeshNotes& notes, std::size_t uses = 1);
 
 }  // namespace voxilux

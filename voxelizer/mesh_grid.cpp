@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kUpNames = {"x",  "y",  "z",
                                                       "-x", "-y", "-z"};  // in the order of UpAxis
 
-// Rounding of an extent that is a whole number of cells must not add a layer: voxels.
+// In voxels: rounding of an extent that is a whole number of cells must not add a layer.
 constexpr double kExtentSlack = 1e-6;
 
 bool has_finite_corners(const Mesh& mesh, const MeshTriangle& triangle) {
@@ -24,7 +24,7 @@ bool has_finite_corners(const Mesh& mesh, const MeshTriangle& triangle) {
     return true;
 }
 
-// Rows are the axes of the grid in terms of the mesh.
+// A matrix whose rows are the axes of the grid in mesh space.
 glm::dmat3 rows(glm::dvec3 x, glm::dvec3 y, glm::dvec3 z) {
     return glm::transpose(glm::dmat3(x, y, z));
 }
@@ -52,7 +52,7 @@ int cells_along(double extent) {
     return std::max(1, static_cast<int>(cells));
 }
 
-// The box of what a grid is to hold, in the grid's axes.
+// The bounding box of what a grid must hold, in the grid's axes.
 class GridBox {
   public:
     explicit GridBox(const glm::dmat3& axes) : axes_(axes) {}
@@ -68,8 +68,8 @@ class GridBox {
         const glm::dvec3 extent = high_ - low_;
         const double longest = std::max({extent.x, extent.y, extent.z});
         if (!std::isfinite(longest))
-            throw Error(ExitCode::input_refused, "the mesh is larger than numbers can say");
-        // A mesh that is one point fills one cell at any scale.
+            throw Error(ExitCode::input_refused, "the mesh is too large: its extent is not finite");
+        // A mesh that is a single point fills one cell at any scale.
         grid.scale = request.metres_per_voxel ? 1.0 / *request.metres_per_voxel
                                               : request.resolution / (longest > 0.0 ? longest : 1.0);
         if (!std::isfinite(grid.scale) || grid.scale <= 0.0)

@@ -12,13 +12,14 @@
 
 namespace voxilux {
 
-// Vertices lie on a lattice of 2^-12 voxel, so that every test of coverage is exact in integers. Snapping
-// moves a point by at most 0.00022 voxel, a face on the top of the grid by 0.0004: below the 0.001 that
-// separates the cells which a right voxelizer must have from those which it may have.
+// Vertices lie on a lattice of 2^-12 voxel, so that every coverage test is exact in integers. Snapping moves
+// a point by at most 0.00022 voxel, and a face at the top of the grid by 0.0004: less than the 0.001 between
+// the cells that a correct voxelizer must have and those that it may have.
 inline constexpr int kUnitBits = 12;
 inline constexpr std::int32_t kUnit = 1 << kUnitBits;
 
-// Cells on an axis: lattice coordinates then fit 28 bits, and what is computed from them 63.
+// Largest number of cells on an axis: lattice coordinates then fit 28 bits, and what is computed from them
+// 63.
 inline constexpr int kMaxCells = 1 << 16;
 
 // Which axis of the mesh points up in the grid, where z is up.
@@ -33,13 +34,13 @@ struct GridRequest {
     std::optional<double> metres_per_voxel;  // > 0
     std::optional<UpAxis> up;                // else that of the mesh
     int quarter_turns = 0;                   // about the vertical, counter-clockwise seen from above
-    bool is_on_floor = false;                // the lowest cells at z = 0 of the scene, instead of the middle
+    bool is_on_floor = false;  // the lowest cells are at z = 0 of the scene, instead of the centre
 };
 
 // Cell c of the grid covers [c, c + 1) of (axes * p - low) * scale, p in the mesh's space.
 struct MeshGrid {
     glm::dmat3 axes{1.0};  // a rotation that permutes the axes
-    glm::dvec3 low{0.0};   // of the turned mesh
+    glm::dvec3 low{0.0};   // of the rotated mesh
     double scale = 1.0;    // voxels per metre
     glm::ivec3 cells{1};
     glm::ivec3 origin{0};  // the cell at the origin of the scene
@@ -47,16 +48,17 @@ struct MeshGrid {
     [[nodiscard]] glm::dvec3 to_grid(glm::dvec3 p) const { return (axes * p - low) * scale; }
 };
 
-// Which axis a mesh has up in a grid.
+// The axis that points up in a grid of the mesh.
 [[nodiscard]] UpAxis up_of(const Mesh& mesh, const GridRequest& request);
 
 // The grid around all triangles whose vertices are finite. Rule: scale = resolution / longest side; the low
-// corner of the box is the grid's; cells = ceil(extent * scale), at least 1. A mesh y up turns by (x, -z, y).
-// The middle of the grid is the origin of the scene. Throws Error(input_refused) without a triangle or with a
-// box that doubles cannot span, Error(usage) for a grid of more than kMaxCells on an axis.
+// corner of the box is the grid's; cells = ceil(extent * scale), at least 1. A mesh with y up is rotated to
+// (x, -z, y). The centre of the grid is the origin of the scene. Throws Error(input_refused) without a
+// triangle or with a box that exceeds the range of doubles, Error(usage) for a grid of more than kMaxCells on
+// an axis.
 [[nodiscard]] MeshGrid grid_of(const Mesh& mesh, const GridRequest& request);
 
-// The same around all finite points of a cloud. Throws the same.
+// The same around all finite points of a cloud, with the same errors.
 [[nodiscard]] MeshGrid grid_of_points(const Mesh& mesh, const GridRequest& request);
 
 // Every position on the grid's lattice, in [0, cells * kUnit - 1]; positions that are not finite give zero.

@@ -7,11 +7,11 @@
 
 namespace voxilux {
 
-// What a loader dropped or replaced: how often each thing happened, by its text.
+// What a loader dropped or replaced: how often each thing happened, by its message.
 using MeshNotes = std::map<std::string, std::size_t>;
 
-// One line per note, in the order of their texts, with the count where it is above 1; after the first
-// kMaxNoteLines, a line with the number of the others.
+// One line per note, in alphabetical order, with the count if it is above 1; after the first kMaxNoteLines, a
+// line with the number of the others.
 inline constexpr std::size_t kMaxNoteLines = 50;
 [[nodiscard]] std::vector<std::string> note_lines(const MeshNotes& notes);
 

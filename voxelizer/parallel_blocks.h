@@ -10,12 +10,12 @@
 
 namespace voxilux {
 
-// `wanted` threads, or as many as the machine has for 0.
+// `wanted` threads; for 0 as many as the machine has.
 [[nodiscard]] inline unsigned thread_count(unsigned wanted) {
     return wanted != 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-// Runs work(i) for i in [0, count) on some threads. The first exception ends the others and is thrown again.
+// Runs work(i) for i in [0, count) on several threads. The first exception stops the others and is rethrown.
 template <class MakeWorker>
 void for_each_block(std::size_t count, unsigned threads, const MakeWorker& make_worker) {
     std::atomic<std::size_t> next{0};

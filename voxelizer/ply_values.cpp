@@ -92,7 +92,7 @@ std::string_view header_text(std::span<const std::byte> file, std::size_t& bytes
     return text.substr(0, last + 1);
 }
 
-// An item of text is a digit and what parts it from the next.
+// An item of text takes at least a digit and a separator.
 void check_room(const PlyHeader& header, std::size_t left) {
     for (const PlyElement& element : header.elements) {
         std::uint64_t least = 0;

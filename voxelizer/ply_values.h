@@ -1,6 +1,6 @@
 #pragma once
 
-// The header of a .ply file and its values one by one, in text or binary (G. Turk, "The PLY Polygon File
+// The header of a .ply file, and its values one by one, in text or binary (G. Turk, "The PLY Polygon File
 // Format", 1994).
 
 #include <cstddef>
@@ -38,7 +38,7 @@ struct PlyHeader {
 // Throws MeshFault, also where the elements need more bytes than the file has.
 [[nodiscard]] PlyHeader read_ply_header(std::span<const std::byte> file);
 
-// The largest value of a type: what a colour of 1 is.
+// The largest value of a type, which stands for a colour of 1.
 [[nodiscard]] double full_scale(PlyType type);
 
 class PlyValues {
@@ -46,10 +46,10 @@ class PlyValues {
     PlyValues(std::span<const std::byte> file, const PlyHeader& header)
         : file_(file), form_(header.form), at_(header.bytes) {}
 
-    // The next value. Throws MeshFault at the end of the file and at a word that is no number.
+    // The next value. Throws MeshFault at the end of the file and at a word that is not a number.
     [[nodiscard]] double next(PlyType type);
 
-    // The number of items of a list, of which each takes at least a byte.
+    // The number of items of a list, each of which takes at least a byte.
     [[nodiscard]] std::uint64_t next_count(PlyType type);
 
     void skip(const PlyProperty& property);

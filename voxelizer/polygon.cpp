@@ -13,7 +13,7 @@ double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The corners seen along the axis on which the polygon's area is largest, running to the left. Source:
+// The corners projected along the axis on which the polygon's area is largest, counter-clockwise. Source:
 // Newell's normal, in Sutherland, Sproull and Schumacker, 1974.
 std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
     glm::dvec3 normal(0.0);
@@ -46,7 +46,7 @@ bool is_convex(const std::vector<glm::dvec2>& flat) {
     return true;
 }
 
-// Whether corner i of the ring, the corners that are left, can be cut off without cutting others.
+// Whether corner i of the ring, the remaining corners, can be cut off without cutting others.
 bool is_ear(const std::vector<glm::dvec2>& flat, const std::vector<std::uint32_t>& ring, std::size_t i) {
     const std::size_t n = ring.size();
     const glm::dvec2 a = flat[ring[(i + n - 1) % n]], b = flat[ring[i]], c = flat[ring[(i + 1) % n]];
@@ -64,7 +64,7 @@ Triangles clip_ears(const std::vector<glm::dvec2>& flat) {
     std::vector<std::uint32_t> ring(flat.size());
     std::iota(ring.begin(), ring.end(), 0u);
     std::size_t at = 0;      // next corner to try
-    std::size_t failed = 0;  // corners in a row that are no ears
+    std::size_t failed = 0;  // consecutive corners that are no ears
     while (ring.size() > 3 && failed < ring.size()) {
         const std::size_t n = ring.size();
         at %= n;

@@ -11,9 +11,9 @@
 namespace voxilux {
 namespace {
 
-// Lloyd's iterations; later ones move the mean error by less than a hundredth.
+// Lloyd's iterations; more would change the mean error by less than a hundredth.
 constexpr int kLloydRounds = 5;
-// Of the power iteration that finds a principal axis: any axis near it will do.
+// Steps of the power iteration that finds a principal axis: any axis close to it will do.
 constexpr int kAxisRounds = 6;
 
 // Colours order[first..end) of one group.

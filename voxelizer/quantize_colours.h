@@ -1,9 +1,8 @@
 #pragma once
 
-// A palette for weighted colours of several classes: each class is split at the mean along its principal
-// axis, always the part with the greatest squared error (X. Wu, "Color Quantization by Dynamic Programming
-// and Principal Analysis", 1992, greedy), in Oklab; then Lloyd's iterations (k-means) within each class.
-// Deterministic.
+// A palette for weighted colours in groups: each group is split at the mean along its principal axis, always
+// the part with the largest squared error (X. Wu, "Color Quantization by Dynamic Programming and Principal
+// Analysis", 1992, greedy), in Oklab; then Lloyd's iterations (k-means) within each group. Deterministic.
 
 #include <cstdint>
 #include <span>
@@ -28,7 +27,7 @@ struct QuantizedColours {
     std::vector<std::uint16_t> entry_of;  // of each colour
 };
 
-// At most `most` entries, at least one for each group; `most` must be no less than the number of groups.
+// At most `most` entries, at least one for each group; `most` must be at least the number of groups.
 [[nodiscard]] QuantizedColours quantize_colours(std::span<const WeightedColour> colours, std::size_t most);
 
 }  // namespace voxilux

@@ -8,10 +8,10 @@
 namespace voxilux {
 namespace {
 
-// Less of a piece than this is the blur of its neighbourhood in the texture.
+// A visible fraction of a piece below this is only the blur of its neighbourhood in the texture.
 constexpr float kMinShare = 1.0f / 16.0f;
 
-// Pieces below this area, in voxels^2, are looked up as squares of this side, others as one voxel.
+// Pieces below kSmallArea, in voxels^2, are sampled as squares of side kSmallSide, others as one voxel.
 constexpr float kSmallArea = 0.5f;
 constexpr float kSmallSide = 0.5f;
 

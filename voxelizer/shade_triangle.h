@@ -13,17 +13,17 @@ namespace voxilux {
 struct ShadedPiece {
     glm::vec3 colour{1.0f};  // linear
     std::uint16_t look = 0;  // see surface_look.h
-    float share = 1.0f;      // of the piece that an alpha mask leaves; 0 where it leaves too little to count
+    float share = 1.0f;  // fraction of the piece left by an alpha mask; 0 where that is too little to count
 };
 
-// A triangle ready to be asked about its pieces. What it refers to must outlive it.
+// The shading of a triangle, to be evaluated for its pieces. What it refers to must outlive it.
 class TriangleShade {
   public:
     // `corners` in voxels.
     TriangleShade(const Mesh& mesh, const MaterialSampler& sampler, const MeshTriangle& triangle,
                   const std::array<glm::vec3, 3>& corners);
 
-    // The same for every piece.
+    // Whether the result is the same for every piece.
     [[nodiscard]] bool is_plain() const { return is_plain_; }
 
     [[nodiscard]] ShadedPiece at(const CellPiece& piece) const;
@@ -31,7 +31,7 @@ class TriangleShade {
   private:
     [[nodiscard]] ShadedPiece shaded(const SurfaceColor& colour) const;
 
-    // An attribute as a linear function of the place.
+    // An attribute as a linear function of the position.
     template <class T, int kSize>
     struct Attribute {
         T origin{};                            // at corner 0
@@ -45,7 +45,7 @@ class TriangleShade {
     glm::vec3 corner_;
     Attribute<glm::vec2, 2> uv0_, uv1_;
     Attribute<glm::vec4, 4> colour_;
-    // For pieces like a square of one voxel on the triangle, and of half a voxel.
+    // for pieces like a square of one voxel on the triangle, and of half a voxel
     MaterialSampler::Prepared large_, small_;
     bool is_plain_ = true;
     ShadedPiece plain_;

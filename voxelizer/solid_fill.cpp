@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// A crossing of a row, sortable: z, y, first cell whose middle lies behind it, and whether it leads out.
+// A crossing of a row as a sort key: z, y, first cell whose centre lies behind it, and whether it leads out.
 constexpr int kPlaceBits = 17;  // kMaxCells and one behind
 constexpr std::uint64_t kPlaceMask = (std::uint64_t{1} << kPlaceBits) - 1;
 
@@ -60,7 +60,7 @@ glm::ivec2 place_of_row(std::uint64_t row) {
     return {static_cast<int>(row & kPlaceMask), static_cast<int>(row >> kPlaceBits)};
 }
 
-// One row's crossings to runs, by counting them. Of a closed surface each row has an even number.
+// Converts one row's crossings to runs by counting them. For a closed surface each row has an even number.
 void add_counted_runs(Crossings keys, InsideRule rule, std::vector<InsideRun>& runs, SolidReport& report) {
     if (keys.size() % 2 != 0) {
         ++report.open_rows;
@@ -90,14 +90,14 @@ std::vector<InsideRun> counted_runs(Crossings keys, InsideRule rule, SolidReport
     return runs;
 }
 
-// The cells of one row of an open mesh whose middle is inside.
+// The cells of one row of an open mesh whose centre is inside.
 class OpenRow {
   public:
     OpenRow(const WindingTree& tree, glm::ivec2 row, std::vector<InsideRun>& runs)
         : tree_(tree), row_(row), runs_(runs) {}
 
-    // Cells first..last, between which the surface does not cross the row, so that the winding number has no
-    // step there.
+    // Adds cells first..last, between which the surface does not cross the row, so that the winding number
+    // has no step there.
     void add_stretch(int first, int last) {
         if (last < first) return;
         constexpr int kParts = 16;
@@ -108,7 +108,7 @@ class OpenRow {
     }
 
   private:
-    // As near as this to the threshold, the winding number may cross it between two places that agree.
+    // This close to the threshold, the winding number may cross it between two positions that agree.
     static constexpr double kUncertainty = 0.2;
 
     [[nodiscard]] double winding_at(int x) const {
@@ -117,8 +117,8 @@ class OpenRow {
     static bool is_inside(double winding) { return winding > 0.5; }
     static bool is_uncertain(double winding) { return std::abs(winding - 0.5) < kUncertainty; }
 
-    // Cells first..last - 1, given the winding numbers at both ends: halved down to a step while they are
-    // uncertain, and to one cell where they differ.
+    // Adds cells first..last - 1, given the winding numbers at both ends: bisected down to a step while they
+    // are uncertain, and to one cell where they differ.
     void add_part(int first, int last, double at_first, double at_last) {
         if (last == first) return;
         const bool agree = is_inside(at_first) == is_inside(at_last);
@@ -152,7 +152,7 @@ class OpenRow {
     int step_ = 1;
 };
 
-// One layer of cells of an open mesh, from the crossings at its rows.
+// One layer of cells of an open mesh, from the crossings of its rows.
 std::vector<InsideRun> open_layer_runs(const WindingTree& tree, Crossings keys, glm::ivec3 cells, int z) {
     std::vector<InsideRun> runs;
     std::size_t i = 0;
@@ -195,14 +195,14 @@ struct PositionHash {
     }
 };
 
-// Vertices at one place of the lattice are one. Triangles that collapse there have no edges.
+// Vertices at one lattice point are the same vertex. Triangles that collapse there have no edges.
 void count_edges(const SolidInput& input, SolidReport& report) {
     std::unordered_map<glm::ivec3, std::uint32_t, PositionHash> numbers;
     const auto number = [&](std::uint32_t vertex) {
         return numbers.try_emplace(input.lattice[vertex], static_cast<std::uint32_t>(numbers.size()))
             .first->second;
     };
-    std::vector<std::array<std::uint64_t, 2>> edges;  // both ends, and which of them comes first
+    std::vector<std::array<std::uint64_t, 2>> edges;  // both ends, and which comes first
     for (const std::uint32_t index : input.triangles) {
         const glm::uvec3 v = input.mesh.triangles[index].vertices;
         const glm::uvec3 n{number(v.x), number(v.y), number(v.z)};
@@ -231,7 +231,7 @@ std::vector<InsideRun> inside_runs(const SolidInput& input, InsideRule rule, Sol
     count_edges(input, report);
     const std::vector<std::uint64_t> keys = sorted_crossings(input);
     if (rule == InsideRule::winding && report.open_edges > 0) return open_runs(input, keys);
-    // Without a side that is out there is no winding number, but parity.
+    // Without orientation there is no winding number, only parity.
     return counted_runs(keys, report.turned_edges > 0 ? InsideRule::parity : rule, report);
 }
 

@@ -17,13 +17,13 @@ struct InteriorRow {
     bool operator==(const InteriorRow&) const = default;
 };
 
-// Which cells are inside. What overlaps is one by its winding number, and hollow by parity.
+// Which cells are inside. Where a mesh overlaps itself it is solid by winding number, and hollow by parity.
 enum class InsideRule : std::uint8_t { winding, parity };
 
-// What is wrong with the inside of a mesh.
+// Defects of the inside of a mesh.
 struct SolidReport {
     std::uint64_t open_edges = 0;    // shared by an odd number of triangles
-    std::uint64_t turned_edges = 0;  // shared by an even number that do not agree which side is out
+    std::uint64_t turned_edges = 0;  // shared by an even number whose orientations disagree
     std::uint64_t open_rows = 0;     // by parity: lines that enter the mesh and do not leave it: not filled
     std::uint64_t disputed = 0;  // cells where parity and winding number disagree: the mesh overlaps itself
 };
@@ -36,16 +36,16 @@ struct SolidInput {
     unsigned threads = 1;
 };
 
-// A stretch of a row that is inside.
+// A run of cells of a row that is inside.
 struct InsideRun {
     std::int32_t y = 0, z = 0;
     std::int32_t first = 0, last = 0;
 };
 
-// Cells whose middle is inside; rows by z, then y. In a closed mesh a line along x through the middles counts
-// the surfaces that it meets before it, exact on the lattice; a shared edge counts once. By winding number it
-// is inside unless as many lead in as out. In an open mesh the generalised winding number decides, above 1/2;
-// a closed one that is not oriented is filled by parity.
+// Cells whose centre is inside; rows ordered by z, then y. In a closed mesh, the surfaces that a line along x
+// through cell centres meets before a cell are counted, exactly on the lattice; a shared edge counts once. By
+// winding number a cell is inside unless as many lead in as out. In an open mesh the generalised winding
+// number decides, above 1/2; a closed mesh that is not oriented is filled by parity.
 [[nodiscard]] std::vector<InsideRun> inside_runs(const SolidInput& input, InsideRule rule,
                                                  SolidReport& report);
 

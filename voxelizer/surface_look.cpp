@@ -13,17 +13,17 @@ constexpr float kRoughSteps = 7.0f;
 constexpr float kGlassSteps = 15.0f;
 constexpr float kIorSteps = 10.0f;  // per unit above 1
 constexpr int kTopLevel = 15;
-constexpr int kUnitGainLevel = 12;  // the level of an emitting look whose radiance is its colour
-constexpr int kTopFlux = 16;        // what our reader takes; MagicaVoxel's slider ends at 4
+constexpr int kUnitGainLevel = 12;  // the level of an emitting look whose radiance equals its colour
+constexpr int kTopFlux = 16;        // what our reader accepts; MagicaVoxel's slider ends at 4
 
-// Radiances that a .vox file is given: below, an 8-bit picture shows black; above, our reader cuts _emit 1000
-// and _flux 16.
+// Range of radiances in a .vox file: below it, an 8-bit image shows black; above it, our reader clamps _emit
+// 1000 and _flux 16.
 constexpr float kMinEmission = 1.0f / 4096.0f;
 constexpr float kMaxEmission = 1000.0f * 65536.0f;
-// Where a texture leaves less of a material's emission, its dark parts are noise, and the base colour counts.
+// If a texture leaves less of a material's emission, its dark parts are noise, and the base colour is used.
 constexpr float kDarkShare = 1.0f / 256.0f;
-// An emitting voxel also reflects, as its colour says. So that is as bright as the base colour, but not
-// darker than this, below which 8 bits are too coarse for a radiance within 3 %.
+// An emitting voxel also reflects, with the same colour. Its colour is therefore as bright as the base
+// colour, but not darker than this, below which 8 bits are too coarse for a radiance within 3 %.
 constexpr float kDarkestEmitter = 0.5f;
 
 std::uint8_t step(float value, float steps, int top) {
@@ -34,8 +34,8 @@ float largest(glm::vec3 v) {
     return std::max({v.r, v.g, v.b});
 }
 
-// The least power of two that brings the material's brightest emission down to the brightness of its base
-// colour. The same for all of the material, so that a texture of emission takes one look and many colours.
+// The smallest power of two that scales the material's strongest emission down to the luminance of its base
+// colour. The same for the whole material, so that an emission texture takes one look and many colours.
 std::uint8_t gain_level(const MeshMaterial& material) {
     const float brightness = std::clamp(largest(glm::vec3(material.base_color)), kDarkestEmitter, 1.0f);
     int exponent = 0;

@@ -1,7 +1,8 @@
 #pragma once
 
-// What a voxel is made of besides its colour, in 16 bits, so that a voxel with colour and look fits 8 bytes.
-// Properties are rounded to a few steps: each look needs a colour of its own in the palette of 255.
+// The properties of a voxel besides its colour, in 16 bits, so that a voxel with colour and look fits 8
+// bytes. Properties are rounded to a few steps, because each look needs entries of its own in the palette of
+// 255.
 
 #include <compare>
 #include <cstdint>
@@ -24,31 +25,31 @@ struct Look {
     auto operator<=>(const Look&) const = default;
 };
 
-// The emission of a material as a .vox file can hold it; what is outside the range is noted. Radiance 1 is
-// that of a white surface under a plain sky.
+// The emission of a material as a .vox file can hold it; values out of range are noted. Radiance 1 is that of
+// a white surface under a plain sky.
 [[nodiscard]] glm::vec3 emission_in_range(glm::dvec3 radiance, MeshNotes& notes);
 
-// The look of a material where it has this value: emitting before glass (BLEND, transmission) before metal.
+// The look of a material with this value: emission takes precedence over glass (BLEND, transmission), and
+// that over metal.
 [[nodiscard]] Look look_of(const MeshMaterial& material, const SurfaceColor& value);
 
 [[nodiscard]] std::uint16_t packed(const Look& look);
 [[nodiscard]] Look unpacked(std::uint16_t bits);
 
-// Fewer steps: roughness and transparency rounded to every 2nd, 4th, ... step. The refractive index and the
-// emission stay: a mesh has few.
+// A look with fewer steps: roughness and transparency rounded to every 2nd, 4th, ... step. The refractive
+// index and the emission stay, because a mesh has few of them.
 [[nodiscard]] Look coarser(const Look& look, int halvings);
 
-// The attributes of a MATL chunk; ours and MagicaVoxel's readers take the colour from the palette.
+// The attributes of a MATL chunk; our reader and MagicaVoxel's take the colour from the palette.
 [[nodiscard]] VoxDict material_attributes(const Look& look);
 
-// Radiance over colour that an emitting look stands for: 2^(level - 12), at most what the reader takes.
+// Radiance / colour of an emitting look: 2^(level - 12), at most what the reader accepts.
 [[nodiscard]] float emission_of(const Look& look);
 
-// The colour of a voxel with this look, linear: of what it emits, as a part of emission_of, else the base
-// colour.
+// The colour of a voxel with this look, linear: its emission divided by emission_of, else the base colour.
 [[nodiscard]] glm::vec3 colour_of(const Look& look, const SurfaceColor& value);
 
-// Whether colours of two packed looks mean the same, so that their mean means something.
+// Whether colours of two packed looks have the same meaning, so that they may be averaged.
 [[nodiscard]] bool share_colours(std::uint16_t a, std::uint16_t b);
 
 }  // namespace voxilux

@@ -11,20 +11,21 @@ namespace voxilux {
 namespace {
 
 // Bilinear taps across the shorter side of a piece, before the level is rounded to a finer one: 2 or 3 of
-// them come out. One tap blurs five times as much, more than three gain nothing (means_over_pieces in the
+// them result. One tap blurs five times as much; more than three gain nothing (means_over_pieces in the
 // tests).
 constexpr float kTapsAcross = 1.5f;
 
-// A piece longer than this many taps is blurred across instead: it bounds the cost of a lookup.
+// A piece longer than this many taps is blurred across instead, which bounds the cost of a lookup.
 constexpr float kMaxTapsAlong = 16.0f;
 
-// Texels that a piece may span: beyond it, and for what is not finite, the mean of the texture is as good.
+// Texels that a piece may span: for larger pieces, or spans that are not finite, the mean of the texture
+// serves.
 constexpr float kLongestPiece = 1e6f;
 
-// Sum of the squared edges, in texels, of a piece that one tap does for.
+// Largest sum of the squared edges, in texels, of a piece for which one tap suffices.
 constexpr float kOneTapReach = 2.0f;
 
-// A clamped coordinate further out than this sees the same edge, and its texel number still fits an int.
+// A clamped coordinate farther out than this sees the same edge, and its texel index still fits an int.
 constexpr float kFarBeside = 1e4f;
 
 constexpr float kOne16 = 65535.0f;
@@ -42,7 +43,7 @@ glm::u16vec4 rounded(const glm::vec4& unit) {
     return glm::u16vec4(unit * kOne16 + 0.5f);
 }
 
-// The parts of the texels of a row that one texel of the row half as long covers: 2, or 3 for an odd length.
+// The texels of a row that one texel of the row half as long covers, with weights: 2, or 3 for an odd length.
 struct Cover {
     int first = 0;
     int count = 0;
@@ -84,7 +85,7 @@ TexturePyramid::Level halve(const TexturePyramid::Level& from) {
     return result;
 }
 
-// Index in [0, size) of any texel of the endless texture.
+// Index in [0, size) of texel i of the infinite texture.
 int wrapped(int i, int size, TextureWrap wrap) {
     if (i >= 0 && i < size) return i;
     if (wrap == TextureWrap::clamp_to_edge) return i < 0 ? 0 : size - 1;
@@ -93,14 +94,14 @@ int wrapped(int i, int size, TextureWrap wrap) {
     return at < size ? at : period - 1 - at;
 }
 
-// The largest whole number not above `value`, which must fit an int: std::floor is a call into the library.
+// The floor of `value`, which must fit an int: std::floor is a call into the library.
 int floor_of(float value) {
     const int whole = static_cast<int>(value);
     return static_cast<float>(whole) > value ? whole - 1 : whole;
 }
 
-// `u` moved by whole periods into [0,2), where texel numbers are small. Coordinates beyond all
-// use become 0.
+// `u` shifted by whole periods into [0,2), where texel indices are small. Coordinates that are too large
+// become 0.
 float reduced(float u, TextureWrap wrap) {
     if (!(std::abs(u) < kLongestPiece)) return 0.0f;
     if (wrap == TextureWrap::clamp_to_edge) return std::clamp(u, -kFarBeside, kFarBeside);
@@ -113,7 +114,7 @@ glm::vec2 reduced(const Wrapped& wrap, const glm::vec2& uv) {
     return {reduced(uv.x, wrap.wrap_u), reduced(uv.y, wrap.wrap_v)};
 }
 
-// 65535 times the texture at texel coordinates of a level, where the middle of texel 0 is at 0.5.
+// 65535 times the texture at texel coordinates of a level, where the centre of texel 0 is at 0.5.
 template <class Wrapped>
 glm::vec4 bilinear(const Wrapped& wrap, const TexturePyramid::Level& level, const glm::vec2& at) {
     const float x = at.x - 0.5f, y = at.y - 0.5f;
@@ -134,7 +135,7 @@ glm::vec4 bilinear(const Wrapped& wrap, const TexturePyramid::Level& level, cons
     return mean;
 }
 
-// The parallelogram as a rectangle of equal second moments, in texels: the axes of the ellipse that they are.
+// A rectangle, in texels, with the second moments of the parallelogram: along the axes of their ellipse.
 struct Rectangle {
     glm::vec2 direction{1.0f, 0.0f};  // of the longer side
     float length = 0.0f;
@@ -152,7 +153,7 @@ Rectangle rectangle_of(const glm::vec2& a, const glm::vec2& b) {
     return rectangle;
 }
 
-// A part of the plane that lies wholly beside a clamped texture sees only its edge: nothing varies across.
+// A piece wholly outside a clamped texture sees only its edge: nothing varies across it.
 glm::mat2 clamped_span(const TexturePyramid& pyramid, const glm::vec2& center, glm::mat2 span) {
     const TextureWrap wraps[2] = {pyramid.wrap_u, pyramid.wrap_v};
     for (int axis = 0; axis < 2; ++axis) {
@@ -199,7 +200,7 @@ TexturePyramid build_pyramid(const Texture& texture, TexelMeaning meaning, float
     return pyramid;
 }
 
-// Taps a texel of the chosen level apart, or a little less or more, fill the rectangle.
+// Taps about one texel of the chosen level apart fill the rectangle.
 PieceFilter filter_of(const TexturePyramid& pyramid, const glm::mat2& span, FilterTaps taps) {
     PieceFilter filter{.level = &pyramid.levels[0], .wrap_u = pyramid.wrap_u, .wrap_v = pyramid.wrap_v};
     const glm::vec2 size(pyramid.levels[0].size);

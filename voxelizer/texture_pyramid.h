@@ -12,14 +12,14 @@ namespace voxilux {
 // What the stored texels mean.
 enum class TexelMeaning : std::uint8_t {
     color,         // sRGB; alpha is left out of the mean
-    alpha_color,   // sRGB; each texel counts by its alpha
+    alpha_color,   // sRGB; each texel is weighted by its alpha
     masked_color,  // sRGB; texels whose alpha is below the cutoff do not count
     data,          // linear
 };
 
 // A texture in linear light, and its means over ever larger squares: level 0 has the texels of the texture,
 // and a texel of level l is the mean of the part of level 0 that it covers. Where alpha counts, colours are
-// multiplied by it. Source: Williams, Pyramidal parametrics, SIGGRAPH 1983.
+// premultiplied by it. Source: Williams, Pyramidal parametrics, SIGGRAPH 1983.
 struct TexturePyramid {
     struct Level {
         glm::ivec2 size{0};
@@ -31,18 +31,18 @@ struct TexturePyramid {
     bool is_nearest = false;
 };
 
-// `alpha_cutoff` is of masked_color, for the alpha of the texture alone.
+// `alpha_cutoff` is for masked_color, applied to the alpha of the texture alone.
 [[nodiscard]] TexturePyramid build_pyramid(const Texture& texture, TexelMeaning meaning,
                                            float alpha_cutoff = 0.0f);
 
 // Linear mean of the texture over a parallelogram around `center` with the edges `span[0]` and `span[1]`, all
-// in uv; xyz are multiplied by w where alpha counts. It weighs level, taps along the longer axis and bilinear
-// interpolation such that the second moments of the weights are those of the parallelogram.
-// Source: McCormack et al., Feline, SIGGRAPH 1999, for the taps on a line.
+// in uv; xyz are premultiplied by w where alpha counts. Level, taps along the longer axis and bilinear
+// interpolation are chosen so that the second moments of the weights are those of the parallelogram. Source:
+// McCormack et al., Feline, SIGGRAPH 1999, for the taps on a line.
 [[nodiscard]] glm::vec4 sample_pyramid(const TexturePyramid& pyramid, const glm::vec2& center,
                                        const glm::mat2& span);
 
-// Where sample_pyramid looks for pieces of one shape: made once for all pieces of a triangle.
+// How sample_pyramid samples pieces of one shape: made once for all pieces of a triangle.
 struct PieceFilter {
     const TexturePyramid::Level* level = nullptr;
     glm::vec2 step_along{0.0f};  // between taps, in texels of the level
@@ -54,12 +54,12 @@ struct PieceFilter {
     bool is_nearest = false;
 };
 
-// With one tap the mean is blurred more but takes one look. The pyramid must outlive the filter. Pieces that
-// lie beside a clamped texture are blurred along its edge, unlike sample_pyramid's.
+// With one tap the mean is blurred more but takes one lookup. The pyramid must outlive the filter. Pieces
+// outside a clamped texture are blurred along its edge, unlike in sample_pyramid.
 enum class FilterTaps : std::uint8_t { as_many_as_needed, one };
 [[nodiscard]] PieceFilter filter_of(const TexturePyramid& pyramid, const glm::mat2& span, FilterTaps taps);
 
-// The mean around `center`, in uv, as sample_pyramid gives it.
+// The mean around `center`, in uv, as sample_pyramid returns it.
 [[nodiscard]] glm::vec4 filtered(const PieceFilter& filter, const glm::vec2& center);
 
 }  // namespace voxilux

@@ -13,8 +13,8 @@
 
 namespace voxilux {
 
-// A piece of a triangle: its middle, and for each set of texture coordinates a parallelogram with the second
-// moments of the piece: columns are its edges in uv. A zero span samples a point.
+// A piece of a triangle: its centroid, and for each set of texture coordinates a parallelogram with the
+// second moments of the piece: columns are its edges in uv. A zero span samples a point.
 struct SurfacePiece {
     glm::vec2 uv0{0.0f};
     glm::vec2 uv1{0.0f};
@@ -26,30 +26,31 @@ struct SurfacePiece {
 // Linear means over a piece.
 struct SurfaceColor {
     glm::vec3 base_color{1.0f};
-    float alpha = 1.0f;  // opaque: 1; mask: the part of the piece that is there; blend: mean alpha
+    float alpha = 1.0f;  // opaque: 1; mask: the visible fraction of the piece; blend: mean alpha
     float metallic = 0.0f;
     float roughness = 1.0f;
     glm::vec3 emissive{0.0f};
 };
 
-// Answers what the materials of a mesh look like over pieces of its surface. Reading is safe from many
-// threads. The mesh must outlive it and keep its textures.
+// Evaluates the materials of a mesh over pieces of its surface. Safe to use from many threads. The mesh must
+// outlive it and keep its textures.
 class MaterialSampler {
   public:
     explicit MaterialSampler(const Mesh& mesh);
 
-    // Where alpha counts (mask, blend), the base colour is weighed by it; it is that of the factor where
-    // nothing of the piece is there.
+    // Where alpha counts (mask, blend), the base colour is weighted by it; if nothing of the piece is
+    // visible, it is that of the factor.
     [[nodiscard]] SurfaceColor sample(std::uint32_t material, const SurfacePiece& piece) const;
 
-    // What sample() does for pieces of one material and shape: the spans of `piece` count.
+    // Everything that sample() can precompute for pieces of one material and shape, given by the spans of
+    // `piece`.
     struct Prepared {
         std::uint32_t material = 0;
         std::optional<PieceFilter> base_color, metallic_roughness, emissive;
     };
-    // Metalness, roughness and emission are read by single taps.
+    // Metalness, roughness and emission use single taps.
     [[nodiscard]] Prepared prepare(std::uint32_t material, const SurfacePiece& piece) const;
-    // The places and the vertex colour of `piece` count.
+    // Uses the positions and the vertex colour of `piece`.
     [[nodiscard]] SurfaceColor sample(const Prepared& prepared, const SurfacePiece& piece) const;
 
   private:

@@ -1,6 +1,6 @@
 #pragma once
 
-// Thin coverage and the crossings that decide what is inside: where lines through the middles of cells meet a
+// Thin coverage and the crossings that decide what is inside: where lines through cell centres meet a
 // triangle, in exact integers.
 
 #include <array>
@@ -10,21 +10,21 @@
 
 namespace voxilux {
 
-// The lines through cell middles along one axis that meet a triangle. Closed: lines on an edge count, for
+// The lines through cell centres along one axis that meet a triangle. Closed: lines on an edge count, for
 // every triangle at that edge. Otherwise a line on an edge that two triangles share counts for one of them if
-// they lie on either side, and for both or none if they lie on one side.
+// they are on opposite sides, and for both or neither if they are on the same side.
 class LineCrossings {
   public:
     LineCrossings(const LatticeTriangle& triangle, int axis, bool is_closed);
 
-    // Whether the triangle is seen along the axis at all.
+    // Whether the triangle has any area when seen along the axis.
     [[nodiscard]] bool is_seen() const { return area_ != 0; }
     // 1 when the triangle's normal, corners counter-clockwise, points along the axis; else -1.
     [[nodiscard]] int facing() const { return area_ > 0 ? 1 : -1; }
-    // The cells of `range` on the next axis (y after x, z after y, x after z) whose line at cell `v` of the
-    // axis after that meets the triangle.
+    // The cells of `range` on the next axis (y after x, z after y, x after z) whose line, at cell `v` of the
+    // axis after that, meets the triangle.
     [[nodiscard]] CellRange cells_at(std::int32_t v, CellRange range) const;
-    // The lattice step, rounded down, at which the line through the middle of cell (u, v) meets the plane.
+    // The lattice step, rounded down, at which the line through the centre of cell (u, v) meets the plane.
     [[nodiscard]] std::int64_t crossing(std::int32_t u, std::int32_t v) const;
 
   private:
@@ -34,9 +34,9 @@ class LineCrossings {
     glm::ivec3 corner_{0};              // likewise
 };
 
-// Calls emit(cell) for the cells in `within` where one of the three segments that join the middles of
-// opposite faces meets the triangle: a 6-separating surface (S. Laine, "A Topological Approach to
-// Voxelization", 2013). Cells may come more than once. Each is one of those that the triangle touches.
+// Calls emit(cell) for the cells in `within` where one of the three segments between the centres of opposite
+// faces meets the triangle: a 6-separating surface (S. Laine, "A Topological Approach to Voxelization",
+// 2013). Cells may be emitted more than once. Each is one of those that the triangle touches.
 template <class Emit>
 void for_each_crossing(const LatticeTriangle& triangle, const CellBox& within, const Emit& emit) {
     const CellBox box = cell_box(triangle, kUnit);

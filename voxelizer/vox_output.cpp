@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int32_t kFirstModelNode = 2;  // after the root's transform and the group
 
-// What one chunk XYZI holds: the blocks of one model.
+// The contents of one XYZI chunk: the blocks of one model.
 struct ModelPart {
     std::span<const VoxelBlock> blocks;
     glm::ivec3 low{0};  // of its voxels, in the grid
@@ -116,13 +116,13 @@ void add_graph(VoxFile& file, const std::vector<ModelPart>& parts, const MeshGri
     file.layers.push_back({.id = 0, .attributes = {{"_name", name}}});
 }
 
-// To 4 places, and no minus before a zero.
+// Rounded to 4 decimal places, without negative zero.
 std::string tidy(double value) {
     return fmt::format("{}", std::round(value * 1e4) / 1e4 + 0.0);
 }
 
 // MagicaVoxel's camera looks at a focus from a distance, with pitch and yaw in degrees: yaw 0 looks along +y,
-// pitch is positive downwards. A pinhole has no focus; the middle of the grid's depth is as good as any.
+// pitch is positive downwards. A pinhole has no focus, so any will do: the middle of the grid's depth.
 VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
     const glm::dvec3 position = grid.to_grid(camera.position) - glm::dvec3(grid.origin);
     const glm::dvec3 forward = grid.axes * camera.forward;
@@ -139,7 +139,7 @@ VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
             {"_fov", tidy(camera.fov_y_deg)}};
 }
 
-// All but the models.
+// Everything but the models.
 VoxFile file_around(const std::vector<ModelPart>& parts, const VoxelSet& set, const VoxelPalette& palette,
                     const Mesh& mesh, const std::string& name) {
     VoxFile rest{.version = 200};

@@ -16,16 +16,16 @@ struct VoxOutput {
     std::uint64_t bytes = 0;
 };
 
-// What to say of a grid whose cells lie where MagicaVoxel shows none; our own reader takes them.
+// A warning for a grid whose cells are outside what MagicaVoxel shows; our own reader accepts them.
 [[nodiscard]] std::optional<std::string> range_warning(const MeshGrid& grid);
 
 // Writes the voxels as a .vox file: models of at most 256^3 with tight sizes on a grid, one transform each,
-// in a group called `name`, grid.origin at the origin; the palette,
-// MATL, one layer, and the cameras of the mesh. Under a temporary name first. Throws Error(cannot_write).
+// in a group called `name`, with grid.origin at the origin; the palette, MATL, one layer, and the cameras of
+// the mesh. Writes to a temporary name first. Throws Error(cannot_write).
 VoxOutput write_voxels(const std::filesystem::path& file, const VoxelSet& set, const VoxelPalette& palette,
                        const Mesh& mesh, const std::string& name);
 
-// What read_vox would make of that file.
+// The contents that read_vox would return for that file.
 [[nodiscard]] VoxFile vox_file_of(const VoxelSet& set, const VoxelPalette& palette, const Mesh& mesh,
                                   const std::string& name);
 

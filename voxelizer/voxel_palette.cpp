@@ -13,22 +13,22 @@ namespace voxilux {
 namespace {
 
 constexpr std::size_t kMaxEntries = 255;  // index 0 is empty
-// Looks beyond this take too many of the entries from the colours.
+// More looks than this take too many entries from the colours.
 constexpr std::size_t kMaxLooks = 24;
-constexpr int kCellShift = 2;             // bits of a byte that a cell does not tell apart
+constexpr int kCellShift = 2;             // low bits of a byte that a cell ignores
 constexpr unsigned kCellBits = 18;        // of a cell in its group
 constexpr std::size_t kHashSlots = 1024;  // at least four times kMaxEntries
 constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
-// A slot with more than this share of the voxels tells colours apart to the bit.
+// A slot with more than this fraction of the voxels distinguishes colours exactly.
 constexpr double kHeavyShare = 1.0 / 1024.0;
-constexpr std::size_t kHeavySamples = 262144;  // voxels that shares are estimated from
+constexpr std::size_t kHeavySamples = 262144;  // voxels that fractions are estimated from
 constexpr std::uint32_t kHeavy = std::uint32_t{1} << 31;
 constexpr unsigned kFineBits = 3 * kCellShift;
-// How much more an error in an emitter's colour counts: it is seen in all that the emitter lights.
+// Extra weight of an error in an emitter's colour, because it shows on everything that the emitter lights.
 constexpr float kEmitterWeight = 64.0f;
-// A radiance farther off than this is told.
+// A larger relative error of a radiance is reported.
 constexpr float kRadianceTolerance = 0.03f;
-// Voxels that the error is measured on: 0.2 % off at the 95th percentile.
+// Voxels for which the error is measured: accurate to 0.2 % at the 95th percentile.
 constexpr std::size_t kErrorSamples = 65536;
 
 std::uint64_t exact_key(const ColouredVoxel& v) {
@@ -47,11 +47,11 @@ void for_each_voxel(const VoxelSet& set, const Visit& visit) {
     }
 }
 
-// Every stride-th voxel of all.
+// Visits every stride-th voxel.
 template <class Visit>
 void for_each_sample(const VoxelSet& set, std::uint64_t stride, const Visit& visit) {
     std::uint64_t next = 0;
-    std::uint64_t number = 0;  // of the block's first voxel
+    std::uint64_t number = 0;  // index of the block's first voxel
     for (const VoxelBlock& block : set.blocks) {
         for (; next < number + block.surface.size(); next += stride)
             visit(block.surface[static_cast<std::size_t>(next - number)]);
@@ -63,7 +63,7 @@ glm::u8vec3 colour_of(const ColouredVoxel& v) {
     return {v.r, v.g, v.b};
 }
 
-// Whether an entry changes what a voxel emits by more than is let pass. Both colours are parts of one gain.
+// Whether an entry changes what a voxel emits by more than the tolerance. Both colours have the same gain.
 bool is_radiance_off(const ColouredVoxel& voxel, const PaletteEntry& entry) {
     if (entry.look.kind != LookKind::emit) return false;
     const auto linear = [](glm::u8vec3 c) {
@@ -74,8 +74,8 @@ bool is_radiance_off(const ColouredVoxel& voxel, const PaletteEntry& entry) {
     return std::max({miss.r, miss.g, miss.b}) > kRadianceTolerance * std::max({wanted.r, wanted.g, wanted.b});
 }
 
-// A number in [0, 256) that differs between neighbours: bits of the place's parities, the lowest first, as in
-// a Bayer matrix (B. Bayer, 1973), in three dimensions.
+// A number in [0, 256) that differs between neighbours: the parities of the position's bits, lowest first, as
+// in a Bayer matrix (B. Bayer, 1973), in three dimensions.
 unsigned threshold_at(glm::ivec3 p) {
     unsigned value = 0;
     for (int level = 0; level < 3; ++level) {
@@ -217,8 +217,8 @@ void VoxelPalette::quantize(const VoxelSet& set) {
         entries_.push_back({.colour = srgb_of_oklab(entry.oklab), .look = looks_[entry.group]});
 }
 
-// An entry more than half of whose voxels are in one cell takes the mean of that cell: large plain surfaces
-// keep their colour to the bit.
+// An entry with more than half of its voxels in one cell takes the mean of that cell, so that large plain
+// surfaces keep their exact colour.
 void VoxelPalette::settle_colours() {
     std::vector<std::uint64_t> sizes(entries_.size(), 0);
     std::vector<const Cell*> largest(entries_.size(), &cells_[0]);
@@ -232,7 +232,7 @@ void VoxelPalette::settle_colours() {
     commonest_ = static_cast<std::uint8_t>(std::ranges::max_element(sizes) - sizes.begin());
 }
 
-// For each cell the second entry whose line to the first passes nearest to the cell's colour.
+// Finds for each cell the second entry whose line to the first passes nearest to the cell's colour.
 void VoxelPalette::find_dither_pairs() {
     std::vector<glm::vec3> oklab;
     for (const PaletteEntry& entry : entries_)
@@ -245,10 +245,10 @@ void VoxelPalette::find_dither_pairs() {
             if (e == cell.entry || entries_[e].look != entries_[cell.entry].look) continue;
             const glm::vec3 way = oklab[e] - oklab[cell.entry];
             const float square = glm::dot(way, way);
-            // At most half way: the cell's own entry is the nearest.
+            // At most half way, because the cell's own entry is the nearest.
             const float part = square > 0.0f ? std::clamp(glm::dot(wanted, way) / square, 0.0f, 0.5f) : 0.0f;
             const glm::vec3 miss = wanted - way * part;
-            // A far entry on the line would be seen as noise, so its distance counts, too.
+            // A distant entry on the line would be visible as noise, so its distance counts, too.
             const float cost = glm::dot(miss, miss) + 0.25f * square * part * (1.0f - part);
             if (cost >= least) continue;
             least = cost;

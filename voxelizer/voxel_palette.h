@@ -17,7 +17,7 @@ struct PaletteError {
     double mean = 0.0;
     double p95 = 0.0;
     double largest = 0.0;
-    std::uint64_t radiances_off = 0;  // voxels that emit over 3 % more or less than they should
+    std::uint64_t radiances_off = 0;  // voxels whose emission is off by more than 3 %
 };
 
 struct PaletteEntry {
@@ -25,12 +25,13 @@ struct PaletteEntry {
     Look look;
 };
 
-// Which of at most 255 entries each voxel takes. A voxel only takes an entry of its own look.
+// Assigns one of at most 255 entries to each voxel. A voxel only takes an entry of its own look.
 class VoxelPalette {
   public:
-    // From all voxels of the surface. Exact when they have no more colours than entries; otherwise colours
-    // are told apart to 6 bits a channel and quantized. With `dither` a voxel takes one of two entries on
-    // either side of its colour, by its place, such that means over a few voxels are right.
+    // Built from all voxels of the surface. Exact when they have no more colours than entries; otherwise
+    // colours are distinguished to 6 bits a channel and quantized. With `dither` a voxel takes one of two
+    // entries on either side of its colour, depending on its position, so that means over a few voxels are
+    // right.
     VoxelPalette(const VoxelSet& set, bool dither);
 
     [[nodiscard]] const std::vector<PaletteEntry>& entries() const { return entries_; }
@@ -41,7 +42,7 @@ class VoxelPalette {
     [[nodiscard]] const PaletteError& error() const { return error_; }
 
   private:
-    // Colours of one look whose bytes agree in their upper 6 bits, or wholly in a heavy slot.
+    // Colours of one look that agree in the upper 6 bits of each byte, or in all bits in a heavy slot.
     struct Cell {
         glm::u64vec3 sum{0};
         std::uint64_t count = 0;
@@ -69,8 +70,8 @@ class VoxelPalette {
 
     std::vector<std::uint8_t> group_of_look_;  // of a look's 16 bits
     std::vector<Look> looks_;                  // of each group
-    // Slot: group, then 6 bits each of r, g, b; heavy slots have 64 finer ones behind all others. A cell's
-    // number, 0 for none, or kHeavy and the first finer slot.
+    // Slot: group, then 6 bits each of r, g, b; each heavy slot has 64 finer ones after all others. Values
+    // are the index of a cell, 0 for none, or kHeavy and the first finer slot.
     std::vector<std::uint32_t> cell_of_slot_;
     std::vector<Cell> cells_;                // the first is unused
     std::vector<std::uint64_t> exact_keys_;  // hash table of look and colour, when there are few

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRows = std::size_t{kBlockCells} * kBlockCells;
 
-// What a piece weighs that touches a cell in a point or a line, voxels^2: nothing beside any other piece.
+// Weight of a piece that touches a cell in a point or a line, voxels^2: negligible beside any other piece.
 constexpr float kTouchArea = 1e-9f;
 
 std::size_t row_of(int y, int z) {
@@ -122,7 +122,8 @@ class BlockVoxelizer {
             VoxelSum& sum =
                 s_.sums[s_.first_sum[span.row] + static_cast<std::size_t>(std::popcount(filled & (bit - 1)))];
             if ((shared & bit) == 0) {
-                // Alone in the cell, its area does not matter and no edge of it is near, but for open meshes.
+                // Where no other triangle touches the cell, area does not matter and no edge is near, except
+                // in open meshes.
                 if (const auto piece = pieces.plane.at(glm::vec3(x, y, z))) {
                     add_piece(sum, *piece, pieces.shade);
                     continue;

@@ -11,7 +11,7 @@
 
 namespace voxilux {
 
-// A voxel on its way to the file: place in its model's 256^3 cells, sRGB colour, and look (see
+// A voxel on its way to the file: position in its model's 256^3 cells, sRGB colour, and look (see
 // surface_look.h).
 struct ColouredVoxel {
     std::uint8_t x = 0, y = 0, z = 0;
@@ -23,7 +23,7 @@ struct ColouredVoxel {
 
 enum class Coverage : std::uint8_t {
     conservative,  // every cell that the surface touches
-    thin,          // 6-separating: cells whose middle cross the surface meets
+    thin,          // 6-separating: cells whose central cross the surface meets
 };
 
 // What all blocks share.
@@ -43,15 +43,15 @@ struct BlockSpan {
     std::uint8_t last = 0;
 };
 
-// What a voxel has collected from its pieces.
+// What a voxel has accumulated from its pieces.
 struct VoxelSum {
-    glm::vec3 colour{0.0f};  // linear, times area, of pieces whose colours mean what those of `look` do
+    glm::vec3 colour{0.0f};  // linear, times area, of pieces whose colours may be averaged with `look`'s
     float area = 0.0f;       // of these, voxels^2
-    float votes = 0.0f;      // of `look`, less those of others (R. Boyer and J. Moore, "MJRTY", 1981)
+    float votes = 0.0f;      // for `look`, minus those for others (R. Boyer and J. Moore, "MJRTY", 1981)
     std::uint16_t look = 0;
 };
 
-// Kept from block to block so that memory is taken once.
+// Kept from block to block to reuse its memory.
 struct BlockScratch {
     std::vector<std::uint64_t> filled;     // [64 z][64 y], bit x
     std::vector<std::uint64_t> touched;    // likewise; in thin mode more than `filled`
@@ -64,10 +64,10 @@ struct BlockScratch {
 
 struct BlockResult {
     std::vector<ColouredVoxel> voxels;  // z by y by x
-    std::size_t masked = 0;             // cells left empty because all in them is below an alpha cutoff
+    std::size_t masked = 0;  // cells left empty because everything in them is below an alpha cutoff
 };
 
-// The voxels of a block. Depends on nothing but its arguments: the order of sums is that of the triangles.
+// The voxels of a block. Depends only on its arguments: sums are in the order of the triangles.
 [[nodiscard]] BlockResult voxelize_block(const VoxelizeInput& input, const Block& block,
                                          BlockScratch& scratch);
 

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// Counts triangles that are done and tells so.
+// Counts finished triangles and reports progress.
 class ProgressCount {
   public:
     ProgressCount(std::size_t all, const std::function<void(double)>& tell) : all_(all), tell_(tell) {}
@@ -52,7 +52,7 @@ std::uint64_t cells_between(int first, int last) {
     return ~std::uint64_t{0} >> (63 - last + first) << first;
 }
 
-// Interior rows by block; a key of the block's place in the grid of blocks.
+// Interior rows by block; the key is the block's position in the grid of blocks.
 using InteriorBlocks = std::unordered_map<std::uint64_t, std::vector<InteriorRow>>;
 
 std::uint64_t place_key(glm::ivec3 block) {
@@ -73,7 +73,7 @@ void add_run(const InsideRun& run, InteriorBlocks& blocks) {
     }
 }
 
-// What the surface fills already is no interior.
+// Cells that the surface fills are not interior.
 void remove_surface(VoxelBlock& block) {
     std::vector<std::uint64_t> filled(std::size_t{kBlockCells} * kBlockCells, 0);
     for (const ColouredVoxel& voxel : block.surface) {

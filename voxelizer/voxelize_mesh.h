@@ -15,8 +15,8 @@ struct VoxelizeRequest {
     Coverage coverage = Coverage::conservative;
     bool is_solid = false;
     InsideRule inside = InsideRule::winding;  // with is_solid
-    unsigned threads = 0;  // 0: as many as the machine has; the result is the same for any number
-    std::function<void(double done)> progress;  // share in [0, 1], from any thread, one at a time; may throw
+    unsigned threads = 0;  // 0: as many as the machine has; the result does not depend on it
+    std::function<void(double done)> progress;  // fraction done, from any thread, one at a time; may throw
 };
 
 // The voxels of a block of 64^3 cells.
@@ -38,7 +38,7 @@ struct VoxelSet {
 };
 
 // Cells, colours and looks of a mesh. Memory follows the surface: 8 bytes per voxel, and scratch per thread.
-// Throws what grid_of throws, and Error(input_refused) when nothing is left to be seen.
+// Throws what grid_of throws, and Error(input_refused) when no voxel is left.
 [[nodiscard]] VoxelSet voxelize_mesh(const Mesh& mesh, const VoxelizeRequest& request);
 
 }  // namespace voxilux

@@ -10,7 +10,7 @@ namespace voxilux {
 namespace {
 
 struct PlacedPoint {
-    std::uint64_t cell = 0;  // x fastest, 17 bits an axis
+    std::uint64_t cell = 0;  // x fastest, 17 bits per axis
     std::uint32_t point = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace voxilux {
 
-// What the user should know of a mesh and its voxels, one line each.
+// What the user should know about a mesh and its voxels, one line each.
 [[nodiscard]] std::vector<std::string> warnings_of(const Mesh& mesh, const VoxelSet& set, InsideRule inside,
                                                    const PaletteError& error);
 

@@ -8,8 +8,8 @@ namespace {
 
 using Section = SectionTable::Section;
 
-// The corners at which the plane n . p = d crosses the edges of the unit cube around the origin give its
-// section: the part of a large square on the plane inside the cube, here by fans around their mean.
+// The points where the plane n . p = d crosses the edges of the unit cube around the origin bound its
+// section, the part of the plane inside the cube. Computed by fans around the mean of these points.
 Section cut_cube(glm::vec3 n, float d) {
     std::array<glm::vec3, 12> corners;
     int count = 0;
@@ -26,7 +26,7 @@ Section cut_cube(glm::vec3 n, float d) {
         }
     }
     if (count < 3) return {.centre = glm::vec3(0.5f) * glm::sign(n), .area = 0.0f};
-    // Seen along z, where the normal is largest.
+    // Projected along z, where the normal is largest.
     glm::vec3 middle(0.0f);
     for (int i = 0; i < count; ++i)
         middle += corners[static_cast<std::size_t>(i)] / static_cast<float>(count);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The piece of a plane in a cell that no edge crosses, without cutting: area and centroid depend on the
-// normal and the distance from the cell's middle alone, so they are tabulated once, for normals with rising
+// The part of a plane in a cell that no edge crosses, found without cutting: area and centroid depend only on
+// the normal and the distance from the cell's centre, so they are tabulated once, for normals with increasing
 // absolute components.
 
 #include <array>
@@ -14,8 +14,9 @@
 
 namespace voxilux {
 
-// Sections of the unit cube around the origin, by the two smaller components of the normal over the largest
-// and by the distance over the farthest corner's. Off by at most 0.05 voxel (see the tests).
+// Sections of the unit cube around the origin, indexed by the two smaller components of the normal relative
+// to the largest, and by the distance relative to that of the farthest corner. Off by at most 0.05 voxel (see
+// the tests).
 class SectionTable {
   public:
     SectionTable();
@@ -34,7 +35,7 @@ class SectionTable {
     std::vector<Section> sections_;
 };
 
-// One plane ready to be asked.
+// One plane, prepared for lookups.
 class PlaneSections {
   public:
     PlaneSections(const SectionTable& table, const std::array<glm::vec3, 3>& triangle);
@@ -46,12 +47,13 @@ class PlaneSections {
   private:
     glm::vec3 normal_{0.0f};  // its largest component is 1
     float offset_ = 0.0f;
-    float to_step_ = 0.0f;  // from distance to step of the table
-    // Axes by rising absolute component of the normal, each towards the normal's side, and those components.
+    float to_step_ = 0.0f;  // from distance to index in the table
+    // Axes by increasing absolute component of the normal, each pointing to the normal's side, and those
+    // components.
     std::array<glm::vec3, 3> towards_{};
     glm::vec2 slope_{0.0f};
     glm::vec3 corner_{0.0f};
-    std::array<glm::vec3, 2> barycentric_{};  // slopes of two coordinates
+    std::array<glm::vec3, 2> barycentric_{};  // gradients of two coordinates
     const SectionTable::Section* sections_;
 };
 

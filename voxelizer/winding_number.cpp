@@ -11,9 +11,9 @@ namespace voxilux {
 namespace {
 
 constexpr std::uint32_t kLeafTriangles = 8;
-// Radii of a node from its centre from where on it counts as one dipole.
+// Distance, in radii of a node, from which on the node counts as one dipole.
 constexpr double kFarRadii = 4.0;
-// The tree halves its triangles, 2^32 at most, so a walk never has more nodes open.
+// The tree halves its triangles, 2^32 at most, so a traversal never has more nodes open.
 constexpr std::size_t kMaxOpen = 64;
 
 // Source: A. van Oosterom and J. Strackee, "The Solid Angle of a Plane Triangle", 1983.

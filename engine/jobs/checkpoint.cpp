@@ -17,8 +17,8 @@ bool is_finished(const RenderOutcome& outcome) {
     return stop == StopReason::finished || stop == StopReason::error_target;
 }
 
-// The picture is what counts: a checkpoint that cannot be written is no reason to stop. Samples that depend
-// on those before cannot be resumed.
+// A checkpoint that cannot be written must not stop the render. Samples that depend on earlier ones cannot be
+// resumed.
 void save_checkpoint(const Checkpoint& checkpoint, const Scene& scene,
                      const std::function<RenderOutcome()>& so_far) {
     try {

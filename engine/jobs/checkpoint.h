@@ -8,31 +8,31 @@
 
 namespace voxilux {
 
-// The checkpoint of a render: a part of it (jobs/film_part.h) beside its first EXR, which is removed when the
-// picture is finished.
+// The checkpoint of a render: a part of it (jobs/film_part.h) beside its first EXR, removed when the image is
+// finished.
 struct Checkpoint {
     PictureFiles pictures;
     std::filesystem::path file;  // empty: the render has none
-    double every_s = 0.0;        // 0: none is written
+    double every_s = 0.0;        // 0: no checkpoints
     std::function<void(const std::string&line)> note, warn;
 };
 
-// Where the checkpoint of these pictures lies, "a.exr.part"; empty without an EXR.
+// Where the checkpoint of these image files lies, "a.exr.part"; empty without an EXR.
 [[nodiscard]] std::filesystem::path checkpoint_file(const PictureFiles& pictures);
 
-// Lets a render save the checkpoint, find out how long its end takes and, if `resumes`, go on from it.
-// `checkpoint` outlives the options.
+// Lets a render save the checkpoint, measure how long its end takes and, if `resumes`, continue from it.
+// `checkpoint` must outlive the options.
 void use_checkpoint(const Checkpoint& checkpoint, bool resumes, RenderOptions& options);
 
-// Leaves a checkpoint of a render that stopped before its end.
+// Saves a checkpoint of a render that stopped before its end.
 void leave_checkpoint(const Checkpoint& checkpoint, const Scene& scene, const RenderOutcome& outcome);
 
-// Removes that of a render that is finished, and whose picture is written.
+// Removes the checkpoint of a render that is finished and whose image is written.
 void remove_checkpoint(const Checkpoint& checkpoint, const RenderOutcome& outcome);
 
-// Does to a strip of a picture what a render that its time limit stops does to the picture and its
-// checkpoint, in the system's folder for temporary files, and leaves nothing: how long that takes is what is
-// asked. What goes wrong is ignored.
+// Writes a strip of an image and its checkpoint to the system's temporary folder, as the end of a render does
+// when its time limit stops it, and removes the files again: the caller measures how long that takes. Errors
+// are ignored.
 void rehearse_output(const Checkpoint& checkpoint, const Scene& scene, RenderOutcome strip);
 
 }  // namespace voxilux

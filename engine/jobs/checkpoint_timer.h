@@ -4,11 +4,11 @@
 
 namespace voxilux {
 
-// When a checkpoint is due. Those of large images take seconds: the pause between two is at least
+// When a checkpoint is due. Checkpoints of large images take seconds, so the pause between two is at least
 // kMinPauses times as long as the last one took.
 class CheckpointTimer {
   public:
-    // From one checkpoint to the next; 0: none.
+    // `period_s`: between checkpoints; 0: none.
     explicit CheckpointTimer(double period_s) : period_s_(period_s), next_s_(period_s) {}
 
     [[nodiscard]] bool is_due(double now_s) const { return period_s_ > 0.0 && now_s >= next_s_; }

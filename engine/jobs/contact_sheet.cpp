@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Copies a plane into the sheet; one that the image lacks is full: its alpha.
+// Copies a plane into the sheet. A plane that the image lacks is its alpha: opaque.
 void paste_plane(const Image& image, const std::string& name, glm::ivec2 at, Image& sheet) {
     std::vector<float>& to = sheet.channels.at(name).pixels;
     const auto from = image.channels.find(name);

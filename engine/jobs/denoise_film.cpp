@@ -14,7 +14,7 @@
 namespace voxilux {
 namespace {
 
-constexpr int kErrorReach = 7;  // pixels: errors are means over 15 x 15
+constexpr int kErrorReach = 7;  // pixels: errors are averaged over 15 x 15
 constexpr std::array<const char*, 4> kGuidePlanes{"guide_sharp", "guide_albedo", "guide_normal",
                                                   "guide_offset"};
 
@@ -26,7 +26,7 @@ std::string half_plane(const char* plane, std::size_t half) {
     return std::string(plane) + (half == 0 ? "_a" : "_b");
 }
 
-// Rows `first` to before `first` + `count` of one half.
+// Reads rows `first` to `first` + `count` - 1 of one half.
 class HalfReader {
   public:
     HalfReader(const FilmSums& film, std::size_t half) : film_(film), half_(half) {}
@@ -69,8 +69,8 @@ class HalfReader {
     std::size_t half_;
 };
 
-// Share of the samples that the even half has. Where a time limit has left rows with unlike counts, it is
-// that of all: near enough for a claim of some samples.
+// Fraction of the samples that the even half has. Where a time limit has left rows with different counts, it
+// is that of all rows together: close enough for an error estimate.
 float share_of_even(const FilmSums& film) {
     const auto sum = [](const std::vector<std::uint32_t>& rows) {
         return static_cast<double>(std::accumulate(rows.begin(), rows.end(), std::uint64_t{0}));
@@ -79,7 +79,7 @@ float share_of_even(const FilmSums& film) {
     return static_cast<float>(even / (even + sum(film.odd)));
 }
 
-// All rows of what record_denoise() finds.
+// All rows of the results of record_denoise().
 struct DenoisedTexels {
     std::vector<glm::vec4> picture, errors;
     std::vector<PassTime> passes;
@@ -117,7 +117,7 @@ std::vector<float> component(const std::vector<glm::vec4>& texels, glm::length_t
     return values;
 }
 
-// Means along an axis: `count` lines of `length` values, which are `step` apart.
+// Running means along an axis: `count` lines of `length` values, `step` apart.
 std::vector<double> line_means(const std::vector<double>& values, std::size_t length, std::size_t step) {
     std::vector<double> means(values.size());
     for (std::size_t begin = 0; begin < values.size(); ++begin) {
@@ -132,7 +132,7 @@ std::vector<double> line_means(const std::vector<double>& values, std::size_t le
     return means;
 }
 
-// The root of the mean squared errors around each pixel: those of pixels alone are noise mostly.
+// RMS error around each pixel: the squared error of a single pixel is mostly noise.
 std::vector<float> smoothed_errors(const FilmSums& film, const std::vector<glm::vec4>& errors) {
     std::vector<double> squares(errors.size());
     std::ranges::transform(errors, squares.begin(),
@@ -146,7 +146,7 @@ std::vector<float> smoothed_errors(const FilmSums& film, const std::vector<glm::
     return roots;
 }
 
-// Light that photons smooth is smooth in both halves: they do not tell of that bias.
+// The halves agree on light that photons smooth, so their difference does not contain that bias.
 ErrorEstimate with_photon_bias(ErrorEstimate claim, const FilmSums& film) {
     if (!film.sums.contains("bias_a")) return claim;
     const FilmHalves halves(film);

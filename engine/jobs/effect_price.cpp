@@ -10,8 +10,8 @@
 namespace voxilux {
 namespace {
 
-// A step through all seeds: the golden ratio of 2^32. The trials have other random numbers than a render with
-// the settings' own seed.
+// A step through all seeds: 2^32 times the golden ratio. It gives the trials other random numbers than a
+// render with the settings' own seed.
 constexpr std::uint32_t kSeedStep = 0x9E3779B9;
 
 const EffectState& state_of(const RenderPlan& plan, Effect effect) {
@@ -24,9 +24,9 @@ PlanRequest switched(const PlanRequest& request, const RenderPlan& plan, Effect 
     return other;
 }
 
-// One way to render, and what its trials gave.
+// One configuration, and the results of its trials.
 struct Entry {
-    Effect effect = Effect::voxels;  // the switched one
+    Effect effect = Effect::voxels;  // the one switched
     PlanRequest request;
     std::optional<double> radius;  // of photons
     std::vector<Image> pictures;
@@ -41,7 +41,7 @@ RenderOutcome render(RenderSession& session, const PriceJob& job, const Entry& e
     return session.render(job.frame, std::nullopt);
 }
 
-// One sample: it compiles the shaders, touches the buffers and finds the radius of photons.
+// Takes one sample: compiles the shaders, touches the buffers and finds the radius of photons.
 RenderPlan warm_up(RenderSession& session, const PriceJob& job, Entry& entry) {
     RenderSettings settings = job.settings;
     settings.spp = 1;
@@ -50,7 +50,7 @@ RenderPlan warm_up(RenderSession& session, const PriceJob& job, Entry& entry) {
     return plan;
 }
 
-// The colours alone: the pictures of all trials are held together.
+// The colours alone, because the images of all trials are held at once.
 Image colours_of(Image image) {
     std::erase_if(image.channels, [](const auto& channel) {
         return channel.first != "R" && channel.first != "G" && channel.first != "B";

@@ -5,12 +5,12 @@
 namespace voxilux {
 namespace {
 
-// Passes that every picture has: no effect pays for them.
+// Passes that every image needs: no effect is charged for them.
 bool is_of_frame(const std::string& stem) {
     return stem == "shade" || stem == "film" || stem == "world";
 }
 
-// The effect whose time a pass is. Photons of indirect light and of caustics are the same ones.
+// The effect that a pass is charged to. Indirect light and caustics share their photons.
 Effect payer_of(const RenderPlan& plan, const std::string& stem) {
     if (stem == "primary") return Effect::voxels;
     if (stem == "sphere") return Effect::spheres;

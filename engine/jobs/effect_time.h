@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// Milliseconds of the passes that are there for an effect.
+// Milliseconds of the passes that an effect needs.
 [[nodiscard]] double effect_ms(const RenderPlan& plan, std::span<const PassTime> passes, Effect effect);
 
 }  // namespace voxilux

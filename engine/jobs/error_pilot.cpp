@@ -11,9 +11,9 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint32_t kFirstPilotLook = 4;  // samples: with fewer a film hardly knows its own brightness
-// Where the time of a sample depends on its number, as discs of photons shrink: this many at half and at the
-// end of the render that is expected are timed, too.
+constexpr std::uint32_t kFirstPilotLook = 4;  // samples: with fewer, a film hardly knows its own luminance
+// Where the time of a sample depends on its number, because photon kernels shrink, this many are also timed
+// at half and at the end of the expected render.
 constexpr std::uint32_t kLateSamples = 2;
 
 double samples_needed(const ErrorPilot& pilot, double error) {

@@ -11,18 +11,18 @@
 namespace voxilux {
 
 struct SampleTime {
-    double number = 1.0;  // of the sample in its render, from 1
+    double number = 1.0;  // index of the sample in its render, from 1
     double seconds = 0.0;
 };
 
-// What the first samples of a render tell of the others.
+// What the first samples of a render predict of the others.
 struct ErrorPilot {
     ErrorLaw law;
     std::vector<ErrorPoint> points;
-    std::vector<SampleTime> times;  // without the first sample, for which pipelines are made
-    std::uint32_t samples = 0;      // in the points' film
+    std::vector<SampleTime> times;  // without the first sample, which compiles pipelines
+    std::uint32_t samples = 0;      // in the film of the points
     double film_s = 0.0;            // to read a film and estimate its error, once
-    bool is_complete = true;        // false when it was stopped: it may know nothing
+    bool is_complete = true;        // false when it was stopped early: there may be no points
 };
 
 struct PilotJob {
@@ -33,19 +33,20 @@ struct PilotJob {
     std::function<bool()> stops;  // asked before each sample
 };
 
-// The numbers of samples at which a pilot looks at its film, and its end, are functions of the picture and of
-// the errors that it finds, not of time: two runs decide alike. It ends with about 2 % of the samples that
-// the target needs, or kPilotWork when that is more.
+// The sample counts at which a pilot estimates the error of its film, and its end, depend on the image and on
+// the errors found, not on time: two runs decide alike. It ends with about 2 % of the samples that the target
+// needs, or kPilotWork when that is more.
 inline constexpr double kPilotShare = 0.02;
-inline constexpr double kPilotWork = 1u << 20;  // pixels times samples: a second on two cores
+inline constexpr double kPilotWork = 1u << 20;  // pixels times samples: about a second on two cores
 inline constexpr std::uint32_t kMinPilotSamples = 8;
 inline constexpr std::uint32_t kMaxPilotSamples = 256;
 
-// Whether a pilot of so many samples doubles them. `needed`: samples that the target needs, as known now.
+// Whether a pilot with this many samples doubles them. `needed`: samples that the target needs, as known now.
 [[nodiscard]] bool doubles_pilot(std::uint32_t samples, double pixels, double needed);
 
-// Takes samples of the whole picture that no picture is made of, on a device that holds the world. The film
-// is left dirty. The samples of the plan must not depend on those before (Technique::keeps_state).
+// Takes samples of the whole image that are not part of the result, on a device that holds the world. The
+// film is not cleared afterwards. The samples of the plan must not depend on earlier ones
+// (Technique::keeps_state).
 [[nodiscard]] ErrorPilot run_error_pilot(const PilotJob& job, Executor& executor);
 
 }  // namespace voxilux

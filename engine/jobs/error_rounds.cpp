@@ -10,13 +10,13 @@ namespace voxilux {
 namespace {
 
 constexpr std::uint32_t kFirstRound = 8;  // samples, where nothing is known
-// A round that its own picture decides grows it by this at least, so that looks stay few; and by this at
-// most: few samples say little, and of many one bright one may have said too much.
+// Factors by which a round decided by the image itself grows it: at least kMinGrowth, so that estimates stay
+// few, and at most kMaxGrowth, because a single bright sample may have raised the estimate.
 constexpr double kMinGrowth = 1.05;
 constexpr double kMaxGrowth = 2.0;
 constexpr double kMaxEarlyGrowth = 8.0;
 constexpr std::uint32_t kEarly = 64;  // samples
-constexpr double kAim = 0.98;         // of the target, after a claim that passed it
+constexpr double kAim = 0.98;         // fraction of the target, after an estimate that exceeded it
 
 }  // namespace
 
@@ -49,7 +49,7 @@ bool ErrorRounds::reaches(std::uint32_t samples, const ErrorEstimate& claim) {
     if (const auto point = error_point(samples, claim)) points_.push_back(*point);
     decided_by_ = DecidedBy::averaged;
     ++rounds_;
-    // The curve says how the claim falls, the claim itself where it stands.
+    // The curve gives the rate at which the estimate falls; the last estimate gives its level.
     const auto curve = fit_error(law_, points_);
     double wanted = 0.0;
     if (curve && std::isfinite(claim.high)) {
@@ -60,7 +60,7 @@ bool ErrorRounds::reaches(std::uint32_t samples, const ErrorEstimate& claim) {
     const double max_growth = samples < kEarly ? kMaxEarlyGrowth : kMaxGrowth;
     const double next = std::clamp(wanted, std::ceil(kMinGrowth * now) + 1.0, max_growth * now);
     end_ = static_cast<std::uint32_t>(std::min(next, static_cast<double>(most_)));
-    end_ = std::min(end_ + end_ % 2, most_);  // halves of one size
+    end_ = std::min(end_ + end_ % 2, most_);  // halves of equal size
     return false;
 }
 

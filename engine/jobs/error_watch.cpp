@@ -5,8 +5,8 @@
 namespace voxilux {
 namespace {
 
-// Reading the film costs about as much as one sample. For progress alone it is read when samples have doubled
-// and this time has passed.
+// Reading the film costs about as much as one sample. For progress alone it is read when the number of
+// samples has doubled and this much time has passed.
 constexpr double kLookEvery_s = 2.0;
 constexpr std::uint32_t kFirstLook = 8;
 

@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// The errors that a film has claimed so far, and the curve through them.
+// The errors that a film has estimated so far, and the curve fitted to them.
 class ErrorWatch {
   public:
     // `known`: points that were known before the first sample.
@@ -18,11 +18,11 @@ class ErrorWatch {
 
     void add(std::uint32_t samples, const ErrorEstimate& claim, double now_s);
 
-    // Whether people should be shown a new one, which decides nothing.
+    // Whether a new estimate should be shown, which decides nothing.
     [[nodiscard]] bool is_due(std::uint32_t samples, double now_s) const;
 
     [[nodiscard]] const std::optional<ErrorCurve>& curve() const { return curve_; }
-    // The curve with one point more.
+    // The curve with one more point.
     [[nodiscard]] std::optional<ErrorCurve> curve_with(std::uint32_t samples,
                                                        const ErrorEstimate& claim) const;
 

@@ -60,7 +60,7 @@ SortedJson scene_json(const Scene& scene, const SceneFacts& facts, const Camera&
             {"warnings", scene.warnings}};
 }
 
-// What a plane of numbers holds. The mean is over its finite values.
+// The range of a plane of numbers. The mean is over its finite values.
 struct Range {
     float low = std::numeric_limits<float>::infinity();
     float high = -std::numeric_limits<float>::infinity();
@@ -107,13 +107,13 @@ void add_channel(const Image& image, const std::string& name, FileFacts& facts) 
                                       {"non_finite", range.non_finite}});
 }
 
-// A text attribute that holds JSON, as our report does, stays JSON.
+// A text attribute that holds JSON, like the report, stays JSON.
 SortedJson attribute_json(const std::string& text) {
     const std::optional<SortedJson> parsed = parse_json<SortedJson>(text);
     return parsed && parsed->is_object() ? *parsed : SortedJson(printable(text));
 }
 
-// What `render` would say of the file: its warnings, and what is shown as something simpler.
+// What `render` would say about the file: its warnings, and what is shown in a simplified form.
 std::vector<std::string> render_warnings(const VoxFile& file, const std::filesystem::path& path) {
     try {
         const Scene scene = scene_of_file(file, path);

@@ -15,12 +15,12 @@ struct FileFacts {
     nlohmann::json json;
 };
 
-// What is in a .vox file, what a scene file makes (facts, lights, camera, settings), or the size, channels
-// with their ranges and text attributes of an EXR, a checkpoint or a PNG, by the ending of the name. Throws
+// What is in a .vox file, what a scene file sets up (facts, lights, camera, settings), or the size, channels
+// with their ranges and text attributes of an EXR, a checkpoint or a PNG, by the file extension. Throws
 // Error(input_refused).
 [[nodiscard]] FileFacts file_facts(const std::filesystem::path& path);
 
-// The same of the voxels of a file of another kind; `path` names it.
+// The same for the voxels of a file in another format; `path` names it.
 [[nodiscard]] FileFacts vox_file_facts(const VoxFile& file, const std::filesystem::path& path);
 
 }  // namespace voxilux

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 5;  // of the attribute; another one is refused
+constexpr int kFormat = 5;  // of the attribute; other formats are refused
 constexpr std::string_view kPartKind = "a part of a render";
 constexpr int kRowsAtOnce = 64;  // whole blocks of an EXR
 
@@ -63,7 +63,7 @@ void check(bool is_sound, const char* what) {
     if (!is_sound) throw std::runtime_error(what);
 }
 
-// `film` gives the size of the picture, which lies inside the window's frame.
+// `film` gives the size of the image, which lies inside the window's frame.
 ExrOptions file_of(const Json& json, const FilmSums& film) {
     const auto window = json.at("window").get<std::array<int, 4>>();
     const auto is_inside = [](int begin, int size, int full) {
@@ -89,7 +89,7 @@ Json part_json(const FilmPart& part) {
             {"file", file_json(part.file)}};
 }
 
-// The film has its size.
+// The film already has its size.
 void read_json(const Json& json, FilmPart& part) {
     check(json.at("format") == kFormat, "it has another format, of another version");
     part.render = json.at("render");
@@ -137,7 +137,7 @@ Json parsed(const std::string& text) {
     return *std::move(json);
 }
 
-// The part that an image is of, without its planes. `head` has the attributes of the image and its size.
+// The part of an image, without its planes. `head` has the attributes of the image and its size.
 FilmPart described_part(const Image& head) {
     const auto description = head.attributes.find(kPartAttribute);
     const auto report = head.attributes.find(kReportAttribute);

@@ -10,20 +10,20 @@
 namespace voxilux {
 namespace {
 
-// Deviations of the claim that a render allows for before it looks at its error. A second round costs little
-// but is decided by the samples it averages.
+// Standard deviations of the estimate by which a render exceeds the expected samples before it estimates its
+// error. A second round costs little but is decided by the samples that it averages.
 constexpr double kPlanDeviations = 0.75;
 constexpr std::uint32_t kMinSamples = 8;
-constexpr std::uint32_t kWholeSamples = 4;  // a multiple: halves of one size
-// Relative: what time of the day does to the speed of a machine, which no pilot sees.
+constexpr std::uint32_t kWholeSamples = 4;  // rounds up to a multiple: halves of equal size
+// Relative: slow changes of the machine's speed, which no pilot sees.
 constexpr double kMinDrift = 0.08;
 constexpr double kDriftDeviations = 2.0;
 constexpr std::size_t kTimeGroups = 4;
-// Readings of the error film that the end of a render is worth: reading, picture and estimate of all planes.
+// Cost of a render's end in readings of the error film: reading, image and estimate of all planes.
 constexpr double kEndReadings = 1.5;
 constexpr double kRoundReadings = 1.0;
 
-// Of the mean over a render, from how groups of successive samples differ.
+// Uncertainty of the mean over a render, from how groups of successive samples differ.
 double drift_of(const std::vector<SampleTime>& times, const TimeCurve& curve) {
     if (times.size() < 2 * kTimeGroups) return 2.0 * kMinDrift;
     std::array<double, kTimeGroups> means{};
@@ -62,7 +62,7 @@ double TimeCurve::mean_of(double samples) const {
     return constant + falling * mean_power(std::max(samples, 1.0), alpha - 1.0);
 }
 
-// Least squares with both parts 0 or above.
+// Least squares with both terms at least 0.
 TimeCurve fit_times(const ErrorLaw& law, const std::vector<SampleTime>& times) {
     TimeCurve curve{.alpha = law.alpha};
     if (times.empty()) return curve;

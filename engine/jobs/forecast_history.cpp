@@ -52,8 +52,8 @@ bool is_same_file(const struct stat& a, const struct stat& b) {
     return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Renames a full file. Of several processes that find it full the one with its lock does, and only while the
-// name is still that of the full one.
+// Renames a full file. Of several processes that find it full, the one that holds its lock does, and only
+// while the name still refers to the full file.
 void make_room(const fs::path& file, int descriptor) {
     struct stat open_one {};
     struct stat named_one {};
@@ -72,7 +72,7 @@ void read_lines(const fs::path& file, std::vector<Json>& entries) {
     }
 }
 
-// A number at the end of a path of keys; nothing where it is missing.
+// The number at the end of a path of keys; nothing where it is missing.
 std::optional<double> number_at(const Json& json, std::initializer_list<const char*> keys) {
     const Json* at = &json;
     for (const char* key : keys) {
@@ -82,7 +82,7 @@ std::optional<double> number_at(const Json& json, std::initializer_list<const ch
     return at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
 }
 
-// What an entry says of its forecast.
+// What an entry tells about its forecast.
 struct Judged {
     bool is_inside = false;
     double ratio = 1.0;

@@ -25,7 +25,7 @@ Unit unit_of(double seconds) {
     return {86400.0, "days"};
 }
 
-// Two digits, but no fewer than those before the point.
+// Two significant digits, but all digits before the decimal point.
 std::string two_digits(double value) {
     return value < 10.0 ? fmt::format("{:.1f}", value) : fmt::format("{:.0f}", value);
 }

@@ -24,19 +24,19 @@ class FrameClock {
         recent_s_ = recent_s_ > 0.0 ? recent_s_ + (seconds - recent_s_) * kRecentShare : seconds;
     }
 
-    // Per row, of the last tile.
+    // Seconds per row of the last tile.
     [[nodiscard]] double row_s() const { return row_s_; }
-    // Per sample, of the last ones; 0: unknown.
+    // Seconds per sample, averaged over the last ones; 0: unknown.
     [[nodiscard]] double recent_s() const { return recent_s_; }
     [[nodiscard]] double sampling_s() const { return now_s() - sampling_from_s_; }
-    // Whole samples and a part of one, now and when the frame began.
+    // Samples so far, the fraction of the current one included, now and when the frame began.
     [[nodiscard]] double samples_at(FilmPosition film) const {
         return film.samples + static_cast<double>(film.rows_ahead) / rows_;
     }
     [[nodiscard]] double first_samples() const { return first_samples_; }
 
   private:
-    static constexpr double kRecentShare = 0.1;  // of a new sample in the mean time of the last ones
+    static constexpr double kRecentShare = 0.1;  // weight of a new sample in the recent mean
 
     std::chrono::steady_clock::time_point start_;
     std::uint32_t rows_;

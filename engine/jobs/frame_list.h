@@ -12,7 +12,7 @@ struct FrameList {
     std::int64_t first = 0;
     std::int64_t last = 0;
     std::int64_t step = 1;
-    bool is_sequence = false;  // files carry the number of their frame
+    bool is_sequence = false;  // file names contain the frame number
 
     bool operator==(const FrameList&) const = default;
     [[nodiscard]] std::int64_t count() const { return (last - first) / step + 1; }
@@ -23,7 +23,7 @@ struct FrameList {
 [[nodiscard]] std::filesystem::path numbered(const std::filesystem::path& file, std::int64_t frame,
                                              std::int64_t last);
 
-// The names of a frame's pictures: the files themselves, or numbered in a frame range.
+// The file names of a frame's images: the files themselves, or numbered in a frame range.
 [[nodiscard]] std::vector<std::string> files_of_frame(const std::vector<std::string>& files,
                                                       const FrameList& frames, std::int64_t frame);
 

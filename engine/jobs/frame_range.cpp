@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-// Time of a frame to come, over the mean of those so far.
+// Time of a future frame divided by the mean of those so far.
 constexpr double kFastestFrame = 0.8;
 constexpr double kSlowestFrame = 1.25;
 

@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::uint64_t kSumBytes = 8;
 constexpr std::uint64_t kValueBytes = 4;
-constexpr std::uint64_t kCountBytes = 8;    // samples of a pixel, in each half
+constexpr std::uint64_t kCountBytes = 8;    // sample count of a pixel, in each half
 constexpr std::uint64_t kFirstValues = 4;   // position and depth
 constexpr std::uint64_t kBeautyValues = 5;  // R G B, error, sample count
 constexpr std::uint64_t kHalfSaving = 6;    // bytes of a pixel's beauty that an EXR does not store
 
-// Bytes of a pixel on the host.
+// Bytes per pixel on the host.
 struct PixelBytes {
     std::uint64_t film = 0;
     std::uint64_t picture = 0;
-    std::uint64_t making = 0;  // beside both, while the picture is made
+    std::uint64_t making = 0;  // in addition to both, while the image is made
 };
 
 bool is_hidden(const std::string& plane) {
@@ -43,8 +43,8 @@ PixelBytes bytes_of_pixel(const RenderPlan& plan) {
             .making = 2 * kCountBytes + (plan.sums_bias ? 3 * kSumBytes : 0)};
 }
 
-// What the denoiser takes beside its buffers: of a strip what is uploaded, once more in the recording, and
-// what comes back; of the picture the result.
+// What the denoiser takes besides its buffers: for a strip the uploads, their copy in the recording, and the
+// readback; for the image the result.
 std::uint64_t denoise_bytes(glm::ivec2 size) {
     const std::uint64_t pixels = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     constexpr std::uint64_t kOfStrip = 2 * 8 * 16 + 2 * 16;  // texels of 16 bytes

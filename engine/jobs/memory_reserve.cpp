@@ -13,7 +13,7 @@
 namespace voxilux {
 namespace {
 
-// The number after a word in a text of "word number" pairs; nothing where it is not there.
+// The number after a word in a text of "word number" pairs; nothing where the word is missing.
 std::optional<std::uint64_t> number_after(const std::filesystem::path& file, const std::string& word) {
     std::ifstream text(file);
     std::string found;
@@ -23,7 +23,7 @@ std::optional<std::uint64_t> number_after(const std::filesystem::path& file, con
     return std::nullopt;
 }
 
-// Nothing for "max" and for a file that is not there.
+// Nothing for "max" and for a missing file.
 std::optional<std::uint64_t> number_in_file(const std::filesystem::path& file) {
     std::uint64_t number = 0;
     if (std::ifstream text(file); text >> number) return number;

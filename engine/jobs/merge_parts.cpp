@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
     refuse_part(file, fmt::format("not of the same render as {}: {}", sum.files.front().first, why));
 }
 
-// The file that a sample is from.
+// The file that a sample came from.
 const std::string& file_of(const PartSum& sum, std::uint32_t sample) {
     const SampleSet one = SampleSet::shard(sample, 1, sample + 1);
     const auto found =
@@ -29,7 +29,7 @@ const std::string& file_of(const PartSum& sum, std::uint32_t sample) {
     return found->first;
 }
 
-// What the description of a part tells.
+// Checks what the description of a part tells.
 void check_addable(const PartSum& sum, const FilmPart& part, const std::string& file) {
     if (part.rows_ahead > 0) refuse_part(file, "it ends within a sample; render --resume finishes it");
     if (part.samples.empty()) refuse_part(file, "it has no samples");
@@ -58,13 +58,13 @@ bool have_same_planes(const FilmSums& film, const FilmSums& rows) {
            std::ranges::equal(film.firsts, rows.firsts, is_same);
 }
 
-// Rows of a part whose first sample is `first_sample`.
+// Adds rows of a part whose first sample is `first_sample`.
 void add_rows_of_part(PartSum& sum, std::uint32_t first_sample, std::size_t first, const FilmSums& rows,
                       const std::string& file) {
     FilmSums& film = sum.total.film;
     if (!sum.files.empty() && !have_same_planes(film, rows)) refuse_other(sum, file, "it has other channels");
     add_rows(film, first, rows);
-    // Positions are those of the first sample that the picture has.
+    // Positions are those of the first sample in the image.
     if (sum.files.empty() || first_sample < sum.total.samples.first()) set_firsts(film, first, rows);
 }
 
@@ -79,7 +79,7 @@ void add_numbers(Json& total, const Json& more) {
     }
 }
 
-// Rows of passes or effects with a name under `key`.
+// Adds up rows of passes or effects, which have a name under `key`.
 void add_rows(Json& total, const Json& more, const char* key) {
     for (const Json& row : more) {
         const auto known =
@@ -111,7 +111,7 @@ void add_report(Json& total, const Json& more) {
         total["peak_rss_mib"] = std::max(total["peak_rss_mib"], more.at("peak_rss_mib"));
 }
 
-// All of a part but its planes.
+// Adds everything of a part except its planes.
 void add_description(PartSum& sum, FilmPart part, const std::string& file) try {
     const SampleSet samples = part.samples;
     if (sum.files.empty()) {

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// An effect's part in the change of the error: the noise falls by a factor, and every part of it with it.
+// An effect's part in the change of the error: noise falls by one factor, and each effect's part with it.
 Json share_json(const NextMinute& minute, const NoiseShare& share) {
     Json row = {{"name", name_of(share.effect)}, {"noise_share", nullptr}, {"change", nullptr}};
     if (share.share) {

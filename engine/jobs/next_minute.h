@@ -10,25 +10,25 @@
 
 namespace voxilux {
 
-// How much of the noise is that of one effect.
+// How much of the noise one effect causes.
 struct NoiseShare {
     Effect effect = Effect::ao;
-    std::optional<double> share;  // of the squared noise; nothing where it cannot be told
-    std::string reason;           // why not
+    std::optional<double> share;  // of the squared noise; nothing where unknown
+    std::string reason;           // why it is unknown
 };
 
-// What one minute more would have done to a render.
+// What one more minute would have improved in a render.
 struct NextMinute {
     double seconds_per_sample = 0.0;
-    double samples = 0.0;                      // that the minute takes
-    double error_now = 0.0, error_then = 0.0;  // expected ones, roots of relMSE
+    double samples = 0.0;                      // taken in that minute
+    double error_now = 0.0, error_then = 0.0;  // expected, sqrt(relMSE)
     std::optional<double> bias_now, bias_then;
     std::vector<NoiseShare> shares;
 };
 
 inline constexpr double kMinute_s = 60.0;
 
-// `samples` and the time of one are those of the render at its end.
+// `samples` and the time per sample are those at the end of the render.
 [[nodiscard]] NextMinute price_next_minute(const ErrorCurve& curve, double samples, double seconds_per_sample,
                                            std::vector<NoiseShare> shares);
 

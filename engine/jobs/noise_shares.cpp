@@ -1,8 +1,8 @@
-// Let X be a sample and X = E + R, E what an effect adds and R the sample without it, of the same random
-// numbers. Then Var(X) = Cov(E, X) + Cov(R, X): the effect's share is Cov(X - R, X) / Var(X), whatever else R
-// is the sum of. It is the derivative of the variance by a factor on E, halved. Both are taken from the
-// differences of two halves, D of X and D' of R: E[D (D - D')] is Cov(E, X) times what E[D^2] is Var(X)
-// times, so that neither means nor any truth are needed.
+// Let X = E + R be a sample, E what an effect adds and R the sample without it from the same random numbers.
+// Then Var(X) = Cov(E, X) + Cov(R, X): the effect's fraction is Cov(X - R, X) / Var(X), whatever else R is
+// the sum of. It is half the derivative of log Var(X) by a factor on E. Both are estimated from the
+// differences of two halves, D of X and D' of R: E[D (D - D')] is the same multiple of Cov(E, X) as E[D^2] is
+// of Var(X), so that neither means nor a reference are needed.
 
 #include "jobs/noise_shares.h"
 
@@ -20,17 +20,17 @@ namespace {
 
 constexpr std::uint32_t kShareSamples = 4;  // the sum over all pixels makes up for so few
 
-// Why the share of an effect cannot be told; empty when it can.
+// Why the noise of an effect cannot be measured; empty when it can.
 std::string reason_without_share(Effect effect) {
     switch (effect) {
         case Effect::voxels:
         case Effect::spheres:
-            return "where edges cross a pixel is noise of whatever is seen there";
+            return "at edges, its noise is that of whatever is seen there";
         case Effect::specular:
-            return "it decides what all others are seen through";
+            return "all other effects are seen through it";
         case Effect::sky:
         case Effect::emission:
-            return "the same in every sample that sees it";
+            return "it is the same in every sample that sees it";
         default:
             return {};
     }
@@ -86,13 +86,13 @@ std::vector<NoiseShare> share_noise(const ShareJob& job, Executor& executor) {
         if (shares.back().reason.empty()) films += 1.0;
     }
     const bool is_expensive = films * kShareSamples * job.sample_s > job.budget_s;
-    // No effect is off; neither are there sums that the shares do not need.
+    // All effects but AOVs, whose sums the comparison does not need.
     const FilmSums all =
         is_expensive ? FilmSums{} : render_film(job, plan_without(job.prepared.plan, Effect::aov), executor);
     for (NoiseShare& share : shares) {
         if (!share.reason.empty()) continue;
         if (is_expensive || (job.stops && job.stops())) {
-            share.reason = "a sample takes too long to find out";
+            share.reason = "a sample takes too long to measure it";
             continue;
         }
         share.share =

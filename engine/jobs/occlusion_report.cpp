@@ -12,11 +12,11 @@ std::uint64_t count_of(const std::map<std::string, std::uint64_t>& table, const 
     return found == table.end() ? 0 : found->second;
 }
 
-// How well the table of occlusion cells served.
+// How well the table of occlusion cells worked.
 struct TableUse {
-    double load = 0.0;                      // share of the slots that are taken
-    std::optional<double> searched_probes;  // keys looked at in a search; nothing without searches
-    std::optional<double> reused_share;     // of the hits, those that needed no search
+    double load = 0.0;                      // fraction of the slots in use
+    std::optional<double> searched_probes;  // keys compared per search; nothing without searches
+    std::optional<double> reused_share;     // fraction of hits that needed no search
 };
 
 TableUse table_use(const RenderPlan& plan, const RenderStatistics& statistics) {

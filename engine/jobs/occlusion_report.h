@@ -11,8 +11,8 @@ namespace voxilux {
 // table the slots are null.
 [[nodiscard]] nlohmann::ordered_json planned_occlusion_json(const RenderPlan& plan);
 
-// The same, and how the table served: the cells in it at the end, the share of its slots that they take, how
-// many keys a search looked at, and which share of the hits needed no search. Null without a table.
+// The same with the use of the table: the live cells at the end, the fraction of slots that they take, the
+// keys compared per search, and the fraction of hits that needed no search. Null without a table.
 [[nodiscard]] nlohmann::ordered_json occlusion_json(const RenderPlan& plan,
                                                     const RenderStatistics& statistics);
 

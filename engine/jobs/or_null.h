@@ -12,7 +12,7 @@ template <class T>
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
-// A number of a report that may be infinite or no number.
+// A number of a report that may be infinite or not a number.
 [[nodiscard]] inline nlohmann::ordered_json finite_or_null(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

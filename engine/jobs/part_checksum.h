@@ -12,7 +12,7 @@
 
 namespace voxilux {
 
-// The checksum of the sums, positions and depths of an image, whose rows come one after the other, and of a
+// The checksum of the sums, positions and depths of an image, whose rows arrive one after the other, and of a
 // text.
 class PartChecksum {
   public:

@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-// Acting on scene points: the camera's right, up and backward axes, as OpenEXR's worldToCamera.
+// Transforms scene points to the camera's right, up and backward axes, as OpenEXR's worldToCamera.
 glm::dmat4 world_to_camera(const Camera& camera) {
     const glm::dmat3 basis = camera_basis(camera);
     const glm::dmat3 axes(basis[0], basis[1], -basis[2]);
@@ -21,8 +21,8 @@ glm::dmat4 world_to_camera(const Camera& camera) {
     return matrix;
 }
 
-// Acting on camera points: x and y in [-1, 1] over the picture after the division by w, z up to 1 far away.
-// Orthographic: z is minus the distance. A panorama has no such matrix.
+// Transforms camera points: after division by w, x and y are in [-1, 1] over the image and z tends to 1 with
+// distance. Orthographic: z is minus the distance. A panorama has no such matrix.
 std::optional<glm::dmat4> camera_to_ndc(const Camera& camera, glm::ivec2 size) {
     if (camera.projection == Projection::orthographic) {
         glm::dmat4 scaled(1.0);
@@ -60,7 +60,7 @@ nlohmann::ordered_json report_of_picture(const PictureFiles& pictures, const Sce
     return pictures.reproducible ? reproducible_report_json(scene, outcome) : report_json(scene, outcome);
 }
 
-// In linear light, as colours that are multiplied by their A add up.
+// In linear light, because premultiplied colours are added.
 Image laid_over(Image image, glm::vec3 background) {
     const std::vector<float>& alpha = image.channels.at("A").pixels;
     for (const std::string prefix : {"", "denoised."}) {

@@ -15,9 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Errors beside the one asked for, over it: what a finer and a coarser picture would take.
+// Other error targets to forecast, relative to the requested one: a finer and a coarser image.
 constexpr std::array<double, 2> kOtherErrors{0.5, 2.0};
-// Relative: files and pipelines that are in a cache the second time, or no more.
+// Relative: files and pipelines may be cached in one process and not in the other.
 constexpr double kPilotDoubt = 0.4;
 
 std::string forecast_line(const Forecast& forecast) {
@@ -37,7 +37,7 @@ std::string mib_text(std::uint64_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 0x1p20);
 }
 
-// The effects that the picture would be another one with, but for the user.
+// The effects that would change the image if the user had not switched them off.
 std::vector<Effect> forced_off(const RenderPlan& plan, const PlanRequest& request) {
     std::vector<Effect> effects;
     for (const auto& [effect, choice] : request.effects.switches)
@@ -57,12 +57,12 @@ void add_price(const EffectPrice& price, PilotedPlan& result) {
         row["ms_per_sample"] = price.ms_per_sample;
     }
     result.text += fmt::format(
-        "without   {:<10} the picture is off by {} ({} to {}); with it a sample takes {:.1f} ms more\n", name,
-        percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
+        "without   {:<10} the image has an error of {} ({} to {}); with it a sample takes {:.1f} ms more\n",
+        name, percent_text(price.error), percent_text(price.error_low), percent_text(price.error_high),
         price.ms_per_sample);
 }
 
-// What the user's choices cost in error: a session of its own, which stops at no error.
+// What the user's choices cost in error, from a session of its own without an error target.
 void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOptions& options,
                       PilotedPlan& result) {
     const std::vector<Effect> effects = forced_off(result.plan, options.plan);
@@ -83,7 +83,7 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
     PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
     if (!pilot) {
         result.text =
-            "forecast  unknown: samples depend on those before, so that their error cannot be told\n";
+            "forecast  unknown: samples depend on earlier ones, so their error cannot be estimated\n";
         return result;
     }
     const double error = *options.error_target;
@@ -95,7 +95,7 @@ PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOp
     const std::optional<Forecast> asked = make_forecast(*pilot, error, needs);
     result.json["forecast"] = forecast_json(asked);
     result.text =
-        asked ? forecast_line(*asked) : "forecast  unknown: the picture has no noise yet to tell from\n";
+        asked ? forecast_line(*asked) : "forecast  unknown: the image has no noise yet to estimate from\n";
     result.json["forecasts"] = Json::array({forecast_json(asked)});
     for (const double factor : kOtherErrors) {
         const std::optional<Forecast> other = make_forecast(*pilot, factor * error, needs);

@@ -5,7 +5,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kPaceMargin = 0.05;  // relative, to both sides
+constexpr double kPaceMargin = 0.05;  // relative, on both sides
 
 }  // namespace
 

@@ -21,7 +21,7 @@ void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& 
 bool lacks_light(const std::map<std::string, std::uint64_t>& faults) {
     for (std::size_t i = 0; i < gpu::kFaultCount; ++i) {
         const auto fault = faults.find(gpu::kCounterNames[i]);
-        // Hits that find the table full use rays of their own.
+        // Hits that find the table full trace rays of their own.
         if (i != gpu::kFaultAoTableFull && fault != faults.end() && fault->second != 0) return true;
     }
     return false;

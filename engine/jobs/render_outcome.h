@@ -36,23 +36,23 @@ struct RenderStatistics {
     std::map<std::string, std::uint64_t> faults;
     std::vector<MemoryRow> memory;
     std::uint64_t pipelines = 0;
-    std::uint32_t samples = 0;     // whole ones, of the plan's part
-    std::uint64_t live_cells = 0;  // of occlusion, at the end
+    std::uint32_t samples = 0;     // complete ones, of the plan's part
+    std::uint64_t live_cells = 0;  // occlusion cells at the end
     ErrorEstimate error;
-    std::uint32_t rounds = 0;  // after which the error was compared with its target; 0: there is none
+    std::uint32_t rounds = 0;  // after which the error was compared with its target; 0: no target
     DecidedBy decided_by = DecidedBy::request;
-    std::optional<Forecast> forecast;       // made by a pilot
+    std::optional<Forecast> forecast;       // from a pilot
     std::optional<NextMinute> next_minute;  // nothing where the error is unknown
     StopReason stop = StopReason::finished;
     std::vector<std::string> warnings;
-    std::vector<std::string> validation;  // messages of the layers
+    std::vector<std::string> validation;  // messages of the validation layers
 };
 
 struct RenderOutcome {
     Image image;
     RenderPlan plan;
     RenderStatistics statistics;
-    std::optional<Denoised> denoised;  // where that is asked for, of a whole picture
+    std::optional<Denoised> denoised;  // set when requested, for a whole image
     std::optional<FilmSums> film;      // see RenderOptions::needs_film
     std::uint32_t rows_ahead = 0;      // rows from the top that have one sample more than statistics.samples
 };
@@ -60,16 +60,17 @@ struct RenderOutcome {
 // Adds what a step of this plan did: times, counters and faults.
 void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& statistics);
 
-// Whether the device cut off paths, photons or sums: light is missing then that no sample tells of.
+// Whether the device cut off paths, photons or sums: light is then missing that the error estimate does not
+// see.
 [[nodiscard]] bool lacks_light(const std::map<std::string, std::uint64_t>& faults);
 
-// An error without an upper end where light is missing, and that of a film.
+// The error of a film; it has no upper end where light is missing.
 [[nodiscard]] ErrorEstimate claim_with(ErrorEstimate error,
                                        const std::map<std::string, std::uint64_t>& faults);
 [[nodiscard]] ErrorEstimate claimed_error_of(const FilmSums& film,
                                              const std::map<std::string, std::uint64_t>& faults);
 
-// Milliseconds on the device that went into samples. The building of the world is no part of them.
+// Device milliseconds spent on samples, without the build of the world.
 [[nodiscard]] double sampling_ms(const RenderStatistics& statistics);
 
 }  // namespace voxilux

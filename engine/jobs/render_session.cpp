@@ -41,12 +41,12 @@ void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
             "the camera is inside a solid voxel: the picture shows its inside, which is dark");
 }
 
-// Share of a time limit that a pilot may take: its samples are not in the picture.
+// Fraction of a time limit that a pilot may take: its samples are not part of the image.
 constexpr double kPilotTimeShare = 0.1;
-// What finding out whose noise it is may take, or kPilotShare of the render, if that is more.
+// Seconds that measuring noise by effect may take, or kPilotShare of the render if that is more.
 constexpr double kShareBudget_s = 1.0;
 
-// Whether there will be a checkpoint is not known before the render: as if there were one.
+// A checkpoint is assumed, because whether there will be one is not known before the render.
 constexpr double kAnyTime_s = std::numeric_limits<double>::infinity();
 
 RenderOptions with_wishes(RenderOptions options) {
@@ -84,7 +84,7 @@ void RenderSession::load(Scene scene, const PlanRequest& request) {
     is_loaded_ = true;
 }
 
-// Brings the renderer to the frame.
+// Prepares the renderer for the frame.
 void RenderSession::show(std::int64_t frame) {
     scene_ = &player_.show(frame);
     const bool is_changed = std::exchange(is_changed_, false);
@@ -127,7 +127,7 @@ std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
     return run_pilot({});
 }
 
-// The first frame has a pilot; each later one is expected to need what the one before did.
+// The first frame has a pilot; later ones are expected to need what the one before did.
 ErrorPrior RenderSession::error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                       Clock::time_point start) {
     if (!options.error_target) return {};
@@ -189,7 +189,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     return outcome;
 }
 
-// A part is no whole film, and its picture is not what anybody wants to see.
+// Parts are not denoised: they are no whole film, and nobody looks at their image.
 void RenderSession::denoise(RenderOutcome& outcome) {
     if (!options_.plan.wants_denoised || !outcome.plan.part.empty()) return;
     Denoised& denoised = outcome.denoised.emplace();
@@ -214,7 +214,7 @@ void RenderSession::denoise(RenderOutcome& outcome) {
         statistics.gpu_ms += pass.ms;
 }
 
-// Bytes of the host that a software device has yet to allocate for this plan.
+// Host bytes that a software device has yet to allocate for this plan.
 std::uint64_t RenderSession::bytes_to_come() {
     if (!device_.limits().is_cpu) return 0;
     std::uint64_t allocated = 0;
@@ -224,7 +224,7 @@ std::uint64_t RenderSession::bytes_to_come() {
     return planned > allocated ? planned - allocated : 0;
 }
 
-// Adds what the loop over samples does not know.
+// Adds what the sample loop does not know.
 void RenderSession::complete(RenderOutcome& outcome, double load_s, Clock::time_point start) {
     RenderStatistics& statistics = outcome.statistics;
     statistics.device = device_.info();

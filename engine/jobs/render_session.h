@@ -12,8 +12,8 @@
 
 namespace voxilux {
 
-// Renders one frame of a scene after the other. The device, its pipelines and buffers are kept from frame to
-// frame, and the world as long as its voxels are the same.
+// Renders frames of a scene one after the other. The device, its pipelines and buffers are kept from frame to
+// frame, and the world as long as its voxels do not change.
 class RenderSession {
   public:
     // Opens the device. Throws Error(no_device).
@@ -22,18 +22,17 @@ class RenderSession {
     RenderSession& operator=(const RenderSession&) = delete;
     ~RenderSession();
 
-    // The picture of `frame`: with brute-force occlusion the one that a session for this frame alone gives.
-    // Always a whole picture; a pixel that no sample reached (only after an interruption) is black with
-    // sampleCount 0. Times count from RenderOptions::started for the first frame, from the call for the
-    // others.
+    // The image of `frame`: with brute-force occlusion the same as from a session for this frame alone.
+    // Always a whole image; a pixel without a sample (only after an interruption) is black with sampleCount
+    // 0. Times count from RenderOptions::started for the first frame, from the call for the others.
     [[nodiscard]] RenderOutcome render(std::int64_t frame, std::optional<double> time_limit_s,
                                        const std::function<void(const Progress&)>& on_progress = {});
 
-    // Only the pilot of `frame`, for the error target of the options. Nothing where none can be: shared
-    // occlusion, or radii that depend on samples before.
+    // Only the pilot of `frame`, for the error target of the options. Nothing where a pilot is impossible:
+    // shared occlusion, or radii that depend on earlier samples.
     [[nodiscard]] std::optional<ErrorPilot> pilot(std::int64_t frame);
 
-    // The plan of `frame`, of which nothing is rendered yet.
+    // The plan of `frame`, without rendering it.
     [[nodiscard]] const RenderPlan& plan_of(std::int64_t frame);
 
     [[nodiscard]] const DeviceInfo& device() const { return device_.info(); }
@@ -41,17 +40,17 @@ class RenderSession {
     // The plan of the frame last worked on.
     [[nodiscard]] const RenderPlan& plan() const { return renderer_->plan(); }
 
-    // The frames from now on have these settings and this plan, as in a session of their own; device,
-    // pipelines and voxels are kept. So the structure of the world stays, whichever `request` names.
+    // Later frames have these settings and this plan, as in a new session; device, pipelines and voxels are
+    // kept, and therefore also the structure of the world, whichever `request` names.
     void change(const RenderSettings& settings, const PlanRequest& request);
 
-    // The frames from now on are those of another scene, as in a session of its own; the device is kept.
+    // Later frames are those of another scene, as in a new session; the device is kept.
     void load(Scene scene, const PlanRequest& request);
 
     // The still scene of the frame rendered last.
     [[nodiscard]] const Scene& scene() const { return *scene_; }
 
-    // Gives the buffers and pipelines back; returns what the layers say of that. No frame may follow.
+    // Frees buffers and pipelines and returns the messages of the validation layers. No frame may follow.
     [[nodiscard]] std::vector<std::string> end();
 
   private:
@@ -69,7 +68,7 @@ class RenderSession {
     Device device_;
     std::optional<Renderer> renderer_;
     const Scene* scene_ = nullptr;
-    std::optional<std::vector<ErrorPoint>> last_points_;  // of the frame before, since the last change
+    std::optional<std::vector<ErrorPoint>> last_points_;  // of the previous frame, since the last change
     std::optional<Forecast> forecast_;                    // of the first frame
     std::vector<NoiseShare> shares_;
     std::size_t messages_told_ = 0;
@@ -78,7 +77,7 @@ class RenderSession {
     bool is_loaded_ = true;    // a scene, likewise
 };
 
-// The picture of a scene, of an animated one that of its first frame.
+// The image of a scene; of an animated one, its first frame.
 [[nodiscard]] RenderOutcome render_scene(const Scene& scene, const RenderOptions& options,
                                          const std::function<void(const Progress&)>& on_progress = {});
 

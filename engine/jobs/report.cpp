@@ -115,7 +115,7 @@ void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
     total.decided_by = std::max(total.decided_by, frame.decided_by);
     total.forecast.reset();  // of the first frame alone
     total.next_minute.reset();
-    total.stop = std::max(total.stop, frame.stop);  // the reasons are in order of their weight
+    total.stop = std::max(total.stop, frame.stop);  // the reasons are in order of precedence
     for (const std::string& warning : frame.warnings) {
         if (std::ranges::find(total.warnings, warning) == total.warnings.end())
             total.warnings.push_back(warning);
@@ -129,8 +129,8 @@ Json traversal_json(const RenderPlan& plan) {
     return {{"name", name_of(plan.world.traversal)}, {"reason", plan.world.traversal_reason}};
 }
 
-// What depends on which thread comes first: where keys of one home lie in the table, and how many reach for
-// one slot.
+// What depends on the order of threads: where keys with the same home slot lie in the table, and how many
+// compete for one slot.
 constexpr std::array<const char*, 2> kUnrepeatableWork{"ao_probes", "ao_swaps"};
 
 }  // namespace
@@ -243,7 +243,7 @@ Json reproducible_report(const Json& report) {
     }
     for (const char* name : kUnrepeatableWork)
         json["work"].erase(name);
-    for (const char* name : {"rounds", "decided_by"})  // how the samples came about: all at once, or in parts
+    for (const char* name : {"rounds", "decided_by"})  // differ when samples were taken in parts
         json["error"].erase(name);
     for (Json& effect : json["effects"])
         effect.erase("ms");
@@ -261,7 +261,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["passes"] = planned_passes_json(needs);
     json["memory"] = planned_memory_json(needs);
     json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
-    json["forecast"] = forecast_json(std::nullopt);  // without an error there is no pilot
+    json["forecast"] = forecast_json(std::nullopt);  // without an error target there is no pilot
     json["notes"] = plan.notes;
     return json;
 }

@@ -9,17 +9,17 @@
 
 namespace voxilux {
 
-// The report of a render, with the keys that the command line promises (--json, and the header of the EXR).
+// The report of a render, with the documented keys (--json, and the header of the EXR).
 [[nodiscard]] nlohmann::ordered_json report_json(const Scene& scene, const RenderOutcome& outcome);
 
-// What a frame range did so far: the sums over its frames, and a row for each.
+// The frames of a range so far: sums over them, and a row for each.
 struct SequenceReport {
-    RenderOutcome total;  // without a picture; the plan of the first frame
+    RenderOutcome total;  // without an image; the plan is that of the first frame
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
 };
 
-// Adds a frame whose pictures are in `files`. What can be added up is; the total has the longest dispatch,
-// the fewest samples, the largest error, and the memory of the last frame.
+// Adds a frame whose images are in `files`. Most values are summed; the total has the longest dispatch, the
+// fewest samples, the largest error, and the memory of the last frame.
 void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std::string>& files,
                const RenderOutcome& outcome);
 
@@ -28,8 +28,8 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 [[nodiscard]] nlohmann::ordered_json sequence_json(const Scene& scene, std::uint64_t scene_hash,
                                                    const SequenceReport& report);
 
-// The part of the report that does not depend on the clock, the machine's load or the order of threads: what
-// --reproducible stores.
+// The part of the report that does not depend on the clock, the load of the machine or the order of threads:
+// what --reproducible stores.
 [[nodiscard]] nlohmann::ordered_json reproducible_report_json(const Scene& scene,
                                                               const RenderOutcome& outcome);
 
@@ -39,10 +39,10 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 // The report's `error`.
 [[nodiscard]] nlohmann::ordered_json error_json(const ErrorEstimate& error);
 
-// An error in words for people.
+// An error estimate as text for people.
 [[nodiscard]] std::string error_text(const ErrorEstimate& error);
 
-// The report's `denoised`, and the same for people.
+// The report's `denoised`, and the same as text for people.
 [[nodiscard]] nlohmann::ordered_json denoised_json(const Denoised& denoised);
 [[nodiscard]] std::string denoised_text(const Denoised& denoised);
 

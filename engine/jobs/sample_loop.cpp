@@ -10,16 +10,16 @@
 namespace voxilux {
 namespace {
 
-// The strip that tells how long the end of a render takes: a part of the image, whole blocks of an EXR.
+// The strip on which the end of a render is timed: a fraction of the image, in whole blocks of an EXR.
 constexpr std::uint32_t kStripParts = 32;
 constexpr std::uint32_t kMinStripRows = 16;
 constexpr double kEndMargin = 1.1;
-// Another process may get in the way of a short one: the median of up to so many, while there is time.
+// Other processes may disturb a short measurement: the median of up to this many, as time allows.
 constexpr std::size_t kRehearsals = 3;
 constexpr double kRehearsal_s = 0.1;
 constexpr double kExit_s = 0.1;  // from the last file to the end of the process
 
-// The film of the device and what was there before.
+// The sums on the device, added to those from before.
 FilmSums added_to(const FilmSums& before, FilmSums film) {
     if (before.sums.empty()) return film;
     FilmSums all{.width = before.width,
@@ -50,7 +50,7 @@ SampleLoop::SampleLoop(const FrameInputs& inputs)
     statistics_.work = inputs.film.work;
     statistics_.faults = inputs.film.faults;
     inputs.renderer.restart(inputs.film.position);
-    (void)inputs.renderer.ready_film();  // uploads are no part of a sample
+    (void)inputs.renderer.ready_film();  // uploads do not count as part of a sample
 }
 
 void SampleLoop::run(const FrameCalls& calls) {
@@ -68,7 +68,7 @@ void SampleLoop::run(const FrameCalls& calls) {
     statistics_.stop = rule_.reason();
 }
 
-// False when it was stopped before its end.
+// False when it was stopped early.
 bool SampleLoop::take_sample(const FrameCalls& calls) {
     Renderer& renderer = inputs_.renderer;
     for (bool has_ended = false; !has_ended;) {
@@ -102,8 +102,8 @@ ErrorEstimate SampleLoop::measure_error() {
     return error;
 }
 
-// How long reading, image and files will take, by a strip from the middle of the image. Checkpoints lie
-// beside the image, and are part of it.
+// Predicts how long reading, image and files will take, from a strip in the middle of the image. Checkpoints
+// are written beside the image and count as part of it.
 void SampleLoop::rehearse_end(const std::function<void(RenderOutcome)>& rehearse) {
     const RenderPlan& plan = inputs_.renderer.plan();
     const RowRange rows = middle_rows(plan, std::max(kMinStripRows, height_of(plan) / kStripParts));
@@ -118,7 +118,7 @@ void SampleLoop::rehearse_end(const std::function<void(RenderOutcome)>& rehearse
         if (inputs_.options.needs_film()) strip.film = std::move(film);
         rehearse(std::move(strip));
     };
-    if (plan.sums_guides) rehearse_once();  // which makes the pipelines of the denoiser
+    if (plan.sums_guides) rehearse_once();  // creates the pipelines of the denoiser
     std::vector<double> seconds;
     const double start_s = clock_.now_s();
     do {
@@ -136,7 +136,7 @@ RenderOutcome SampleLoop::outcome() {
     FilmSums film = added_to(inputs_.film.sums, renderer.read_film());
     RenderOutcome outcome{.image = picture_of(film), .plan = plan, .statistics = statistics_};
     RenderStatistics& statistics = outcome.statistics;
-    // Halves that share samples are not independent: they agree better than they are right.
+    // Halves that share samples are not independent: their difference underestimates the error.
     statistics.error =
         plan.any(&Technique::shares_samples) ? unknown_error() : claimed_error_of(film, statistics_.faults);
     statistics.samples = samples();
@@ -149,7 +149,7 @@ RenderOutcome SampleLoop::outcome() {
     return outcome;
 }
 
-// What decided the end, and what a minute more would bring.
+// What decided the end, and what one more minute would improve.
 void SampleLoop::add_projection(RenderStatistics& statistics) const {
     if (rule_.rounds()) statistics.rounds = rule_.rounds()->rounds();
     if (statistics.stop == StopReason::error_target) statistics.decided_by = rule_.rounds()->decided_by();
@@ -180,7 +180,7 @@ void SampleLoop::report_progress(const std::function<void(const Progress&)>& on_
     if (!on_progress) return;
     const FrameProgress now = stand();
     const RemainingTime rest = estimate_remaining(now);
-    max_done_ = std::max(max_done_, rest.done);  // another round is no step back
+    max_done_ = std::max(max_done_, rest.done);  // a new round must not step back
     Progress progress{.done = max_done_,
                       .elapsed_s = clock_.now_s(),
                       .remaining_s = rest.expected_s,

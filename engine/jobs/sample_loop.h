@@ -15,37 +15,38 @@
 
 namespace voxilux {
 
-// What a frame is rendered from. It outlives the loop.
+// The inputs of a frame. They outlive the loop.
 struct FrameInputs {
     Renderer& renderer;
-    const RenderOptions& options;  // its own time limit
+    const RenderOptions& options;  // with the frame's own time limit
     const FilmStart& film;         // what the film holds already
     std::chrono::steady_clock::time_point start;
     ErrorPrior guess;                // of the error, when there is a target
-    std::vector<NoiseShare> shares;  // of the noise, as far as they are known
+    std::vector<NoiseShare> shares;  // of the noise, as far as known
 };
 
 // What a frame calls while it runs.
 struct FrameCalls {
     std::function<void(const Progress&)> on_progress;  // after a tile
-    std::function<void()> save;                        // as often as RenderOptions::checkpoint_s says
-    // With a time limit, once after the first sample: does to a strip of rows what will be done to the image.
+    std::function<void()> save;                        // called every RenderOptions::checkpoint_s
+    // With a time limit, called once after the first sample: does with a strip of rows what will be done with
+    // the image.
     std::function<void(RenderOutcome strip)> rehearse;
 };
 
 // Takes the samples of one frame: steps of the renderer until the stop rule ends them.
 class SampleLoop {
   public:
-    // Empties the film.
+    // Clears the film.
     explicit SampleLoop(const FrameInputs& inputs);
 
     // Renders until the frame is done or one of the options stops it.
     void run(const FrameCalls& calls);
 
-    // What the film holds now: the image, and the numbers that are known here.
+    // What the film holds now: the image, and the numbers known here.
     [[nodiscard]] RenderOutcome outcome();
 
-    // The errors that this frame itself has claimed so far.
+    // The errors that this frame itself has estimated so far.
     [[nodiscard]] std::vector<ErrorPoint> own_points() const { return watch_.own_points(); }
 
   private:
@@ -64,7 +65,7 @@ class SampleLoop {
     CheckpointTimer checkpoints_;
     FrameClock clock_;
     RenderStatistics statistics_;
-    double max_done_ = 0.0;  // that was told
+    double max_done_ = 0.0;  // last reported
 };
 
 }  // namespace voxilux

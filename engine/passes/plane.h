@@ -13,19 +13,19 @@
 
 namespace voxilux {
 
-// A per-pixel quantity of the current tile. An effect that is off yields a constant: equal elements, stride
-// 0, so that whoever reads it never changes.
+// A per-pixel quantity of the current tile. An effect that is off yields a constant: one value read with
+// stride 0, so that its readers need no variant.
 struct Plane {
     std::string buffer;
     std::uint32_t stride = 1;
 };
 
-// Elements of a plane of so many pixels: whole groups.
+// Elements of a plane of this many pixels, rounded up to whole groups.
 constexpr std::uint64_t plane_elements(std::uint64_t pixels) {
     return (pixels + gpu::kGroupPixels - 1) / gpu::kGroupPixels * gpu::kGroupPixels;
 }
 
-// Declares a plane of the current tile: one element for each pixel. Its size is that of the largest tile.
+// Declares a plane of the current tile: one element per pixel. Its size is that of the largest tile.
 template <class T>
 std::string declare_plane(const RenderPlan& plan, std::string name, Recording& recording,
                           Lifetime lifetime = Lifetime::transient) {
@@ -42,20 +42,20 @@ std::string film_plane(const RenderPlan& plan, const FilmPlane& plane, std::uint
                       plane_elements(plan.film_tile_pixels()) * plane.components, Lifetime::persistent);
 }
 
-// The parameters of the tile, and what its passes count.
+// The parameters of the tile.
 [[nodiscard]] std::string frame_buffer(Recording& recording);
 [[nodiscard]] std::string counters_buffer(Recording& recording);
 
-// One hit that is a miss, for a frame that marches nothing.
+// A constant hit that is a miss, for a frame that marches no world.
 [[nodiscard]] Plane constant_miss(Recording& recording);
 
-// A texel of equal floats, for planes of floats and of vectors.
+// A constant texel of equal floats, for planes of floats and of vectors.
 [[nodiscard]] Plane constant_value(float value, Recording& recording);
 
-// The run of rows of the picture that a recording renders.
+// The consecutive rows of the image that a recording renders.
 struct DispatchTile {
     std::uint32_t film_tile = 0;
-    std::uint32_t film_tile_first_row = 0;  // rows of the picture
+    std::uint32_t film_tile_first_row = 0;  // row of the image
     std::uint32_t first_row = 0;
     std::uint32_t row_count = 0;
 };
@@ -63,26 +63,26 @@ struct DispatchTile {
 // Invocations of a pass over the pixels of a tile.
 [[nodiscard]] Extent pixel_extent(const RenderPlan& plan, const DispatchTile& tile);
 
-// The world's arrays, or a placeholder that no shader reads when the plan has no voxels. The scratch of the
-// build is left out.
+// The world's arrays, or a placeholder that no shader reads when the plan has no voxels. The scratch buffers
+// of the distance-field build are not among them.
 [[nodiscard]] WorldBuffers world_buffers(const RenderPlan& plan, Recording& recording);
 
 // The kSequence* id (shared/sequence.h).
 [[nodiscard]] gpu::uint sequence_id(Sequence sequence);
 // Constant of every pass that draws from the sample sequence (shaders/lib/samples.glsl).
 [[nodiscard]] Constant sequence_constant(const RenderPlan& plan);
-// The camera's.
+// Constant of every pass that makes camera rays.
 [[nodiscard]] Constant projection_constant(const RenderPlan& plan);
 
 // Constants of every pass that reads surfaces (shaders/lib/surface.glsl).
 [[nodiscard]] std::vector<Constant> surface_constants(const RenderPlan& plan);
-// Those of them that say which spheres there are.
+// The subset of these constants that selects how spheres are found.
 [[nodiscard]] std::vector<Constant> sphere_constants(const RenderPlan& plan);
 
-// Parameters of an atmosphere where there is none.
+// Parameters of an atmosphere, for scenes without one.
 [[nodiscard]] std::string constant_sky_buffer(Recording& recording);
 
-// A small buffer that no shader uses, for blocks that a variant of a shader leaves alone.
+// A small buffer that no shader reads, for blocks that a shader variant does not use.
 [[nodiscard]] std::string placeholder_buffer(Recording& recording);
 
 // The materials and the spheres, or the placeholder when the plan has none.
@@ -90,10 +90,10 @@ struct DispatchTile {
 [[nodiscard]] std::string spheres_buffer(const RenderPlan& plan, Recording& recording);
 // The spheres as the uniform block SphereTable.
 [[nodiscard]] std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording);
-// The hierarchy over many spheres, or the placeholder where they are few.
+// The hierarchy over many spheres, or the placeholder when they are few.
 [[nodiscard]] std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording);
 
-// The lights, and the table that draws one by its power.
+// The lights, and the table from which one is drawn in proportion to its power.
 [[nodiscard]] std::string lights_buffer(const RenderPlan& plan, Recording& recording);
 [[nodiscard]] std::string light_table_buffer(const RenderPlan& plan, Recording& recording);
 
@@ -103,7 +103,7 @@ struct SurfacePass {
     std::string shader;
     std::string output_block;
     std::string output_buffer;
-    std::vector<Constant> constants;  // beside surface_constants()
+    std::vector<Constant> constants;  // in addition to surface_constants()
 };
 
 [[nodiscard]] Plane record_surface_pass(const RenderPlan& plan, const DispatchTile& tile,

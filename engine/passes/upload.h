@@ -6,15 +6,15 @@
 
 namespace voxilux {
 
-// Puts the scene on the device: world, sky, materials, spheres, emitters, whatever the plan has.
+// Uploads the scene to the device: world, sky, materials, spheres and emitters, as far as the plan has them.
 void record_scene_upload(const RenderPlan& plan, const Scene& scene, const MarchWorld& march_world,
                          const LightList& lights, Recording& recording);
 
-// Of the above what depends on which effects run, and not on the voxels: sky, materials, spheres, emitters.
+// The part of the above that depends on the effects but not on the voxels: sky, materials, spheres, emitters.
 void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::ivec3 origin,
                              const LightList& lights, Recording& recording);
 
-// Puts the parameters of one tile on the device and sets the counters to zero.
+// Uploads the parameters of one tile and clears the counters.
 void record_frame_upload(const gpu::FrameParams& params, Recording& recording);
 
 // Sets every film plane to zero.

@@ -21,7 +21,7 @@ const std::string& texels_of(const std::string& array, const WorldBuffers& buffe
     return buffers.have_texels ? array : buffers.unused;
 }
 
-// All but the leaves as texels.
+// Binds all arrays but the leaves as texels.
 void point_to_cells(Traversal traversal, const WorldBuffers& buffers, Dispatch& dispatch) {
     dispatch.addresses.insert(
         dispatch.addresses.end(),

@@ -67,7 +67,7 @@ std::vector<Use> uses_of(const Recording& recording, std::size_t command, const 
                       recording.commands()[command]);
 }
 
-// What has happened to a buffer since its last write, and which later stages are ordered after that already.
+// What has happened to a buffer since its last write, and which later stages are already ordered after that.
 struct BufferState {
     using Ordered = std::array<bool, kStageCount>;
 
@@ -156,7 +156,7 @@ bool is_direct_transfer(const Recording& recording, std::size_t command, const B
         return context.is_mapped && context.is_mapped(buffer);
     };
     if (const auto* upload = std::get_if<Upload>(&commands[command])) {
-        // Uploads among themselves keep their order on the host.
+        // The host keeps uploads in order among themselves.
         return is_mapped(upload->buffer) &&
                std::ranges::none_of(commands.first(command), [&](const Command& one) {
                    return !std::holds_alternative<Upload>(one) && names_buffer(one, upload->buffer);

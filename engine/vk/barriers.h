@@ -30,21 +30,21 @@ struct Hazard {
     bool operator==(const Hazard&) const = default;
 };
 
-// What the derivation must know beside the Recording.
+// What the derivation must know besides the Recording.
 struct BarrierContext {
     std::function<const ProgramInfo&(std::string_view shader)> program;
-    std::function<bool(std::string_view buffer)> is_mapped;  // the host reaches its memory; empty: none is
+    std::function<bool(std::string_view buffer)> is_mapped;  // memory that the host can access; empty: none
 };
 
-// True when the transfer `command` needs no device command because the host reaches the buffer's memory: an
-// upload before any other use of the buffer, a readback after every other use of it.
+// True when the transfer `command` needs no device command because the host can access the buffer's memory:
+// an upload before any other use of the buffer, or a readback after every other use of it.
 [[nodiscard]] bool is_direct_transfer(const Recording& recording, std::size_t command,
                                       const BarrierContext& context);
 
-// The hazards between the commands of a recording, in order. The hazards of one command become one barrier,
-// and a barrier orders ALL earlier work of its stages `before` ahead of all later work of its stages `after`,
-// so a later command is not listed for what an earlier barrier has ordered already. Persistent buffers start
-// as written.
+// The hazards between the commands of a recording, in order. The hazards of one command become one barrier. A
+// barrier orders ALL earlier work of its stages `before` ahead of all later work of its stages `after`, so
+// hazards that an earlier barrier has already resolved are not listed. Persistent buffers count as written by
+// an earlier run.
 [[nodiscard]] std::vector<Hazard> derive_barriers(const Recording& recording, const BarrierContext& context);
 
 }  // namespace voxilux

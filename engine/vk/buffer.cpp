@@ -16,8 +16,8 @@ constexpr VkMemoryPropertyFlags kHost =
 constexpr VkMemoryPropertyFlags kCachedHost = kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 
-// Wishes for memory, best first. Mapped memory of a discrete GPU is not cached, so reading it is very slow:
-// such a GPU gets unmapped memory although some of its types are mapped.
+// Preferred kinds of memory, best first. Mapped memory of a discrete GPU is not cached, so reading it is very
+// slow: such a GPU gets unmapped memory although some of its types can be mapped.
 constexpr std::array kDeviceWishes{kLocal | kCachedHost, kLocal, kCachedHost, kHost};
 constexpr std::array kStagingWishes{kCachedHost, kHost};
 
@@ -39,7 +39,7 @@ constexpr VkBufferUsageFlags kUsage =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
-// Gives the buffer memory of the type, mapped when it is cached memory of the host.
+// Gives the buffer memory of this type, mapped when it is cached host memory.
 void add_memory(const DeviceState& device, std::uint64_t bytes, std::uint32_t type, Buffer& buffer) {
     const std::string what = fmt::format("buffer '{}' ({} bytes)", buffer.name, buffer.bytes);
     const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,

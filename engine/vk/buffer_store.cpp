@@ -5,8 +5,8 @@
 namespace voxilux {
 namespace {
 
-// Runs a transient buffer is kept without being declared: frames that alternate between a few recordings do
-// not allocate, and what is no longer needed goes soon.
+// For how many runs a transient buffer is kept without being declared: frames that alternate between a few
+// recordings do not reallocate, and unused buffers are freed soon.
 constexpr std::uint64_t kIdleRuns = 16;
 
 }  // namespace

@@ -13,14 +13,13 @@
 namespace voxilux {
 
 // The buffers of an executor by name, kept from run to run: persistent ones for their contents, the others
-// because the next run is likely to want them again.
+// because the next run probably needs them again.
 class BufferStore {
   public:
     explicit BufferStore(const DeviceState& device) : device_(&device) {}
 
-    // Makes every buffer that the recording declares. A buffer of the same name and size is used again;
-    // transient ones that many runs in a row did not declare, or that are in the way when memory ends, are
-    // freed.
+    // Creates every buffer that the recording declares. A buffer of the same name and size is reused.
+    // Transient buffers are freed when many runs in a row did not declare them, or when memory runs out.
     void acquire(const Recording& recording);
 
     // The buffer must have been declared.
@@ -28,7 +27,7 @@ class BufferStore {
 
     [[nodiscard]] std::vector<MemoryRow> rows() const;
 
-    // What recordings have declared so far, in its last size, though it may be freed again.
+    // What recordings have declared so far, each in its last size, even if it has been freed since.
     [[nodiscard]] std::vector<MemoryRow> declared() const;
 
   private:

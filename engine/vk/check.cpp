@@ -63,7 +63,7 @@ void vk_check(VkResult result, std::string_view what) {
         case VK_ERROR_INITIALIZATION_FAILED:
         case VK_ERROR_INCOMPATIBLE_DRIVER:
             throw Error(ExitCode::no_device, fmt::format("the Vulkan driver does not start: {}", cause));
-        case VK_ERROR_UNKNOWN:  // lavapipe's answer where it has no memory for its threads
+        case VK_ERROR_UNKNOWN:  // lavapipe returns this where it has no memory for its threads
             throw Error(ExitCode::no_device,
                         fmt::format("the Vulkan driver fails and does not say why: {}", cause));
         default:

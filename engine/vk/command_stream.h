@@ -11,13 +11,13 @@
 
 namespace voxilux {
 
-// Commands on their way to the device, and the staging memory of their transfers. When that memory is full
-// the commands so far are run to make room, so transfers may be of any length.
+// Commands on their way to the device, and the staging memory of their transfers. When that memory is full,
+// the commands so far are run to make room, so transfers may have any length.
 class CommandStream {
   public:
     CommandStream(const DeviceState& device, std::uint64_t staging_bytes);
 
-    // Starts a new stream that will upload and read back about so many bytes; what an earlier one left
+    // Starts a new stream that will upload and read back about `transfer_bytes`; what an earlier one left
     // unfinished after an exception is dropped.
     void begin(std::uint64_t transfer_bytes);
 

@@ -21,7 +21,7 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// What keeps a device from being used comes first in its list.
+// The first of its `lacks` says what keeps the device from being used.
 std::string first_lack(const DeviceInfo& device) {
     return device.lacks.empty() ? "a lack: it cannot be used" : device.lacks.front();
 }
@@ -91,8 +91,9 @@ bool has_swapchains(VkPhysicalDevice device) {
     });
 }
 
-// Enables every known feature that the device has, and notes what shaders must not use. Bounds-checked
-// buffers go with validation: they cost time on GPUs and turn a stray access into a defined one.
+// Enables every known feature that the device has, and records which SPIR-V capabilities are missing. Robust
+// buffer access is enabled with validation only: it costs time on GPUs, and gives stray accesses a defined
+// result.
 void create_logical_device(DeviceState& state, bool validation, bool presents) {
     FeatureChain offered;
     query_features(state.physical, offered);

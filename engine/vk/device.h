@@ -34,9 +34,9 @@ struct SurfaceSource {
 
 // Which device to open and how.
 struct DeviceRequest {
-    std::string selector;                              // index, or part of the name in any case; empty: best
-    bool validation = false;                           // Khronos validation and synchronization validation
-    std::function<void(std::string_view)> on_message;  // each validation message as it comes; may be empty
+    std::string selector;     // index, or part of the name in any case; empty: the best
+    bool validation = false;  // Khronos validation and synchronization validation
+    std::function<void(std::string_view)> on_message;  // called for each validation message; may be empty
     const SurfaceSource* surface = nullptr;            // the device is to present to this window
 };
 
@@ -71,13 +71,14 @@ class Device {
 // The version of this machine's Vulkan loader, such as "1.3.239"; "none" where there is none.
 [[nodiscard]] std::string loader_version();
 
-// The place in `devices` that `selector` means: an index, else the first usable device whose name contains it
-// (in any case), else, when empty, a real GPU before a CPU. Throws Error(usage) that lists the devices when
-// nothing matches, Error(no_device) when the machine has no usable one or the one meant is not usable.
+// The position in `devices` of the one that `selector` names: an index, or the first usable device whose name
+// contains it (in any case); an empty selector prefers a real GPU to a CPU. Throws Error(usage) that lists
+// the devices when nothing matches, Error(no_device) when there is no usable device or the selected one is
+// not usable.
 [[nodiscard]] std::size_t pick_device(std::span<const DeviceInfo> devices, std::string_view selector);
 
-// Opens the device that `request` means. Throws as pick_device, and Error(no_device) when there is no loader
-// or when validation is asked for and its layer is not installed.
+// Opens the device of `request`. Throws as pick_device, and Error(no_device) when there is no loader or when
+// validation is requested and its layer is not installed.
 [[nodiscard]] Device open_device(const DeviceRequest& request);
 
 }  // namespace voxilux

@@ -12,7 +12,7 @@
 
 namespace voxilux {
 
-// What a Device holds. Members end in reverse order: the device before its instance, the sink last.
+// What a Device holds. Members are destroyed in reverse order: the device before its instance, the sink last.
 struct DeviceState {
     DeviceState() = default;
     DeviceState(const DeviceState&) = delete;
@@ -33,7 +33,7 @@ struct DeviceState {
     VkQueue queue = VK_NULL_HANDLE;
 };
 
-// A handle as debug names take it: handles that are pointers and those that are integers alike.
+// A handle as an integer for debug names, whether Vulkan defines it as a pointer or as an integer.
 template <class Handle>
 [[nodiscard]] std::uint64_t to_bits(Handle handle) {
     return std::bit_cast<std::uint64_t>(handle);

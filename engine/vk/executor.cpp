@@ -101,7 +101,7 @@ std::vector<PreparedDispatch> prepare_all(ExecutorState& state, const Recording&
     return prepared;
 }
 
-// Records the commands of one run into the stream and gathers what they give back.
+// Records the commands of one run into the stream and collects its results.
 class RunRecorder {
   public:
     RunRecorder(ExecutorState& state, const Recording& recording)

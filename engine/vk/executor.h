@@ -25,8 +25,8 @@ struct ExecutorOptions {
     std::filesystem::path cache_dir;                // of the pipeline cache; empty: none
     std::array<std::uint32_t, 2> group_size{8, 8};  // for shaders whose local x and y are both constants
     bool time_dispatches = true;
-    bool poison_transients = false;  // fills transient buffers with 0xCDCDCDCD first: finds reads of nothing
-    std::uint64_t staging_bytes = std::uint64_t{32} << 20;  // longer transfers go in pieces of this size
+    bool poison_transients = false;  // fills transient buffers with 0xCDCDCDCD first, to find undefined reads
+    std::uint64_t staging_bytes = std::uint64_t{32} << 20;  // longer transfers are split into such pieces
 };
 
 struct RunResult {
@@ -52,12 +52,12 @@ struct MemoryRow {
 struct Buffer;
 struct ExecutorState;
 
-// Runs Recordings on a device: makes the buffers they declare, the pipelines they name, the barriers between
-// their commands. Persistent buffers live from run to run by name; one that is declared with another size
-// starts anew.
+// Runs Recordings on a device: creates the buffers that they declare, the pipelines that they name and the
+// barriers between their commands. Persistent buffers live from run to run by name; one that is declared with
+// another size is created anew.
 class Executor {
   public:
-    // `shaders` is where dispatches find theirs by name; nothing is compiled before it is dispatched.
+    // Dispatches find their shaders by name in `shaders`; each is compiled when it is first dispatched.
     Executor(Device& device, std::span<const EmbeddedShader> shaders, ExecutorOptions options = {});
     Executor(Executor&&) noexcept;
     Executor& operator=(Executor&&) noexcept;
@@ -69,7 +69,7 @@ class Executor {
     // Error(device_lost), Error(usage) for a group size that the device cannot run.
     RunResult run(const Recording& recording);
 
-    // The buffers alive now, by name.
+    // The buffers that exist now, by name.
     [[nodiscard]] std::vector<MemoryRow> memory() const;
 
     // Every buffer that a run has needed so far, by name, in its last size, and the staging memory.
@@ -78,7 +78,7 @@ class Executor {
     // Pipelines made since construction.
     [[nodiscard]] std::uint64_t pipelines_created() const;
 
-    // For this room only: a buffer that is alive.
+    // For this room only: a buffer that exists.
     [[nodiscard]] const Buffer& buffer(std::string_view name) const;
 
   private:

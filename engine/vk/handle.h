@@ -6,8 +6,8 @@
 
 namespace voxilux {
 
-// Owns one Vulkan object that `Destroy(device, handle, nullptr)` ends. Destroy is a reference to the loader's
-// pointer because that is filled at run time.
+// Owns one Vulkan object, destroyed by `Destroy(device, handle, nullptr)`. Destroy is a reference because the
+// loader fills its function pointers in at run time.
 template <class Handle, auto& Destroy>
 class UniqueHandle {
   public:

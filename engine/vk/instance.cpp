@@ -45,7 +45,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(MessageSink* sink) {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    // Messages of the type "general" are the loader's about drivers that are not for this machine.
+    // Messages of the type "general" come from the loader, about drivers for other hardware.
     info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     info.pfnUserCallback = collect_message;
     info.pUserData = sink;

@@ -19,7 +19,7 @@ struct MessageSink {
     std::function<void(std::string_view)> on_message;
 };
 
-// A Vulkan instance, with its messenger when validation is on. The sink's address must stay.
+// A Vulkan instance, with its messenger when validation is on. The sink must not move.
 class Instance {
   public:
     Instance() = default;
@@ -39,9 +39,9 @@ class Instance {
     bool has_debug_utils_ = false;
 };
 
-// Loads the Vulkan loader and makes an instance of version 1.3 (drivers of 1.2 are welcome in it). Throws
-// Error(no_device) when there is no loader or driver, or no validation layer although `validation` asks for
-// it, or none of the `more_extensions`.
+// Loads the Vulkan loader and creates an instance of version 1.3 (it accepts drivers of 1.2). Throws
+// Error(no_device) when there is no loader or driver, when `validation` is set and its layer is missing, or
+// when one of `more_extensions` is missing.
 [[nodiscard]] Instance create_instance(bool validation, MessageSink* sink,
                                        std::span<const std::string> more_extensions = {});
 

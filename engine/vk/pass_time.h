@@ -15,7 +15,7 @@ struct PassTime {
     double max_ms = 0.0;  // longest single dispatch
 };
 
-// Adds times label by label; labels that are new go to the end.
+// Adds times label by label; new labels are appended.
 void add_times(std::vector<PassTime>& sum, std::span<const PassTime> more);
 
 }  // namespace voxilux

@@ -14,8 +14,8 @@ FeatureChain::FeatureChain() {
 }
 
 const std::vector<Feature>& known_features() {
-    // Worlds are reached by address (shaders/lib/address.glsl), which takes more than the feature of that
-    // name. Numbers of the capabilities: SPIR-V specification, section 3.31.
+    // Worlds are reached by address (shaders/lib/address.glsl), which needs more than the feature of that
+    // name. The numbers are SPIR-V capabilities: SPIR-V specification, section 3.31.
     static const std::vector<Feature> features = {
         {"no scalar block layout (scalarBlockLayout)",
          true,

@@ -37,7 +37,7 @@ bool is_for(const DeviceState& device, std::span<const std::byte> data) {
            std::memcmp(header.pipelineCacheUUID, device.properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
-// The driver's data of a good file: a hash, then the data. Empty for any other file.
+// The driver's data from a valid file, which holds a hash and then the data. Empty for any other file.
 std::vector<std::byte> read_cache(const DeviceState& device, const fs::path& folder) {
     std::error_code status;
     if (folder.empty() || !fs::is_regular_file(cache_path(device, folder), status)) return {};

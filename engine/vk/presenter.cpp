@@ -48,7 +48,7 @@ UniqueFence create_window_fence(const DeviceState& device) {
 
 }  // namespace
 
-// Ends before its instance.
+// Destroyed before its instance.
 struct WindowSurface {
     WindowSurface(VkInstance of, VkSurfaceKHR handle) : instance(of), get(handle) {}
     WindowSurface(const WindowSurface&) = delete;
@@ -71,7 +71,7 @@ struct PresenterState {
           fence(create_window_fence(opened)),
           acquired(create_semaphore(opened)) {}
 
-    // Copies to a buffer of the host that grows when it is short.
+    // Copies to a host buffer, which grows where it is too small.
     void fill(WindowBuffer which, std::span<const std::byte> bytes) {
         Buffer& buffer = buffers[static_cast<std::size_t>(which)];
         const std::uint64_t wanted = std::max<std::uint64_t>(bytes.size(), kMinBytes);
@@ -92,11 +92,11 @@ struct PresenterState {
     UniqueFence fence;
     UniqueSemaphore acquired;
     std::optional<Swapchain> swapchain;
-    bool is_stale = true;       // the swapchain is not that of the window
-    glm::ivec2 window_size{0};  // pixels when it was made
+    bool is_stale = true;       // the swapchain no longer fits the window
+    glm::ivec2 window_size{0};  // when the swapchain was made, pixels
     std::array<Buffer, kWindowBuffers> buffers;
     Buffer captured;
-    WindowImage scaled;  // the picture where its size is not that of the window
+    WindowImage scaled;  // the image, where its size is not that of the window
 };
 
 namespace {
@@ -120,7 +120,7 @@ glm::ivec2 size_of(const Swapchain& swapchain) {
     return {swapchain.extent.width, swapchain.extent.height};
 }
 
-// Fills the image with the picture, or black, and leaves it as a colour attachment.
+// Fills the window with the image, or black, and leaves it as a colour attachment.
 void draw_picture(PresenterState& state, VkImage image, const ShownPicture& picture) {
     const glm::ivec2 window = size_of(*state.swapchain);
     record_layout(state.commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -185,7 +185,7 @@ void draw_window(PresenterState& state, std::uint32_t image, const ShownPicture&
     vkCmdEndRenderPass(state.commands);
 }
 
-// The swapchain of the window as it is now; false while that has no pixels.
+// Recreates the swapchain for the window as it is now; false while the window has no pixels.
 bool renew_swapchain(PresenterState& state, glm::ivec2 window) {
     if (!std::exchange(state.is_stale, false) && window == state.window_size)
         return state.swapchain.has_value();
@@ -197,7 +197,7 @@ bool renew_swapchain(PresenterState& state, glm::ivec2 window) {
     return state.swapchain.has_value();
 }
 
-// The number of the image to draw; nothing when the swapchain is out of date.
+// The index of the image to draw; nothing when the swapchain is out of date.
 std::optional<std::uint32_t> acquire(PresenterState& state) {
     std::uint32_t image = 0;
     const VkResult result = vkAcquireNextImageKHR(state.device.handle, state.swapchain->handle.get(), kNever,

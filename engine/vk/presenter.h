@@ -21,7 +21,7 @@ struct OverlayVertex {
     std::uint32_t rgba = 0;
 };
 struct OverlayDraw {
-    glm::ivec2 first{0};  // pixels that may be drawn
+    glm::ivec2 first{0};  // the scissor rectangle, pixels
     glm::ivec2 end{0};
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
@@ -32,9 +32,9 @@ struct Overlay {
     std::vector<OverlayDraw> draws;
 };
 
-// A picture for a window, which it fills: [height][width] words of 8-bit codes.
+// An image that fills a window: [height][width] words of 8-bit codes.
 struct ShownPicture {
-    const Executor* executor = nullptr;  // whose `buffer` it is; null: there is no picture
+    const Executor* executor = nullptr;  // owner of `buffer`; null: there is no image
     std::string buffer;
     glm::ivec2 size{0};  // pixels
 };
@@ -47,8 +47,8 @@ struct WindowCapture {
 
 struct PresenterState;
 
-// Draws a picture and a user interface into a window. It uses the queue of the executor and waits for its own
-// work, so whatever it reads may be written again afterwards.
+// Draws an image and a user interface into a window. It uses the executor's queue and waits for its own work,
+// so the buffers that it reads may be written again afterwards.
 class Presenter {
   public:
     // `device` was opened for `surface`. Throws Error(no_device) when it cannot present to the window.
@@ -57,14 +57,14 @@ class Presenter {
     Presenter& operator=(const Presenter&) = delete;
     ~Presenter();
 
-    // The codes of a picture have blue in their lowest byte, not red.
+    // Whether the codes of an image have blue in their lowest byte instead of red.
     [[nodiscard]] bool is_bgr() const;
 
-    // How opaque each texel of the font is.
+    // The opacity of each texel of the font.
     void set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size);
 
-    // Shows the next frame in a window of so many pixels, and copies it to `capture`, if that is given.
-    // False when there was nothing to show it on: the window has no pixels, or changed its size meanwhile.
+    // Shows the next frame in a window of `window` pixels, and copies it to `capture`, if given. False when
+    // it could not be shown: the window has no pixels, or changed its size meanwhile.
     bool present(const ShownPicture& picture, const Overlay& overlay, glm::ivec2 window,
                  WindowCapture* capture = nullptr);
 

@@ -211,7 +211,7 @@ std::array<std::uint32_t, 3> group_counts(const std::string& shader, const Exten
     if (is_list && groups[0] > max_groups[0]) {
         groups[1] = ceil_div(groups[0], max_groups[0]);
         groups[0] = ceil_div(groups[0], groups[1]);
-        // Folding rounds up; beyond 2^32 the linear ids of the surplus would wrap to small ones.
+        // Folding rounds up; beyond 2^32 the linear ids of the surplus invocations would wrap to small ones.
         if (groups[0] * groups[1] * local_size[0] > (std::uint64_t{1} << 32))
             refuse(shader, fmt::format("an extent of {} does not fit 32-bit ids", extent.x));
     }

@@ -15,7 +15,7 @@
 
 namespace voxilux {
 
-// A shader with its layouts and the pipelines made of it so far, by the values of its constants.
+// A shader with its layouts and the pipelines created so far, by the values of its constants.
 struct Program {
     std::string name;
     ProgramInfo info;
@@ -25,18 +25,18 @@ struct Program {
     std::map<std::vector<std::uint32_t>, UniquePipeline> pipelines;
 };
 
-// What a block is bound as.
+// The descriptor type that a block is bound as.
 [[nodiscard]] VkDescriptorType descriptor_type(const BufferBlock& block);
 
 [[nodiscard]] UniqueShaderModule create_shader_module(const DeviceState& device,
                                                       const EmbeddedShader& shader);
 
-// Reflects the shader and makes its layouts. Throws InternalError when the device lacks a capability it
-// needs.
+// Reflects the shader and creates its layouts. Throws InternalError when the device lacks a capability that
+// it needs.
 [[nodiscard]] Program create_program(const DeviceState& device, const EmbeddedShader& shader);
 
-// A value for each of the program's constants, in order of id: the dispatch's, the group size for the local
-// size when both x and y are constants, else the default. Throws InternalError for a name that the shader
+// A value for each of the program's constants, in order of id: the dispatch's, or the group size for the
+// local size when both x and y are constants, or the default. Throws InternalError for a name that the shader
 // does not have.
 [[nodiscard]] std::vector<std::uint32_t> resolve_constants(const Program& program, const Dispatch& dispatch,
                                                            std::array<std::uint32_t, 2> group_size);
@@ -50,7 +50,7 @@ struct Program {
                                              std::span<const std::uint32_t> constants, VkPipelineCache cache);
 
 // Throws InternalError that names the shader unless the dispatch gives each block and each pointer of the
-// push struct one buffer and nothing else, and its push bytes have the size of the rest of the push struct.
+// push struct exactly one buffer, and its push bytes have the size of the rest of the push struct.
 void check_fits(const Program& program, const Dispatch& dispatch);
 
 // Groups to dispatch for the extent. One-dimensional extents beyond the limit are folded into y. Throws

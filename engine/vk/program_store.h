@@ -14,16 +14,15 @@
 
 namespace voxilux {
 
-// A dispatch with all that is looked up for it before anything is recorded.
+// A dispatch with everything that is looked up before recording starts.
 struct PreparedDispatch {
     const Dispatch* dispatch = nullptr;
     const Program* program = nullptr;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    std::array<std::uint32_t, 3> groups{};  // zeros when they come from a buffer
+    std::array<std::uint32_t, 3> groups{};  // zeros when a buffer gives them
 };
 
-// The programs and pipelines of an executor, made when first asked for; the pipeline cache is stored at the
-// end.
+// The programs and pipelines of an executor, created on first use. The destructor stores the pipeline cache.
 class ProgramStore {
   public:
     ProgramStore(const DeviceState& device, std::span<const EmbeddedShader> shaders,

@@ -106,7 +106,7 @@ void set_execution_mode(Module& module, const Instruction& in) {
     target = {in.at(2), in.at(3), in.at(4)};
 }
 
-// True when the instruction is one of these.
+// True when it is an instruction handled here.
 bool add_annotation(Module& module, const Instruction& in, int& entry_points) {
     switch (in.op) {
         case op_capability:
@@ -152,8 +152,7 @@ bool add_type(Module& module, const Instruction& in) {
             return add({.kind = Type::vector, .element = in.at(1), .count = in.at(2)});
         case op_type_matrix:
             return add({.kind = Type::matrix, .element = in.at(1), .count = in.at(2)});
-        case op_type_image:  // a storage texel buffer of four words a texel or of one, or nothing that is
-                             // known
+        case op_type_image:  // only storage texel buffers of four words a texel or of one
             if (in.at(2) != kDimBuffer || in.at(6) != kImageIsStorage) return false;
             if (in.at(7) == kFormatRgba32ui) return add({.kind = Type::texels, .count = 4});
             return in.at(7) == kFormatR32ui && add({.kind = Type::texels, .count = 1});
@@ -203,7 +202,7 @@ bool add_value(Module& module, const Instruction& in) {
     }
 }
 
-// Ids through which an instruction of a function reaches memory.
+// The ids through which an instruction accesses memory.
 std::span<const std::uint32_t> touched_ids(const Instruction& in) {
     switch (in.op) {
         case op_store:
@@ -230,8 +229,7 @@ void note_use(Module& module, const Instruction& in) {
     }
 }
 
-// A constant decorated as the workgroup size is stronger than the execution mode (specification, 3.21
-// BuiltIn).
+// A constant decorated as the workgroup size overrides the execution mode (specification, 3.21 BuiltIn).
 void apply_workgroup_size(Module& module) {
     for (const auto& [id, facts] : module.decorations) {
         const auto parts = module.composites.find(id);

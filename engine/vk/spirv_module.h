@@ -63,7 +63,7 @@ struct MemberFacts {
     bool non_readable = false;
 };
 
-// Decorations of one id, of those that reflection knows.
+// The decorations of one id that reflection knows.
 struct Decorations {
     VariableFacts variable;
     std::optional<std::uint32_t> spec_id;
@@ -80,17 +80,17 @@ struct Module {
     std::map<std::uint32_t, Constant> constants;
     std::map<std::uint32_t, std::vector<std::uint32_t>> composites;  // of constants
     std::map<std::uint32_t, Variable> variables;
-    std::set<std::uint32_t> used_variables;  // those that a function touches
+    std::set<std::uint32_t> used_variables;  // variables that a function accesses
     std::vector<std::uint32_t> capabilities;
     std::array<std::uint32_t, 3> local_size{1, 1, 1};
     std::array<std::uint32_t, 3> local_size_ids{0, 0, 0};  // constants that override local_size; 0: none
 
-    // Kind `other` when the module defines no type of that id that reflection knows.
+    // Returns kind `other` when the module defines no type of that id that reflection knows.
     [[nodiscard]] const Type& type(std::uint32_t id) const;
     // Throws InternalError when there is no 32-bit constant of that id.
     [[nodiscard]] std::uint32_t constant(std::uint32_t id) const;
 
-    // Empty values when there is nothing of that id.
+    // Returns empty values when there is nothing of that id.
     [[nodiscard]] std::string name(std::uint32_t id) const;
     [[nodiscard]] MemberFacts member(std::uint32_t struct_id, std::uint32_t index) const;
     [[nodiscard]] VariableFacts variable_facts(std::uint32_t id) const;

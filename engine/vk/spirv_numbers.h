@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// Numbers of the SPIR-V 1.6 specification that reflection reads (section 3).
+// Numbers of the SPIR-V 1.6 specification (section 3) that reflection reads.
 namespace voxilux::spirv {
 
 inline constexpr std::uint32_t kMagic = 0x07230203u;

@@ -10,7 +10,7 @@
 namespace voxilux {
 namespace {
 
-// Deepest nesting of types that is followed; valid modules cannot nest themselves, broken ones can.
+// The deepest nesting of types that is followed: a broken module may nest a type in itself.
 constexpr int kMaxTypeDepth = 32;
 
 using spirv::Module;
@@ -106,7 +106,8 @@ struct Access {
     bool writable = true;
 };
 
-// What a block's members leave: it is readonly or writeonly when all of them are.
+// The access that the decorations of a block's members allow: it is readonly or writeonly when all of them
+// are.
 Access access_of(const Module& module, std::uint32_t struct_id) {
     const std::size_t count = module.type(struct_id).members.size();
     Access access{.readable = count == 0, .writable = count == 0};
@@ -181,8 +182,8 @@ void add_addresses(const Module& module, std::uint32_t struct_id, ProgramInfo& i
     }
 }
 
-// Barriers are derived from the pointers of the push struct, so no other may lead to a block: none in
-// buffers, none made from numbers.
+// Barriers are derived from the pointers of the push struct, so no other pointer may lead to a block: none
+// stored in buffers, none made from integers.
 void check_pointers(const Module& module) {
     std::set<std::uint32_t> known;
     for (const auto& [id, variable] : module.variables) {

@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// How a shader sees a buffer: as a block of storage, as a uniform block (small, and the same words for all
+// How a shader sees a buffer: as a storage block, as a uniform block (small, the same values for all
 // invocations), or as texels of four words or of one (a storage texel buffer).
 enum class BlockKind { storage, uniform, texels, words };
 
@@ -61,9 +61,9 @@ struct LocalSizeAxis {
     std::optional<std::uint32_t> spec_id;
 };
 
-// What a compute shader's SPIR-V says of itself.
+// What the SPIR-V of a compute shader declares.
 struct ProgramInfo {
-    std::vector<BufferBlock> blocks;  // those the shader uses, by binding
+    std::vector<BufferBlock> blocks;  // those that the shader uses, by binding
     std::array<LocalSizeAxis, 3> local_size;
     std::uint32_t push_bytes = 0;  // of the push struct, its pointers included
     std::vector<StructMember> push_members;
@@ -79,9 +79,9 @@ struct ProgramInfo {
     [[nodiscard]] const StructInfo* find_struct(std::string_view name) const;
 };
 
-// Reads a module with one compute entry point and buffers as its only resources, bound or reached by pointers
-// of the push struct (SPIR-V 1.6 specification, sections 2.3 and 3). Throws InternalError that says
-// what is wrong with it: shaders are ours.
+// Reads a module with one compute entry point whose only resources are buffers, bound or reached by pointers
+// of the push struct (SPIR-V 1.6 specification, sections 2.3 and 3). Throws InternalError that says what is
+// wrong: all shaders are the program's own.
 [[nodiscard]] ProgramInfo reflect(std::span<const std::uint32_t> spirv);
 
 }  // namespace voxilux

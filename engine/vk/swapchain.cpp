@@ -9,8 +9,8 @@
 namespace voxilux {
 namespace {
 
-// The newest picture at once, without tearing where that can be had; the renderer sets the pace, not the
-// screen.
+// Shows the newest image at once, without tearing where the device supports that; the renderer sets the frame
+// rate, not the screen.
 VkPresentModeKHR choose_present_mode(const DeviceState& device, VkSurfaceKHR surface) {
     std::uint32_t count = 0;
     vk_check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical, surface, &count, nullptr),
@@ -40,7 +40,7 @@ VkSwapchainCreateInfoKHR swapchain_info(const VkSurfaceCapabilitiesKHR& limits, 
     info.imageFormat = format.format;
     info.imageColorSpace = format.colorSpace;
     info.imageArrayLayers = 1;
-    // Pictures are copied to the image, and screenshots from it.
+    // Images are copied to it, and screenshots from it.
     info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                       (limits.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;

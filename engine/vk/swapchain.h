@@ -13,7 +13,7 @@
 
 namespace voxilux {
 
-// The images of a window, each with what drawing into it takes.
+// The images of a window, each with the objects needed to draw into it.
 struct Swapchain {
     UniqueSwapchain handle;
     VkExtent2D extent{};
@@ -23,16 +23,16 @@ struct Swapchain {
     std::vector<UniqueSemaphore> rendered;  // by image: what presenting it waits for
 };
 
-// How colours are stored in the window: plain 8-bit codes, because shaders encode sRGB themselves. Throws
+// The format of the window's images: plain 8-bit codes, because shaders encode sRGB themselves. Throws
 // Error(no_device) when the device cannot present to the surface.
 [[nodiscard]] VkSurfaceFormatKHR choose_surface_format(const DeviceState& device, VkSurfaceKHR surface);
 
-// The pass that draws over an image of that format, whose layout is that of a colour attachment, and leaves
-// it ready to present.
+// The render pass that draws over an image of that format. The image's layout is that of a colour attachment
+// before, and ready to present after.
 [[nodiscard]] UniqueRenderPass create_window_pass(const DeviceState& device, VkFormat format);
 
-// The swapchain for the surface as large as it is now, `wanted` where it leaves that open; nothing while the
-// window has no pixels. `old` is replaced.
+// The swapchain for the surface in its current size, or in size `wanted` where the surface leaves that open;
+// nothing while the window has no pixels. Replaces `old`.
 [[nodiscard]] std::optional<Swapchain> create_swapchain(const DeviceState& device, VkSurfaceKHR surface,
                                                         VkSurfaceFormatKHR format, VkRenderPass pass,
                                                         glm::ivec2 wanted, VkSwapchainKHR old);

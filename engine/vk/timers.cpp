@@ -6,7 +6,7 @@
 namespace voxilux {
 namespace {
 
-// Both stamps are taken when all earlier work is done, so that the wait for it is not counted.
+// Both timestamps are taken when all earlier work is done, so that waiting for it is not counted.
 constexpr VkPipelineStageFlagBits kStampStage = VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT;
 
 void grow(const DeviceState& device, Timers& timers, std::uint32_t dispatches) {

@@ -10,7 +10,7 @@
 
 namespace voxilux {
 
-// Timestamps around the dispatches of one run. Unused when the device has none: then every time is 0.
+// Timestamps around the dispatches of one run. Every time is 0 when the device has no timestamps.
 struct Timers {
     UniqueQueryPool pool;
     std::uint32_t capacity = 0;       // dispatches that fit the pool
@@ -23,7 +23,7 @@ struct Timers {
 void start_timers(const DeviceState& device, Timers& timers, std::uint32_t dispatches,
                   VkCommandBuffer commands);
 
-// Around one dispatch.
+// Called around one dispatch.
 void begin_timing(Timers& timers, VkCommandBuffer commands, const std::string& label);
 void end_timing(const Timers& timers, VkCommandBuffer commands);
 

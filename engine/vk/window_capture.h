@@ -7,11 +7,11 @@
 
 namespace voxilux {
 
-// Records the copy of an image of a window that is ready to be presented; `captured` grows where it is short.
+// Records a copy of a window's image that is ready to be presented; `captured` grows where it is too small.
 void record_capture(const DeviceState& device, VkCommandBuffer commands, VkImage image, glm::ivec2 size,
                     Buffer& captured);
 
-// What was copied, when the commands have run.
+// The copied image, after the commands have run.
 [[nodiscard]] WindowCapture copy_capture(const Buffer& captured, glm::ivec2 size, bool is_bgr);
 
 }  // namespace voxilux

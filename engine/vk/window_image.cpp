@@ -12,7 +12,7 @@ VkExtent3D extent_of(glm::ivec2 size) {
     return {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y), 1};
 }
 
-// Memory of the device where it may be, else the first that may.
+// The index of a device-local memory type where one is allowed, else of the first allowed one.
 std::uint32_t choose_image_memory(const DeviceState& device, std::uint32_t allowed) {
     std::uint32_t chosen = VK_MAX_MEMORY_TYPES;
     for (std::uint32_t type = device.memory.memoryTypeCount; type-- > 0;) {
@@ -67,7 +67,7 @@ void record_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, 
         .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
         .image = image,
         .subresourceRange = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1}};
-    // What shaders wrote in earlier submissions is read, too.
+    // Also makes visible what shaders wrote in earlier submissions.
     const VkMemoryBarrier all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                               .srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT,
                               .dstAccessMask = VK_ACCESS_MEMORY_READ_BIT};

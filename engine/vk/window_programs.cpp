@@ -66,7 +66,7 @@ const EmbeddedShader& shader_named(std::span<const EmbeddedShader> shaders, std:
     return *found;
 }
 
-// What is drawn covers what is there as far as it is opaque.
+// Alpha blending of the overlay over the image.
 constexpr VkPipelineColorBlendAttachmentState kBlending{
     .blendEnable = VK_TRUE,
     .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,

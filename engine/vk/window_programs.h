@@ -15,7 +15,7 @@ namespace voxilux {
 enum class WindowBuffer : std::uint8_t { font, vertices, indices };
 inline constexpr std::size_t kWindowBuffers = 3;
 
-// The pipeline that draws triangles over a picture, and the descriptor set that it reads.
+// The pipeline that draws triangles over an image, and the descriptor set that it reads.
 struct WindowPrograms {
     UniqueSetLayout set_layout;
     UniquePipelineLayout layout;

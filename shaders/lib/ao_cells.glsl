@@ -1,4 +1,5 @@
-// The table of occlusion cells and how a hit finds its slot. Include lib/address.glsl first, and lib/surface.glsl.
+// The table of occlusion cells, and how a hit finds its slot. Include lib/address.glsl first, then
+// lib/surface.glsl.
 #ifndef VX_AO_CELLS_GLSL
 #define VX_AO_CELLS_GLSL
 
@@ -42,12 +43,13 @@ AoCell cell_of(Hit hit) {
     return ao_cell(hit.cell, hit.face, hit.fraction, ao_level(hit.t * ao_frame.cell_width + ao_frame.parallel_width));
 }
 
-// Keeps a cell that is seen from growing old. All writers of a frame write the same number.
+// Marks a cell as seen in this frame. All writers of a frame write the same number.
 void touch(uvec2 key, uint slot, bool is_new) {
     if (slot != kNoSlot && (is_new || needs_touch(key, touched[slot], ao_frame.frame))) touched[slot] = ao_frame.frame;
 }
 
-// The slot of a hit's cell, entered if need be; kNoSlot when the table has no room. `guess` is as in find_or_claim.
+// The slot of a hit's cell, inserted if missing; kNoSlot when the table has no room. `guess` is as in
+// find_or_claim.
 uint search(Hit hit, uint guess) {
     uvec2 key = ao_cell_key(cell_of(hit));
     FoundSlot found = find_or_claim(key, ao_frame.table_mask, guess);
@@ -59,9 +61,9 @@ uint search(Hit hit, uint guess) {
     return found.slot;
 }
 
-// Whether a pixel leaves a cell alone this time: on the other colour of the checkerboard, or when the cell has had
-// enough. A cell without samples is never left alone. Call it in a pass that adds no samples: it must see the same
-// number whatever the order of the threads.
+// Whether a pixel adds no samples to its cell this time: it is on the other colour of the checkerboard, or
+// the cell has reached its sample limit. A cell without samples always gets some. Call it in a pass that adds
+// no samples, so that the sample count it reads does not depend on the order of threads.
 bool rests(Pixel pixel, uint slot) {
     if (checkerboard == 0u && has_limit == 0u) return false;
     uint64_t taken = samples[slot];

@@ -1,4 +1,4 @@
-// How a hit finds its cell's slot where the sample before saw it. Include lib/ao_cells.glsl first.
+// How a hit finds the slot of its cell where the previous sample saw it. Include lib/ao_cells.glsl first.
 #ifndef VX_AO_REPROJECT_GLSL
 #define VX_AO_REPROJECT_GLSL
 
@@ -6,7 +6,7 @@ layout(scalar) readonly buffer LastSlots {
     uint last_slots[];
 };
 
-// The slot that a pixel of the sample before had, if it is that of `key`.
+// The slot that a pixel of the previous sample had, if it is that of `key`.
 uint last_slot(ivec2 pixel, uvec2 key) {
     bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x < int(frame.column_count) && pixel.y < int(frame.row_count);
     if (!inside) return kNoSlot;
@@ -16,8 +16,8 @@ uint last_slot(ivec2 pixel, uvec2 key) {
     return holds_key(slot, key) ? slot : kNoSlot;
 }
 
-// The slot of `key` if the sample before had it where it saw the point of a hit: in that pixel, or in the three next
-// to it on the nearer sides, because its rays went through other points of their pixels.
+// The slot of `key` if the previous sample had it where it saw the point of a hit: in that pixel or in its
+// three nearest neighbours, because rays go through different points of their pixels in each sample.
 uint reproject(Hit hit, uvec2 key) {
     vec3 to_hit = vec3(hit.cell - ao_frame.last_camera_cell) + (hit.fraction - ao_frame.last_camera_fraction);
     float depth = dot(to_hit, ao_frame.last_forward);

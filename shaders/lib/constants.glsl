@@ -1,5 +1,5 @@
-// VX_SPECIALIZED(type, name, value); at the start of a line declares a specialization constant. The host gives its value
-// by name; the build gives it its number (number_constants.cmake).
+// VX_SPECIALIZED(type, name, value); at the start of a line declares a specialization constant. The host sets
+// it by name; the build assigns its number (number_constants.cmake).
 #ifndef VX_CONSTANTS_GLSL
 #define VX_CONSTANTS_GLSL
 

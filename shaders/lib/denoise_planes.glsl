@@ -1,4 +1,4 @@
-// Planes of the denoiser: a texel of four floats for each pixel, row by row.
+// Planes of the denoiser: a texel of four floats per pixel, row by row.
 #ifndef VX_DENOISE_PLANES_GLSL
 #define VX_DENOISE_PLANES_GLSL
 

@@ -7,8 +7,9 @@ VX_INPUT(Sums);
 VX_INPUT(NormalA);
 VX_INPUT(NormalB);
 
-// Sums of the terms around a pixel, bilinear between blocks, of its own kind of pixels. The pixel's own terms are left
-// out: a share that follows the noise of the pixel would hide it from the error that is claimed (cross-validation).
+// Sums of the terms around a pixel, interpolated bilinearly between blocks, over pixels of its own kind. The
+// pixel's own terms are left out: a weight that follows the noise of the pixel would hide it from the error
+// estimate (cross-validation).
 vec4 terms_around(ivec2 place) {
     int at = texel_at(place);
     int kind = is_pure(0.5 * (VX_LOAD(NormalA, at) + VX_LOAD(NormalB, at))) ? 0 : 1;

@@ -1,13 +1,14 @@
-// What the scene covers of a background. Include lib/film_group.glsl first; the pass declares FirstHits and has_specular.
+// How much of a background the scene covers. Include lib/film_group.glsl first; the pass declares FirstHits
+// and has_specular.
 #ifndef VX_FILM_COVER_GLSL
 #define VX_FILM_COVER_GLSL
 
 #include "shared/tone_curve.h"
 
-VX_SPECIALIZED(uint, catches_shadows, 0u);  // the ground, which shows nothing else
+VX_SPECIALIZED(uint, catches_shadows, 0u);  // the ground is visible only by shadows on it
 
-// Before a background: camera rays that meet nothing show nothing, and a ground that only catches shadows is black and
-// covers by as much light as it lacks.
+// In front of a background, camera rays that hit nothing are transparent. A ground that only catches shadows
+// is black, with an opacity equal to the fraction of light that it lacks.
 vec4 cover(uint at, Group group, inout vec3 color[kGroupPixels]) {
     Hit hits[kGroupPixels] = group.hits;
     if (has_specular != 0u) hits = VX_GROUP_HITS(FirstHits, at, 1u);

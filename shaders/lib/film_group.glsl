@@ -1,6 +1,6 @@
-// What a sample found at the pixels of a group, and the radiance that follows. Radiance is emission, and off Lambertian
-// surfaces the light of the sky (a constant one through the ambient occlusion), the sun, the emitters, and what photons
-// brought. An effect that is off is a constant of stride 0.
+// What a sample found at the pixels of a group, and the radiance that follows. Radiance is emission plus, at
+// Lambertian surfaces, the light of the sky (a constant sky through ambient occlusion), the sun, the emitters
+// and photons. An effect that is off is a constant of stride 0.
 #ifndef VX_FILM_GROUP_GLSL
 #define VX_FILM_GROUP_GLSL
 
@@ -14,7 +14,7 @@
 VX_SPECIALIZED(uint, hits_stride, 1u);
 VX_SPECIALIZED(uint, ao_stride, 1u);
 VX_SPECIALIZED(uint, sky_stride, 0u);  // 0: the sky is constant
-VX_SPECIALIZED(uint, paths_find_sky, 0u);  // its light at surfaces, which is then none of occlusion
+VX_SPECIALIZED(uint, paths_find_sky, 0u);  // at surfaces, instead of ambient occlusion
 VX_SPECIALIZED(uint, sun_stride, 1u);
 VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
@@ -29,25 +29,25 @@ layout(rgba32ui) readonly uniform uimageBuffer Direct;
 layout(rgba32ui) readonly uniform uimageBuffer Photons;
 layout(rgba32ui) readonly uniform uimageBuffer Weights;
 
-// 0 for a miss, whose material is of no meaning.
+// 0 for a miss, whose material is undefined.
 uint material_of(Hit hit) {
     return is_surface(hit) ? hit.material : 0u;
 }
 
-// What the film takes of the pixels of a group. Those outside the tile have nothing to add.
+// What the film needs of the pixels of a group. Those outside the tile add nothing.
 struct Group {
     bool inside[kGroupPixels];
     Hit hits[kGroupPixels];
     vec3 albedo[kGroupPixels];
     vec3 weights[kGroupPixels];
     vec3 photons[kGroupPixels];
-    vec3 sky[kGroupPixels];  // what misses see, and what hits receive over pi
+    vec3 sky[kGroupPixels];  // radiance of misses; irradiance / pi at hits
     vec4 ao;
     vec4 sun;
     vec3 direct[kGroupPixels];
 };
 
-// Takes the hits, and what they hit. Pixels outside are misses.
+// Sets the hits and loads their materials. Pixels outside count as misses.
 void set_hits(inout Group group, Hit hits[kGroupPixels]) {
     for (uint k = 0u; k < kGroupPixels; ++k) {
         if (!group.inside[k]) hits[k].face = kFaceMiss;
@@ -56,13 +56,13 @@ void set_hits(inout Group group, Hit hits[kGroupPixels]) {
     group.hits = hits;
 }
 
-// What the light of a constant sky is multiplied by.
+// The factor on the light of a constant sky.
 float ambient_visibility(Group group, uint k) {
     if (!is_surface(group.hits[k])) return 1.0;
     return paths_find_sky != 0u ? 0.0 : group.ao[k];
 }
 
-// Group `at` of the tile; the pixels of the tile are those from `first` to before `end`, numbered in its planes.
+// Loads group `at` of the tile, whose pixels have the indices from `first` to `end` - 1 in its planes.
 Group load_group(uint at, uint first, uint end) {
     Group group;
     for (uint k = 0u; k < kGroupPixels; ++k) {

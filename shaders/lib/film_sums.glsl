@@ -1,11 +1,11 @@
-// Sums of the film that grow by the values of groups of pixels. Include lib/address.glsl before any other file.
+// Adds values to the sums of the film, by groups of pixels. Include lib/address.glsl before any other file.
 #ifndef VX_FILM_SUMS_GLSL
 #define VX_FILM_SUMS_GLSL
 
 #include "lib/texel_planes.glsl"
 #include "shared/film_sum.h"
 
-// Values so far that were not taken as they are.
+// Number of values so far that had to be clamped.
 uint clamped = 0u;
 uint non_finite = 0u;
 
@@ -16,7 +16,7 @@ uvec2 taken(float value) {
     return added.sum;
 }
 
-// Two sums in a texel, and what two values make of them.
+// Adds two values to the two sums of a texel.
 uvec4 add_pair(uvec4 sums, vec2 values) {
     return uvec4(film_add(sums.xy, taken(values.x)), film_add(sums.zw, taken(values.y)));
 }
@@ -25,14 +25,14 @@ uvec4 add_squares(uvec4 sums, vec2 values) {
     return uvec4(film_add_square(sums.xy, film_square(values.x)), film_add_square(sums.zw, film_square(values.y)));
 }
 
-// Sums of the film: read as texels, written as words of 64 bits, which is what is fastest of each.
+// Sums of the film: read as texels and written as 64-bit words, the faster way of each.
 #define VX_SUMS(Sums)                                           \
     layout(rgba32ui) readonly uniform uimageBuffer Sums;        \
     layout(scalar) writeonly buffer Sums##Words {               \
         uint64_t Sums##_words[];                                \
     }
 
-// Adds values of a group to its sums; add(sums, values) makes two sums of those there are and two values.
+// Adds values of a group to its sums; add(sums, values) adds two values to two sums.
 #define VX_ADD_PAIR(Sums, pair, add, values)                    \
     {                                                           \
         uvec4 vx_sums = add(VX_TEXEL(Sums, pair), values);      \

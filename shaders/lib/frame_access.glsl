@@ -1,4 +1,5 @@
-// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as column_count x row_count.
+// The frame's parameters and the pixel of an invocation. Passes over pixels are dispatched as column_count x
+// row_count.
 #ifndef VX_FRAME_ACCESS_GLSL
 #define VX_FRAME_ACCESS_GLSL
 
@@ -15,8 +16,9 @@ struct Pixel {
     bool inside;
 };
 
-// Software devices give each thread one contiguous half of the workgroups, and the sky is cheap: rows of groups are
-// dealt alternately to both halves, so that a picture with sky on top keeps all threads busy.
+// Software devices give each thread a contiguous part of the workgroups, and the sky is cheap. Rows of groups
+// are therefore dealt alternately to both halves, so that an image with sky at the top keeps all threads
+// busy.
 uint interleaved_row(uint row, uint rows) {
     uint first_half = (rows + 1u) / 2u;
     return row < first_half ? 2u * row : 2u * (row - first_half) + 1u;

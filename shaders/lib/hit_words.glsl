@@ -1,4 +1,4 @@
-// A hit by its words.
+// A hit made from its words.
 #ifndef VX_HIT_WORDS_GLSL
 #define VX_HIT_WORDS_GLSL
 

@@ -1,5 +1,5 @@
-// Hits of a plane, word by word: lavapipe loads a texel of eight invocations at once, but the words of a block for one
-// invocation after the other (lab/notes/film.md). What is not used is not loaded.
+// Hits of a plane, word by word: lavapipe loads a texel for eight invocations at once, but the words of a
+// block for one invocation after the other (lab/notes/film.md). Words that are not used are not loaded.
 #ifndef VX_HITS_GLSL
 #define VX_HITS_GLSL
 

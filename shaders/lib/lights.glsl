@@ -5,11 +5,11 @@
 #include "shared/alias.h"
 #include "shared/light.h"
 
-// Texels, because lavapipe loads those of eight invocations at once (lab/notes/film.md).
-layout(rgba32ui) readonly uniform uimageBuffer Lights;    // a LightRecord each
-layout(r32ui) readonly uniform uimageBuffer LightTable;  // kAliasWords for an AliasEntry
+// Texels, because lavapipe loads them for eight invocations at once (lab/notes/film.md).
+layout(rgba32ui) readonly uniform uimageBuffer Lights;    // one LightRecord each
+layout(r32ui) readonly uniform uimageBuffer LightTable;  // kAliasWords per AliasEntry
 
-// An emitter, and the probability with which it was drawn.
+// An emitter, and the probability with which it was selected.
 struct DrawnLight {
     LightParts parts;
     ivec3 cell;
@@ -48,12 +48,12 @@ vec3 sphere_centre(Sphere shape) {
 }
 
 struct LightSample {
-    vec3 direction;  // unit; of no meaning when pdf is 0
-    float pdf;       // per solid angle, with which it was drawn
+    vec3 direction;  // unit; undefined when pdf is 0
+    float pdf;       // per solid angle
     DrawnLight emitter;
 };
 
-// Aims at a point of an emitter that is drawn by its power.
+// Samples a point of an emitter selected in proportion to its power.
 LightSample aim_at_emitter(vec3 origin, uint bits, float u, vec2 u_point) {
     LightSample aim;
     aim.emitter = sample_light(bits, u);
@@ -85,8 +85,9 @@ bool is_on_emitter(Hit hit, DrawnLight emitter) {
     return !is_on_sphere(hit) && hit.face == emitter.parts.face && hit.cell == emitter.cell;
 }
 
-// Per solid angle: the density with which an emitter drawn by its power, and a point of it, give the direction from
-// `origin` to a hit on it. 0 where the hit does not shine at `origin`. In weights only: draws use the table's numbers.
+// The pdf per solid angle with which sampling an emitter by power, and a point on it, gives the direction
+// from `origin` to a hit on it. 0 where the hit does not shine towards `origin`. For MIS weights only:
+// sampling uses the table's numbers.
 float light_pdf(vec3 origin, vec3 direction, Hit hit, vec3 emission) {
     float shining = brightness(emission) / frame.light_power;
     if (is_on_sphere(hit)) {

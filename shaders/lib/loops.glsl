@@ -1,8 +1,8 @@
 #ifndef VX_LOOPS_GLSL
 #define VX_LOOPS_GLSL
 
-// Lavapipe ends all loops of an invocation after 65535 turns together, without a word. This tells afterwards whether it
-// did: `turns` must be 2 or more, and not known to the compiler.
+// Lavapipe silently ends all loops of an invocation after 65535 turns in total. This tests afterwards whether
+// it did: `turns` must be 2 or more, and unknown to the compiler.
 bool are_loops_spent(uint turns) {
     uint done = 0u;
     while (done < turns)

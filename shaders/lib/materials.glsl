@@ -1,4 +1,4 @@
-// Materials, by their texels: lavapipe loads those of eight invocations at once (lab/notes/film.md).
+// Materials, as texels: lavapipe loads them for eight invocations at once (lab/notes/film.md).
 #ifndef VX_MATERIALS_GLSL
 #define VX_MATERIALS_GLSL
 

@@ -5,9 +5,9 @@
 #include "lib/constants.glsl"
 #include "lib/surface.glsl"
 
-VX_SPECIALIZED(uint, ao_rays, 1u);  // of a pixel and sample
+VX_SPECIALIZED(uint, ao_rays, 1u);  // per pixel and sample
 
-// Number of a ray, 64 bits, when each of `takes` samples before took `rays`.
+// Index of the next ray, 64 bits, when each of the `takes` samples so far took `rays`.
 uvec2 first_ray(uint takes, uint rays) {
     uvec2 first;
     umulExtended(takes, rays, first.y, first.x);
@@ -19,18 +19,18 @@ uvec2 ray_number(uvec2 first, uint i) {
     return uvec2(low, first.y + (low < i ? 1u : 0u));
 }
 
-// Where a ray takes its direction from, by its number in the pixel's stream.
+// Sample point of a ray, by its index in the pixel's stream.
 vec2 occlusion_point(uint stream, uvec2 number) {
     return draw_2d(sample_key(stream, number, frame.seed), kPairOcclusion);
 }
 
-// Cosine-distributed off a hit.
+// A cosine-distributed direction about a hit's normal.
 vec3 cosine_off(Hit hit, vec2 u) {
     return is_on_sphere(hit) ? cosine_about(surface_normal(hit), u) : cosine_on_face(hit.face, u);
 }
 
-// Share of a pixel's cosine-weighted rays off its hit that meet nothing within the radius; `first` numbers the
-// first of them in the pixel's stream.
+// Fraction of a pixel's cosine-distributed rays that meet nothing within the radius; `first` is the index of
+// the first ray in the pixel's stream.
 float trace_visibility(Pixel pixel, Hit hit, uvec2 first) {
     uint own = own_sphere(hit);
     uint stream = pixel_stream(pixel);

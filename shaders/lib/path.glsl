@@ -1,9 +1,9 @@
-// Paths of light, from the camera or from an emitter: where a ray goes next, and what mirrors and glass make of it. Include
-// lib/address.glsl first.
+// Light paths from the camera or from an emitter: where a ray goes next, and what mirrors and glass do to it.
+// Include lib/address.glsl first.
 //
-// A point inside several glass spheres is in the smallest of them; else it is in the glass of the voxel around it, else
-// in the open, with an index of refraction of 1. Where the same material is on both sides of a surface there is none.
-// Voxels of glass are walked cell by cell, everything else by the march.
+// A point inside several glass spheres is in the smallest of them; outside of spheres it is in the glass
+// of its voxel, or else in air with an index of refraction of 1. There is no surface between two regions of
+// the same material. Voxels of glass are traversed cell by cell, everything else by the march.
 #ifndef VX_PATH_GLSL
 #define VX_PATH_GLSL
 
@@ -14,12 +14,12 @@
 #include "shared/sppm.h"
 
 VX_SPECIALIZED(uint, has_glass_voxels, 0u);
-VX_SPECIALIZED(uint, start_anywhere, 0u);  // rays do, not just on surfaces
+VX_SPECIALIZED(uint, start_anywhere, 0u);  // rays may start off surfaces
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
-// How a ray ends. What the fields of `hit` mean on the way out of glass voxels: its cell and face are those of the last
-// glass voxel, seen from inside, and `beyond` is the cell behind the face.
+// How a ray ends. When it leaves glass voxels, the cell and face of `hit` are those of the last glass voxel,
+// seen from inside, and `far_medium` describes the cell behind the face.
 struct PathHit {
     Hit hit;
     vec3 normal;  // unit, on the side that the ray comes from
@@ -56,7 +56,7 @@ PathHit no_hit() {
     return found;
 }
 
-// The way through one glass voxel: the face that the ray leaves it by.
+// The segment in one glass voxel: the face through which the ray leaves it.
 struct CellExit {
     uint face;
     vec3 fraction;  // on that face
@@ -86,7 +86,8 @@ bool is_glass(uint material) {
     return material_glass(material) > 0.0;
 }
 
-// What is behind the glass voxel that a ray leaves. `probe` is the march of a ray of no length in the cell behind.
+// Finds what is behind the glass voxel that a ray leaves. `probe` is a zero-length ray in the cell behind,
+// `behind` its march.
 void look_behind(PathRay path, CellExit way, Ray probe, MarchHit behind, inout PathHit found) {
     bool is_solid = behind.face == kFaceInside;
     found.hit.t = way.t;
@@ -158,7 +159,7 @@ void find_sphere(PathRay path, inout PathHit found) {
     found.normal = place_on_sphere(found.hit, nearest.i, sphere, origin, path.direction);
 }
 
-// What a ray meets first.
+// The first surface that a ray hits.
 PathHit next_hit(PathRay path) {
     PathHit found = no_hit();
     if (has_voxels != 0u) {
@@ -177,7 +178,7 @@ struct GlassAround {
     float curvature;
 };
 
-// The smallest glass sphere around a point, other than `but`. Of equal ones the later.
+// The smallest glass sphere around a point, other than `but`; of equal ones the one with the higher index.
 GlassAround glass_around(vec3 point, uint but) {
     GlassAround around;
     around.i = kNoSphere;
@@ -202,11 +203,11 @@ GlassAround glass_around(vec3 point, uint but) {
     return around;
 }
 
-// Indices of refraction on the side that a ray comes from and on the other one.
+// Indices of refraction on the near side of a surface, where the ray comes from, and on the far side.
 struct Interface {
     float near;
     float far;
-    bool is_none;  // the same on both sides, or the border of a medium that does not decide here
+    bool is_none;  // equal on both sides, or the border of a medium inside a smaller sphere
 };
 
 float ior_of(uint medium) {
@@ -241,20 +242,20 @@ Interface interface_at(PathRay path, PathHit found, float own_ior) {
 }
 
 const uint kEventDiffuse = 0u;  // the path ends at a diffuse surface
-const uint kEventPass = 1u;     // it goes on as if nothing were there
+const uint kEventPass = 1u;     // the ray goes on as if there were no surface
 const uint kEventMirror = 2u;
 const uint kEventRefract = 3u;
 
 struct BsdfSample {
     uint kind;
     vec3 albedo;     // of the surface
-    vec3 direction;  // in which it goes on
-    float eta;       // far over near index of refraction
+    vec3 direction;  // in which the path goes on
+    float eta;       // far index of refraction / near one
 };
 
-// Which of the material's surfaces a ray meets, and where it leaves to. `u` are two numbers in [0, 1): for the choice
-// of the surface and for Fresnel's. Mirror and glass are drawn with the probability that is their share, and
-// reflection with that of the reflectance, so that no weight but the albedo remains.
+// Which lobe of the material a ray takes, and its new direction. `u` are two numbers in [0, 1): for the
+// choice of the lobe and for Fresnel's choice. Lobes are chosen with the probability of their weight, and
+// reflection with the reflectance, so that the albedo is the only remaining factor.
 BsdfSample path_event(PathRay path, PathHit found, vec2 u) {
     SurfaceMaterial material = load_material(found.hit.material);
     bool from_inside = found.leaves_medium || found.stays || found.hit.face == kFaceSphereInside;
@@ -291,7 +292,7 @@ PathRay path_after(PathRay path, PathHit found, BsdfSample event) {
         next.own = found.hit.sphere;
         return next;
     }
-    // The cell of the hit is on the near side only on the way out of glass.
+    // The hit's cell is on the near side only when the ray leaves glass.
     bool stays_in_cell = found.leaves_medium != crosses;
     Ray ray = spawn_ray(found.hit.cell, found.hit.face, found.hit.fraction, event.direction, kUnbounded);
     next.cell = stays_in_cell ? found.hit.cell : ray.cell;

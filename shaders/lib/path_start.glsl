@@ -1,4 +1,4 @@
-// Where paths start, by texels: lavapipe loads those of eight invocations at once (lab/notes/film.md).
+// Where paths start, as texels: lavapipe loads them for eight invocations at once (lab/notes/film.md).
 #ifndef VX_PATH_START_GLSL
 #define VX_PATH_START_GLSL
 

@@ -1,20 +1,23 @@
-// The directions by which sunlight comes to a surface, and its images among them. Include lib/path.glsl first.
+// The directions from which sunlight reaches a surface, images of the sun included. Include lib/path.glsl
+// first.
 //
-// Sunlight by way of voxels of glass and mirrors: faces lie along the axes, so a mirror flips a sign of a direction,
-// and glass keeps it where light leaves by a face parallel to that by which it came. The light so arrives from one of
-// eight cones, the sun's own and its images; to a surface in glass from what refraction at a face along one of the three
-// axes makes of them. From a surface in the open one ray goes into the sun's cone and one into another; from one in glass,
-// one ray into any of them. What they meet on the way may be mirrors and glass. Chance finds what comes by spheres, and
-// out of glass by another face.
+// Sunlight through voxels of glass and off mirrors: faces are axis-aligned, so a mirror flips one sign of
+// a direction, and glass keeps the direction of light that leaves by a face parallel to the one it entered
+// by. Light therefore arrives from one of eight cones, the sun's own and its images; at a surface in glass,
+// from these cones as refracted by a face across one of the three axes. From a surface in air one ray goes
+// into the sun's cone and one into another cone; from a surface in glass, one ray goes into any of them.
+// These rays may pass mirrors and glass. Light by way of spheres, and light that leaves glass by another
+// face, is found by random paths only.
 #ifndef VX_PATH_SUN_GLSL
 #define VX_PATH_SUN_GLSL
 
 VX_SPECIALIZED(uint, has_images, 0u);  // by voxels of glass and mirrors
 
-// Of the frame, held because lavapipe would load it anew in every turn of a loop (shaders/README.md).
+// Copies of the frame's values, because lavapipe would load these anew in every turn of a loop
+// (shaders/README.md).
 vec3 sun_direction;
 float sun_height;
-float sun_reach;  // the same, wider by what rounding takes of a direction
+float sun_reach;  // the same, widened by the rounding of a direction
 
 void init_sun_images() {
     sun_direction = frame.sun_direction;
@@ -28,11 +31,11 @@ vec3 image_direction(uint image) {
     return sun_direction * vec3(flips.x != 0u ? -1.0 : 1.0, flips.y != 0u ? -1.0 : 1.0, flips.z != 0u ? -1.0 : 1.0);
 }
 
-const uint kImages = 8u;       // the sun itself among them
+const uint kImages = 8u;       // the sun itself included
 const uint kAxes = 3u;
-const float kOwnShare = 0.75;  // of the rays out of glass: into the sun's own cone, where most of its light comes from
+const float kOwnShare = 0.75;  // of the rays out of glass: into the sun's own cone, which brings most light
 
-// Probability with which a ray out of glass goes into a cone, by one of the axes.
+// Probability with which a ray out of glass goes into a cone by one of the axes.
 float glass_image_share(uint image) {
     return (image == 0u ? kOwnShare : (1.0 - kOwnShare) / float(kImages - 1u)) / float(kAxes);
 }
@@ -53,8 +56,8 @@ GlassImage draw_glass_image(float u) {
     return result;
 }
 
-// What a face across `axis` makes of a direction whose index of refraction behind the face is `eta` times that before it.
-// Zero where it reflects all.
+// A direction refracted by a face across `axis`, where `eta` is the index of refraction behind the face
+// divided by that before it. Zero at total reflection.
 vec3 across_face(vec3 direction, uint axis, float eta) {
     vec3 along = direction / eta;
     along = vec3(axis == 0u ? 0.0 : along.x, axis == 1u ? 0.0 : along.y, axis == 2u ? 0.0 : along.z);
@@ -64,7 +67,7 @@ vec3 across_face(vec3 direction, uint axis, float eta) {
     return along + through * face_normal(2u * axis + 1u);
 }
 
-// Images of the sun from `first` on that are in a direction.
+// Number of the sun's images, from `first` on, that contain a direction.
 float images_in(vec3 direction, uint first) {
     float images = 0.0;
     for (uint image = first; image < kImages; ++image)
@@ -72,8 +75,8 @@ float images_in(vec3 direction, uint first) {
     return images;
 }
 
-// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Through a face it grows
-// by eta^2 cos / cos' (Snell's law).
+// For Walk::image_share: the density of rays into a direction, times the solid angle of the sun. Refraction
+// at a face multiplies it by eta^2 cos / cos' (Snell's law).
 float samples_of_sun(vec3 direction, uint medium) {
     float own = is_in_cone(direction, sun_direction, sun_reach) ? 1.0 : 0.0;
     if (has_images == 0u) return own;

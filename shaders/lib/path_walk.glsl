@@ -1,13 +1,13 @@
-// A path from a visible point on, ray by ray. Each diffuse surface sends up to four rays, one after the other: to the
-// sun, to a mirror image of the sun, to an emitter, and on. The balance heuristic weighs what several of them can find
-// (Veach and Guibas 1995).
-// Include lib/path.glsl and lib/lights.glsl first.
+// A path that starts at a visible point, ray by ray. Each diffuse surface sends up to four rays, one after
+// the other: to the sun, to an image of the sun, to an emitter, and the path's own next ray. The balance
+// heuristic weighs light that several of them can find (Veach and Guibas 1995). Include lib/path.glsl and
+// lib/lights.glsl first.
 //
-// Each way of light is found once. Straight to the visible point: from the sky by the path; from the sun by sun.trace;
-// from emitters by direct.trace, which aims at them, and by the path's first ray, which meets them (shares_direct), or
-// else by direct.trace alone. From sun and emitters by mirrors and glass to a diffuse surface, the visible point or a
-// later one: by the path where it finds those (finds_sun_caustics, finds_emitter_caustics), else by photons. All other
-// light: by the path.
+// Each light path is found exactly once. Direct light at the visible point: from the sky by the path; from
+// the sun by sun.trace; from emitters by direct.trace, which aims at them, together with the path's first
+// ray, which hits them (shares_direct), or else by direct.trace alone. Light of sun and emitters that reaches
+// any diffuse surface by way of mirrors and glass: by the path where it finds it (finds_sun_caustics,
+// finds_emitter_caustics), else by photons. All other light: by the path.
 #ifndef VX_PATH_WALK_GLSL
 #define VX_PATH_WALK_GLSL
 
@@ -21,9 +21,9 @@ VX_SPECIALIZED(uint, has_emitters, 0u);
 VX_SPECIALIZED(uint, has_specular, 0u);
 VX_SPECIALIZED(uint, finds_sun_caustics, 0u);
 VX_SPECIALIZED(uint, finds_emitter_caustics, 0u);
-VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only chance finds them
-VX_SPECIALIZED(uint, shares_direct, 0u);  // direct.trace leaves what the first ray meets to the path
-VX_SPECIALIZED(uint, min_surfaces, 4u);   // after the visible point, that roulette leaves alone
+VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only random rays find them
+VX_SPECIALIZED(uint, shares_direct, 0u);  // the path's first ray finds emitters, too
+VX_SPECIALIZED(uint, min_surfaces, 4u);   // beyond the visible point, before roulette starts
 
 const uint kRayNone = 0u;  // no path is under way
 const uint kRayOn = 1u;
@@ -33,25 +33,26 @@ const uint kRayEmitter = 4u;
 
 struct Walk {
     PathRay ray;
-    PathRay vertex;   // where rays of that surface start
+    PathRay vertex;   // where rays of the current diffuse surface start
     vec3 ahead;       // at the visible point: the direction of the path's own ray
     uint kind;        // kRay*
-    uint stream;      // of samples of its pixel
+    uint stream;      // sample stream of its pixel
     vec3 normal;      // of the diffuse surface that the ray leaves
-    vec3 throughput;  // product of the albedos on the way
+    vec3 throughput;  // product of the albedos so far
     float scale;      // of radiance, by refraction
-    float pdf;        // per solid angle: the density with which that surface sends light where the ray goes
+    float pdf;        // per solid angle: the density with which that surface samples this direction
     float image_share;  // 1 / (samples that the sun and its images give that direction + solid angle of the sun * pdf)
-    vec3 light;       // that was found
-    uint surfaces;    // met
-    uint glints;      // met by a ray to the sun
-    uint vertices;    // diffuse ones, the visible point included
-    bool is_straight;    // nothing was met since the last of them
-    vec3 expected;       // what a ray to the sun brings, or one to an emitter but for its radiance
-    DrawnLight emitter;  // that it goes to
+    vec3 light;       // found so far
+    uint surfaces;    // hit so far
+    uint glints;      // surfaces hit by a ray to the sun
+    uint vertices;    // diffuse surfaces, the visible point included
+    bool is_straight;    // no mirror or glass since the last diffuse surface
+    vec3 expected;       // what a ray to the sun brings; for one to an emitter, the factor of its radiance
+    DrawnLight emitter;  // the one aimed at
 };
 
-// Of the frame, held because lavapipe would load it anew in every turn of a loop (shaders/README.md).
+// Copies of the frame's values, because lavapipe would load these anew in every turn of a loop
+// (shaders/README.md).
 vec3 constant_sky;
 vec3 sun_irradiance;
 SampleKey sample_of_frame;
@@ -92,7 +93,7 @@ Walk no_walk() {
     return walk;
 }
 
-// A start without a direction becomes a path that carries nothing.
+// A start without a direction becomes a path without throughput.
 Walk first_walk(PathStart start, vec3 light) {
     bool is_path = start.direction != vec3(0.0);
     Walk walk = no_walk();
@@ -159,7 +160,8 @@ void set_direction(inout Walk walk, vec3 direction) {
     walk.pdf = max(dot(walk.normal, direction), 0.0) * kInversePi;
 }
 
-// Of the light of sun and emitters that the path's own ray meets: 0 where others find it, 1 where nothing else does.
+// MIS weight of light from sun and emitters that the path's own ray hits: 0 where others find it, 1 where
+// nothing else does.
 float share_of_path(Walk walk, float emitter_pdf, uint finds_caustics) {
     if (!walk.is_straight) return float(finds_caustics);
     if (walk.vertices == 1u && shares_direct == 0u) return 0.0;
@@ -181,7 +183,7 @@ vec3 sky_seen(vec3 direction) {
     return has_atmosphere != 0u ? sky_radiance(sky, direction) : constant_sky;
 }
 
-// Adds the light of what a ray has met.
+// Adds the light of what a ray has hit.
 void take_light(inout Walk walk, PathHit found) {
     if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
     if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
@@ -189,13 +191,13 @@ void take_light(inout Walk walk, PathHit found) {
     if (walk.kind != kRayOn && walk.is_straight)
         walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
     if (!has_glints || walk.is_straight) return;
-    // Rays to the sun end in its cone, but for rounding.
+    // Rays to the sun end in its cone, up to rounding.
     if (!is_in_cone(walk.ray.direction, sun_direction, walk.kind == kRayOn ? sun_height : sun_reach)) return;
     vec3 carried = walk.throughput * sun_irradiance * (walk.scale * walk.pdf * share_of_path(walk, 0.0, finds_sun_caustics));
     walk.light += walk.image_share * (walk.kind == kRayOn ? carried : walk.expected);
 }
 
-// What a ray does at a surface. `u` are for the lobe and for Fresnel's choice.
+// Samples what a ray does at a surface. `u` are for the choice of the lobe and for Fresnel's choice.
 BsdfSample event_at(Walk walk, PathHit found, vec2 u) {
     if (has_specular != 0u) return path_event(walk.ray, found, u);
     BsdfSample event;
@@ -204,7 +206,7 @@ BsdfSample event_at(Walk walk, PathHit found, vec2 u) {
     return event;
 }
 
-// Sends a ray to the sun on by way of a mirror or glass. False where it ends.
+// Continues a ray to the sun beyond a mirror or glass. False where it ends.
 bool glint(inout Walk walk, PathHit found, BsdfSample event) {
     if (event.kind == kEventDiffuse) return false;
     if (event.kind != kEventPass) walk.expected *= event.albedo;
@@ -215,7 +217,7 @@ bool glint(inout Walk walk, PathHit found, BsdfSample event) {
     return true;
 }
 
-// What the path's own ray does at a surface; `u` is for roulette. False where the path ends.
+// Continues the path's own ray at a surface; `u` is for roulette. False where the path ends.
 bool scatter(inout Walk walk, PathHit found, BsdfSample event, float u) {
     bool is_diffuse = event.kind == kEventDiffuse;
     if (event.kind != kEventPass) walk.throughput *= event.albedo;
@@ -236,7 +238,7 @@ bool scatter(inout Walk walk, PathHit found, BsdfSample event, float u) {
     return goes_on;
 }
 
-// Aims at an emitter. False where it cannot send light here.
+// Aims at an emitter. False where it cannot send light to this point.
 bool leave_to_emitter(inout Walk walk) {
     vec3 u = numbers_of(walk, kUseEmitter);
     vec3 u_point = numbers_of(walk, kUseEmitterPoint);
@@ -249,7 +251,7 @@ bool leave_to_emitter(inout Walk walk) {
     return true;
 }
 
-// Aims at the sun, or at one of its images. False where it is below the horizon.
+// Aims at the sun, or at one of its images. False where that is below the horizon of the surface.
 bool leave_to_sun(inout Walk walk, uint use) {
     vec3 u = numbers_of(walk, use);
     bool is_in_glass = has_glass_voxels != 0u && walk.vertex.medium != kNoMedium;
@@ -263,12 +265,12 @@ bool leave_to_sun(inout Walk walk, uint use) {
     return walk.pdf > 0.0;
 }
 
-// The next ray of a diffuse surface. `last` is the kind of the one before, kRayNone for the first. At the visible
-// point, sun and emitters are found by others.
+// Starts the next ray of a diffuse surface. `last` is the kind of the previous one, kRayNone before the
+// first. At the visible point other passes aim at sun and emitters.
 void leave(inout Walk walk, uint last) {
     bool is_first = walk.vertices == 1u;
     walk.kind = kRayOn;
-    walk.is_straight = !(is_first && walk.vertex.medium != kNoMedium);  // nothing else finds what is in that glass
+    walk.is_straight = !(is_first && walk.vertex.medium != kNoMedium);  // in glass only the path finds light
     walk.glints = 0u;
     if (has_sun != 0u && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
     if (has_glints && has_images != 0u && last <= kRaySun && walk.kind == kRayOn && leave_to_sun(walk, kUseImage))

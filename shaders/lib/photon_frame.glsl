@@ -10,7 +10,7 @@ layout(scalar) uniform PhotonFrame {
 
 PhotonParams photon;
 
-// Takes the parameters once, at the start of main(): in a loop, lavapipe would load them anew in every turn.
+// Copies the parameters at the start of main(): lavapipe would load them anew in every turn of a loop.
 void init_photons() {
     photon = photon_block;
 }

@@ -1,7 +1,7 @@
 // The sums of photons around the visible points of a subgroup. Points of one surface that are near each other
-// gather together: each invocation fetches a photon, and each photon that may matter is shown to all of them
-// in turn. Photons are so loaded once for a subgroup; on software devices, where loads cost most, that halves
-// the time. Include lib/address.glsl, lib/frame_access.glsl and lib/photon_resolve.glsl first.
+// gather together: each invocation fetches a photon, and photons that may matter are broadcast to all of them
+// in turn. Each photon is then loaded once per subgroup, which halves the time on software devices, where
+// loads cost most. Include lib/address.glsl, lib/frame_access.glsl and lib/photon_resolve.glsl first.
 #ifndef VX_PHOTON_GATHER_GLSL
 #define VX_PHOTON_GATHER_GLSL
 
@@ -15,14 +15,14 @@
 #include "lib/photon_words.glsl"
 #include "lib/counters_access.glsl"
 
-// Invocations of a subgroup that fetch, where the host knows how many it has, a power of two; 0 where it does
-// not. Loops over them are unrolled then, which makes gathering a seventh faster on lavapipe.
+// Invocations of a subgroup that fetch photons, a power of two; 0 where the host does not know the subgroup
+// size. A known size unrolls loops over them, which makes gathering 1/7 faster on lavapipe.
 VX_SPECIALIZED(uint, known_lanes, 0u);
 
-const uint kSpan = 2048u;  // photons of less than 2^21 quanta that a sum of 32 bits holds, a multiple of the lanes
-const uint kLaneBits = 5u;  // of 32 invocations, the most that fetch
+const uint kSpan = 2048u;  // photons of less than 2^21 quanta that fit a 32-bit sum; a multiple of the lanes
+const uint kLaneBits = 5u;  // at most 32 invocations fetch
 
-// Invocations that fetch, the same for all of a subgroup.
+// Invocations that fetch, the same for a whole subgroup.
 uint fetching_lanes = known_lanes;
 
 void count_lanes() {
@@ -37,7 +37,7 @@ layout(scalar) readonly buffer SortedPhotons {
     uint64_t sorted_words[];
 };
 
-// The pixel of an invocation of a list of 8x8 tiles; eight invocations in a row are a block of 4x2 pixels.
+// The pixel of an invocation in a list of 8x8 tiles; eight consecutive invocations are a block of 4x2 pixels.
 Pixel tile_pixel() {
     uint tile = linear_id() / 64u;
     uint tiles_x = (frame.column_count + 7u) / 8u;
@@ -55,14 +55,15 @@ Pixel tile_pixel() {
     return pixel;
 }
 
-// Points that gather together, the same for all of a subgroup. The box holds their discs.
+// Points that gather together, the same for a whole subgroup. The box contains their kernels.
 struct GatherBox {
     vec3 low;
     vec3 high;
     uint surface;
 };
 
-// A line of cells of a box, and where the photons of its buckets are; they may go on at the store's start.
+// A row of cells of a box, and where the photons of its buckets are; they may wrap around to the start of the
+// store.
 struct GatherRow {
     int y;
     int z;
@@ -70,7 +71,7 @@ struct GatherRow {
     uint count;
 };
 
-// Rows of a box, `columns` of them side by side along y.
+// Row `number` of a box, which has `columns` rows side by side along y.
 GatherRow gather_row(GatherBox box, uint number, uint columns, uint total) {
     GatherRow row;
     row.y = photon_cell(box.low.y, photon.grid.cells_per_voxel) + int(number % columns);
@@ -83,8 +84,8 @@ GatherRow gather_row(GatherBox box, uint number, uint columns, uint total) {
     return row;
 }
 
-// Whether a photon is one that the points of a box look for in a row. Rows may share buckets, so a photon
-// counts only in its own.
+// Whether a photon is in the box and in this row. Rows may share buckets, so a photon counts only in its own
+// row.
 bool is_in_row(GatherBox box, int y, int z, SortedPhoton found) {
     bool is_inside =
         all(greaterThanEqual(found.position, box.low)) && all(lessThanEqual(found.position, box.high));
@@ -93,7 +94,7 @@ bool is_in_row(GatherBox box, int y, int z, SortedPhoton found) {
            photon_cell(found.position.z, photon.grid.cells_per_voxel) == z;
 }
 
-// Rows, one for each invocation of a subgroup, and the photons in them numbered through.
+// Rows, one for each invocation of a subgroup, and their photons numbered consecutively.
 struct GatherList {
     GatherRow row;
     uint end;    // photons in the rows up to this one
@@ -103,7 +104,7 @@ struct GatherList {
 
 // A photon that an invocation has fetched for its subgroup.
 struct Fetched {
-    vec3 position;  // beyond every disc where no point of the box wants it
+    vec3 position;  // out of reach where no point of the box needs it
     uvec3 quanta;
 };
 
@@ -127,7 +128,7 @@ Fetched fetch_photon(GatherBox box, GatherList list, uint n) {
     return fetched;
 }
 
-// Adds the photons from `first` to before `end` of a list to the sums of the points that take part.
+// Adds photons `first` to `end` - 1 of a list to the sums of the points that take part.
 void add_span(GatherBox box, GatherList list, uint first, uint end, vec3 point, Discs discs, inout PhotonSums sums) {
     uvec3 wide = uvec3(0u);
     uvec3 half_area = uvec3(0u);
@@ -144,7 +145,7 @@ void add_span(GatherBox box, GatherList list, uint first, uint end, vec3 point, 
     add_quanta(sums, wide, half_area);
 }
 
-// As many photons as sums of 32 bits hold.
+// Splits the list into spans whose sums fit 32 bits.
 void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout PhotonSums sums) {
     for (uint first = 0u; first < list.count; first += kSpan)
         add_span(box, list, first, min(first + kSpan, list.count), point, discs, sums);
@@ -154,10 +155,10 @@ void add_list(GatherBox box, GatherList list, vec3 point, Discs discs, inout Pho
 uint cells_between(float low, float high) {
     int cells =
         photon_cell(high, photon.grid.cells_per_voxel) - photon_cell(low, photon.grid.cells_per_voxel) + 1;
-    return uint(max(cells, 0));  // none of an empty box
+    return uint(max(cells, 0));  // 0 for an empty box
 }
 
-// Adds the photons of a box. Its rows are looked up side by side, one by each invocation.
+// Adds the photons of a box. Its rows are looked up in parallel, one per invocation.
 void add_box(GatherBox box, vec3 point, Discs discs, inout PhotonSums sums) {
     uint columns = cells_between(box.low.y, box.high.y);
     uint rows = columns * cells_between(box.low.z, box.high.z);
@@ -173,13 +174,13 @@ void add_box(GatherBox box, vec3 point, Discs discs, inout PhotonSums sums) {
     }
 }
 
-// The sums at a point; kNoSurface gets none. All invocations of a subgroup call it together.
+// The sums at a point; zero for kNoSurface. All invocations of a subgroup must call it together.
 PhotonSums gather(vec3 position, uint surface, Discs own) {
     count_lanes();
     PhotonSums sums = no_photons();
     float reach = photon.radius * kPhotonReach;
     bool waits = surface != kNoSurface;
-    while (subgroupAny(waits)) {  // one waits less after each turn
+    while (subgroupAny(waits)) {  // at least one fewer waits after each turn
         uint leader = subgroupBallotFindLSB(subgroupBallot(waits));
         GatherBox box;
         box.surface = subgroupShuffle(surface, leader);
@@ -188,7 +189,7 @@ PhotonSums gather(vec3 position, uint surface, Discs own) {
                      max(max(away.x, away.y), away.z) <= kGatherSpread * photon.radius;
         box.low = subgroupMin(takes ? position : vec3(kUnbounded)) - reach;
         box.high = subgroupMax(takes ? position : vec3(-kUnbounded)) + reach;
-        Discs discs;  // of those that take part
+        Discs discs;  // of the points that take part
         discs.squared = takes ? own.squared : -1.0;
         discs.half_area_squared = takes ? own.half_area_squared : -1.0;
         add_box(box, position, discs, sums);

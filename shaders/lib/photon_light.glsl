@@ -1,4 +1,4 @@
-// Sums of photons at a visible point, and the irradiance that they mean. Include lib/address.glsl and
+// Sums of photons at a visible point, and the irradiance that follows from them. Include lib/address.glsl and
 // lib/photon_frame.glsl first.
 #ifndef VX_PHOTON_LIGHT_GLSL
 #define VX_PHOTON_LIGHT_GLSL
@@ -33,7 +33,7 @@ void add_quanta(inout PhotonSums sums, uvec3 wide, uvec3 half_area) {
     sums.half_area += u64vec3(half_area);
 }
 
-// Power of a sum over an area, W / voxel^2.
+// Irradiance of a sum over an area, W / voxel^2.
 vec3 irradiance(u64vec3 sum, float area) {
     precise vec3 quanta =
         vec3(photon_sum(unpack32(sum.x)), photon_sum(unpack32(sum.y)), photon_sum(unpack32(sum.z)));
@@ -42,7 +42,7 @@ vec3 irradiance(u64vec3 sum, float area) {
     return density;
 }
 
-// Squared radii of a point's two discs.
+// Squared radii of a point's two kernels.
 struct Discs {
     float squared;
     float half_area_squared;
@@ -55,7 +55,7 @@ Discs common_discs() {
     return discs;
 }
 
-// Writes what the sums of a pixel mean, when these shares of its discs are there to receive photons.
+// Writes the irradiance of a pixel's sums, when these fractions of its kernels can receive photons.
 void store_light(uint index, PhotonSums sums, Discs discs, float share, float half_area_share) {
     precise float area = kPi * discs.squared * share;
     precise float half_area = kPi * discs.half_area_squared * half_area_share;

@@ -1,5 +1,5 @@
-// From the sums of photons at a visible point to its light, with a radius of its own or that of all. Include
-// lib/address.glsl, lib/frame_access.glsl and lib/photon_frame.glsl first.
+// Turns the sums of photons at a visible point into light, with a radius of its own or the common one.
+// Include lib/address.glsl, lib/frame_access.glsl and lib/photon_frame.glsl first.
 #ifndef VX_PHOTON_RESOLVE_GLSL
 #define VX_PHOTON_RESOLVE_GLSL
 
@@ -18,7 +18,7 @@ layout(scalar) buffer PixelRadii {
     PixelRadius radii[];
 };
 
-// The first iteration starts with the common radius, the largest that the grid is made for.
+// The first iteration starts with the common radius, the largest that the grid allows.
 PixelRadius radius_of(Pixel pixel) {
     PixelRadius radius;
     radius.squared = photon.radius * photon.radius;

@@ -1,4 +1,4 @@
-// The share of a visible point's disc that other spheres leave. Include lib/frame_access.glsl and
+// The fraction of a visible point's kernel that other spheres do not cover. Include lib/frame_access.glsl and
 // lib/photon_frame.glsl first.
 #ifndef VX_PHOTON_SHARE_GLSL
 #define VX_PHOTON_SHARE_GLSL
@@ -17,13 +17,15 @@ vec3 disc_normal(Hit hit) {
     return normalize(shape.normal + shape.curvature * (photon_position(hit) - shape.anchor));
 }
 
-// Shares of the discs of a common centre and two radii that one sphere leaves. Light goes through the first spheres.
+// Fractions of two concentric discs that one sphere leaves uncovered. The first `glass_spheres` let light
+// through.
 vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 radii) {
     if (i == own || i < glass_spheres) return vec2(1.0);
     return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
 }
 
-// The product of all shares of two discs. A sphere takes from a disc only where it comes within the disc's radius.
+// The product of these fractions over all spheres. A sphere covers a disc only where it comes within the
+// disc's radius.
 vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
     vec2 shares = vec2(1.0);
     if (!has_sphere_tree) {
@@ -43,7 +45,7 @@ vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
     return shares;
 }
 
-// The shares of a hit's two discs, in [kMinShare, 1].
+// The uncovered fractions of a hit's two kernels, in [kMinShare, 1].
 vec2 disc_shares(Hit hit, vec2 radii) {
     if (sphere_count == 0u || photon_surface(hit) == kNoSurface) return vec2(1.0);
     uint own = hit.face >= kFaceSphere ? hit.sphere : kNoSurface;

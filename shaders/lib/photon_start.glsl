@@ -1,5 +1,5 @@
-// The list of where photons start, two words at a time: lavapipe loads for one invocation after the other. Include
-// lib/address.glsl first.
+// The list of photon starts, read and written two words at a time: lavapipe loads for one invocation after
+// the other. Include lib/address.glsl first.
 #ifndef VX_PHOTON_START_GLSL
 #define VX_PHOTON_START_GLSL
 

@@ -1,4 +1,4 @@
-// How a pass that traces photons hands them over. Include lib/address.glsl first.
+// How a pass that traces photons stores them. Include lib/address.glsl first.
 #ifndef VX_PHOTON_STORE_GLSL
 #define VX_PHOTON_STORE_GLSL
 
@@ -9,8 +9,9 @@
 #include "shared/photon_cell.h"
 #include "shared/photon_power.h"
 
-VX_SPECIALIZED(uint, sorts_photons, 1u);  // 0: whoever reads them needs no order
-// Places that an invocation takes together. One that stores many photons so spares atomics that all invocations share.
+VX_SPECIALIZED(uint, sorts_photons, 1u);  // 0: no reader needs them in order
+// Slots that an invocation reserves at a time. More of them save atomics where invocations store many
+// photons.
 VX_SPECIALIZED(uint, slots_at_once, 1u);
 
 layout(scalar) buffer PhotonHeads {
@@ -20,7 +21,7 @@ layout(scalar) writeonly buffer StoredPhotons {
     uint64_t stored_words[];
 };
 layout(scalar) readonly buffer WantedCells {
-    uint wanted_cells[];  // a bit of each mark
+    uint wanted_cells[];  // a bit per mark
 };
 layout(scalar) buffer BucketCounts {
     uint bucket_counts[];
@@ -41,12 +42,13 @@ void put_photon(uint slot, StoredPhoton kept) {
     stored_words[first + 3u] = pack64(uvec2(kept.bucket, kept.rank));
 }
 
-// What an invocation has done, counted when it is done: an atomic in a loop costs time even where no invocation needs it.
+// Counters of an invocation, added up at its end: an atomic in a loop costs time even where no invocation
+// reaches it.
 uint kept_photons = 0u;
 uint unsound_photons = 0u;
 uint late_photons = 0u;
 
-// The places that it has taken and not used yet.
+// Slots that it has reserved and not used yet.
 uint next_slot = 0u;
 uint end_slot = 0u;
 
@@ -64,9 +66,9 @@ void put_hole(uint slot) {
     stored_words[first + 3u] = pack64(uvec2(kNoBucket, 0u));
 }
 
-// Keeps a photon: where it met a surface, local to the world, photon_surface() of it, and its power in watts before the
-// surface takes its share. Any invocations may call it, the others of their subgroup need not. A photon that no visible
-// point could take is left out; one without a finite place or beyond the capacity is lost and counted.
+// Stores a photon: where it hit a surface, local to the world; photon_surface() of the hit; and its power in
+// watts before the surface reflects. May be called in divergent control flow. A photon that no visible point
+// needs is skipped; one without a finite position or beyond the capacity is lost and counted.
 void store_photon(vec3 position, uint surface, vec3 power) {
     bool is_placed = is_finite(position);
     uint key = photon_key(is_placed ? position : vec3(0.0), surface, photon.grid);
@@ -86,12 +88,12 @@ void store_photon(vec3 position, uint surface, vec3 power) {
     kept.power = packed.words;
     kept.bucket = key & photon.grid.mask;
     kept.rank = 0u;
-    // The rank among those of the bucket makes a second atomic in photon_sort unnecessary.
+    // The rank within the bucket saves a second atomic in photon_sort.
     if (sorts_photons != 0u) kept.rank = atomicAdd(bucket_counts[kept.bucket], 1u);
     put_photon(slot, kept);
 }
 
-// Gives back the places that were taken and not used, and counts what was done. At the end of main().
+// Marks reserved slots that were not used as empty, and adds the counters. Call it at the end of main().
 void close_store() {
     for (; next_slot != end_slot; ++next_slot)
         if (next_slot < photon.capacity) put_hole(next_slot);

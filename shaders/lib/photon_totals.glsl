@@ -1,4 +1,4 @@
-// Sums of photons that were traced one run after the other, words of each pixel of the tile.
+// Sums of photons over several runs, for each pixel of the tile.
 #ifndef VX_PHOTON_TOTALS_GLSL
 #define VX_PHOTON_TOTALS_GLSL
 

@@ -1,5 +1,5 @@
-// Photons in device buffers, two words at a time: lavapipe loads for one invocation after the other. A stored photon has
-// four of them, SortedPhoton's three and then bucket and rank. Include lib/address.glsl first.
+// Photons in device buffers, two words at a time: lavapipe loads for one invocation after the other. A stored
+// photon has four pairs: the three of SortedPhoton, then bucket and rank. Include lib/address.glsl first.
 #ifndef VX_PHOTON_WORDS_GLSL
 #define VX_PHOTON_WORDS_GLSL
 

@@ -1,5 +1,5 @@
-// The sample sequence of a frame. It is a constant of the pipeline: on lavapipe a branch on a value of a uniform block is
-// either taken both ways or compiled anew for each sample.
+// The sample sequence of a frame. It is a specialization constant: on lavapipe, a branch on a member of a
+// uniform block either runs both sides or is compiled anew for each sample.
 #ifndef VX_SAMPLES_GLSL
 #define VX_SAMPLES_GLSL
 
@@ -19,17 +19,17 @@ float draw_1d(SampleKey key, uint dimension) {
     return sample_1d(sequence, key, dimension);
 }
 
-// The stream of samples of a pixel.
+// The sample stream of a pixel.
 uint pixel_stream(Pixel pixel) {
     return pixel.y * frame.width + pixel.x;
 }
 
-// The frame's sample of a pixel.
+// The key of the frame's sample of a pixel.
 SampleKey pixel_key(Pixel pixel) {
     return sample_key(pixel_stream(pixel), uvec2(frame.sample_index, 0u), frame.seed);
 }
 
-// The ray of the frame's sample through a pixel.
+// The camera ray of the frame's sample through a pixel.
 Ray camera_ray_of(Pixel pixel) {
     return camera_ray(frame, projection, sequence, pixel.x, pixel.y);
 }

@@ -1,4 +1,4 @@
-// The sky of an atmosphere, as sky.view left it.
+// The sky of an atmosphere, as computed by sky.view.
 #ifndef VX_SKY_GLSL
 #define VX_SKY_GLSL
 

@@ -1,5 +1,5 @@
-// The analytic spheres. How many there are is a constant of the pipeline: lavapipe would compile a loop up to a value of a
-// uniform block anew for each dispatch.
+// The analytic spheres. Their number is a specialization constant: lavapipe would compile a loop bounded by a
+// member of a uniform block anew for each dispatch.
 #ifndef VX_SPHERES_GLSL
 #define VX_SPHERES_GLSL
 
@@ -9,22 +9,23 @@
 #include "shared/sampling.h"
 
 VX_SPECIALIZED(uint, sphere_count, 0u);
-VX_SPECIALIZED(uint, glass_spheres, 0u);  // the first so many spheres have glass
-VX_SPECIALIZED(uint, has_ground, 0u);     // the last one is a level plane
+VX_SPECIALIZED(uint, glass_spheres, 0u);  // the first of the list are of glass
+VX_SPECIALIZED(uint, has_ground, 0u);     // the last one is a horizontal plane
 
 layout(scalar) readonly buffer Spheres {
     SphereRecord spheres[];
 };
 
-// A few spheres are tested in an unrolled loop over constant places of an array.
+// Few spheres are tested in an unrolled loop over constant indices of an array.
 layout(scalar) uniform SphereTable {
     SphereRecord sphere_table[kFewSpheres];
 };
 
 SphereRecord held_spheres[kFewSpheres];
 
-// Takes the few spheres once. Lavapipe loads from a uniform block for each invocation apart, even from constant places,
-// and again in every turn of a loop: three quarters of a test of a sphere would be loads.
+// Copies the few spheres once. Lavapipe loads a member of a uniform block for each invocation separately,
+// even at constant indices, and again in every turn of a loop: three quarters of a sphere test would be
+// loads.
 void load_spheres() {
     for (uint i = 0u; i < kFewSpheres; ++i)
         held_spheres[i] = sphere_table[i];
@@ -38,7 +39,7 @@ bool is_on_sphere(Hit hit) {
     return sphere_count != 0u && (hit.face == kFaceSphere || hit.face == kFaceSphereInside);
 }
 
-// The sphere that a ray off a hit starts on.
+// The sphere on which a ray from a hit starts.
 uint own_sphere(Hit hit) {
     return is_on_sphere(hit) ? hit.sphere : kNoSphere;
 }

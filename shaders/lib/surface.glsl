@@ -1,4 +1,4 @@
-// Hits, spheres, and rays that leave a surface.
+// Hits, spheres, and rays that start at a surface.
 #ifndef VX_SURFACE_GLSL
 #define VX_SURFACE_GLSL
 
@@ -18,7 +18,8 @@ vec3 local_position(ivec3 cell, vec3 fraction) {
     return vec3(cell) + fraction;
 }
 
-// Makes the world and the spheres ready for rays. At the start of main(), while all invocations are active.
+// Prepares the world and the spheres for rays. Call it at the start of main(), while all invocations are
+// active.
 void init_scene() {
     init_world();
     if (sphere_count != 0u && sphere_count <= kFewSpheres) load_spheres();
@@ -26,7 +27,7 @@ void init_scene() {
 
 uint tree_steps = 0u;  // of the last ray
 
-// The first sphere that a ray crosses before t_max. `own` is the sphere that the ray starts on.
+// The first sphere that a ray crosses before t_max. `own` is the sphere on which the ray starts.
 NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own) {
     NearestSphere nearest;
     nearest.i = kNoSphere;
@@ -45,13 +46,13 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
     return nearest;
 }
 
-// A point of the ground without its rounding, within what cells can count.
+// A point of the ground without rounding error, clamped to the range of cell coordinates.
 vec3 on_ground(vec3 position, float height) {
     vec2 place = clamp(position.xy, vec2(-kFarthestGround), vec2(kFarthestGround));
     return vec3(place, height);
 }
 
-// Makes a hit of the crossing of a sphere, number `i`, at hit.t. Returns the normal on the side that was hit.
+// Makes a hit of the crossing with sphere `i` at hit.t. Returns the normal on the side that was hit.
 vec3 place_on_sphere(inout Hit hit, uint i, SphereRecord sphere, vec3 origin, vec3 direction) {
     vec3 position = origin + hit.t * direction;
     if (has_ground != 0u && i == sphere_count - 1u) position = on_ground(position, sphere.shape.anchor.z);
@@ -66,7 +67,7 @@ vec3 place_on_sphere(inout Hit hit, uint i, SphereRecord sphere, vec3 origin, ve
     return leaves ? -outward : outward;
 }
 
-// A ray off the surface of a hit. `direction` points out of it.
+// A ray from the surface of a hit. `direction` points away from the surface.
 Ray ray_from(Hit hit, vec3 direction, float t_max) {
     if (is_on_sphere(hit)) {
         Ray ray;
@@ -92,7 +93,7 @@ bool hits_voxels(Ray ray) {
     return hit.face != kFaceMiss;
 }
 
-// `own` is the sphere that the ray starts on.
+// `own` is the sphere on which the ray starts.
 bool hits_spheres(Ray ray, uint own) {
     if (sphere_count == 0u) return false;
     vec3 origin = local_position(ray.cell, ray.fraction);

@@ -1,6 +1,7 @@
-// Planes whose elements an invocation takes four at a time, those of the pixels of a group: then floats, vectors, hits and
-// sums are whole texels of four words. Lavapipe moves the words of a bound block one by one, for one invocation after the
-// other; a texel takes a fifth of the time to load, and half to store. Macros, because a texel buffer is no argument.
+// Planes whose elements an invocation reads or writes four at a time, for the pixels of a group: floats,
+// vectors, hits and sums are then whole texels of four words. Lavapipe accesses the words of a bound block
+// one by one, for one invocation after the other; a texel takes a fifth of the time to load, and half to
+// store. These are macros because a texel buffer cannot be an argument.
 #ifndef VX_TEXEL_PLANES_GLSL
 #define VX_TEXEL_PLANES_GLSL
 

@@ -1,6 +1,7 @@
-// The device side of march.h: the world's three arrays, reached by their addresses because each may be larger than a
-// binding, and the traversal that reads them. Include lib/address.glsl before any other file, define VX_PUSH before
-// this one to what the push block holds beside the world, and call init_world() at the start of main().
+// The device side of march.h: the world's three arrays, reached by address because each may be larger than a
+// binding, and the traversal that reads them. Include lib/address.glsl before any other file, define VX_PUSH
+// before this one as the members of the push block after the world's, and call init_world() at the start of
+// main().
 #ifndef VX_WORLD_ACCESS_GLSL
 #define VX_WORLD_ACCESS_GLSL
 
@@ -27,24 +28,24 @@ WorldWords root_cells;
 WorldWords node_cells;
 WorldWords leaf_cells;
 
-// Takes the pointers once, while all invocations are active: VX_POINTER says why.
+// Loads the pointers once, while all invocations are active (see VX_POINTER).
 void init_world() {
     root_cells = VX_POINTER(WorldWords, roots);
     node_cells = VX_POINTER(WorldWords, nodes);
     leaf_cells = VX_POINTER(WorldWords, leaves);
 }
 
-// The arrays as texels of one word, where the device has room for them. Lavapipe loads those for eight invocations
-// at once, where behind a pointer it loads for one after the other (lab/notes/march.md).
+// The arrays as texels of one word, where the device has room for that. Lavapipe loads texels for eight
+// invocations at once, but behind a pointer for one after the other (lab/notes/march.md).
 VX_SPECIALIZED(uint, has_world_texels, 0u);
 
 layout(r32ui) readonly uniform uimageBuffer Roots;
 layout(r32ui) readonly uniform uimageBuffer Nodes;
 layout(r32ui) readonly uniform uimageBuffer Leaves;
 
-// Behind a pointer, lavapipe moves the arithmetic of the index into the loop over invocations, unless it ends in a
-// minimum: with it a march is 3 % faster. (A bound below 2^30 words would undo that: addresses would then be spilled
-// as vectors of 64 bits, and a march takes 1.5 times as long.)
+// Behind a pointer, lavapipe moves the index arithmetic into the loop over invocations unless it ends in a
+// minimum, which makes a march 3 % faster. (A bound below 2^30 words would undo that: addresses would be
+// spilled as vectors of 64 bits, and a march would take 1.5 times as long.)
 uint bounded(uint i) {
     return min(i, kLastWorldWord);
 }

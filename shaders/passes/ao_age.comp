@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Empties the slots of cells that nobody has seen for max_age frames. No other pass runs meanwhile, so nobody can claim
-// a slot that is being emptied.
+// Empties the slots of cells that have not been seen for max_age frames. No other pass runs meanwhile, so no
+// slot can be claimed while it is being emptied.
 
 #include "lib/address.glsl"
 

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// One iteration of the a-trous filter of visibility. Only voxel faces are filtered: spheres keep their own rays' value.
+// One iteration of the a-trous filter of visibility. Only voxel faces are filtered; spheres keep the value of
+// their own rays.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The slot of the occlusion cell of each hit, searched in the table.
+// Finds the slot of each hit's occlusion cell in the table.
 
 #include "lib/address.glsl"
 

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The slot of the occlusion cell of each hit where the sample before saw it. Pixels whose cell it did not see are listed
-// for ao_search. The order of the list depends on the threads, what is found for a pixel does not.
+// Finds the slot of each hit's occlusion cell where the previous sample saw that cell. All other pixels are
+// listed for ao_search. The order of the list depends on the threads; what is found for a pixel does not.
 
 #include "lib/address.glsl"
 
@@ -24,7 +24,7 @@ layout(scalar) buffer Missed {
     uint missed_pixels[];
 };
 
-// One more workgroup of ao_search for each of its size in pixels.
+// Each workgroup of ao_search takes as many pixels as it has invocations.
 void list_missed(uint pixel) {
     uint place = atomicAdd(missed.count, 1u);
     if (place % kLinearGroup == 0u) atomicAdd(missed.groups_x, 1u);

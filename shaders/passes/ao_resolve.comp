@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Visibility of each hit: that of its cell, or of its own rays where it has none.
+// Visibility of each hit: that of its cell, or of its own rays where it has no cell.
 
 #include "lib/address.glsl"
 
@@ -16,7 +16,7 @@
 #include "shared/cell_age.h"
 
 VX_SPECIALIZED(uint, wants_variance, 0u);
-VX_SPECIALIZED(uint, ao_rays, 1u);  // of a pixel and sample
+VX_SPECIALIZED(uint, ao_rays, 1u);  // per pixel and sample
 
 layout(scalar) readonly buffer Slots {
     uint slots[];

@@ -2,10 +2,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Occlusion samples for the cells that the hits lie in. The number of samples that a cell already has is the number of the
-// next one in the cell's own sequence, which gives its direction and the point of the cell that it starts from: sums
-// depend on how many samples were taken, not on who took them. Hits without a cell (on spheres, or when the table has
-// no room) keep their own rays' visibility instead.
+// Occlusion samples for the cells of the hits. The number of samples that a cell already has is the index of
+// its next one in the cell's own sequence, which gives the ray's direction and its origin in the cell: sums
+// depend on how many samples were taken, not on which invocation took them. Hits without a cell (on spheres,
+// or when the table is full) keep the visibility of their own rays.
 
 #include "lib/address.glsl"
 
@@ -18,7 +18,7 @@
 #include "lib/ao_reproject.glsl"
 #include "lib/constants.glsl"
 
-VX_SPECIALIZED(uint, reprojects, 1u);  // of the look-up, when it happens here
+VX_SPECIALIZED(uint, reprojects, 1u);  // in the look-up, if it happens here
 VX_SPECIALIZED(uint, merged, 0u);      // the look-up happens here
 VX_SPECIALIZED(uint, by_pixel, 0u);    // samples start at the hit, in the pixel's sequence
 
@@ -43,10 +43,10 @@ uint locate(Hit hit) {
     return slot;
 }
 
-// The sequence that a hit's next samples come from: its cell's or its pixel's.
+// The sequence of a hit's next samples: that of its cell or of its pixel.
 struct Stream {
     uint stream;
-    uvec2 first;  // number of the next sample
+    uvec2 first;  // index of the next sample
     bool of_cell;
 };
 
@@ -60,8 +60,8 @@ Stream stream_of(Pixel pixel, AoCell cell, uint slot, bool takes) {
     return from;
 }
 
-// Rays of a hit that meet nothing. There is one call of the march for all kinds of hits: software devices run every
-// branch for all invocations.
+// Counts rays of a hit that meet nothing. There is a single call of the march for all kinds of hits, because
+// software devices run every branch for all invocations.
 uint count_open(Hit hit, AoCell cell, Stream from, uint rays) {
     uint own = own_sphere(hit);
     uint open = 0u;

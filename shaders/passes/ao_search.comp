@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The slot of the occlusion cell of each hit that ao_reproject did not find, searched in the table.
+// Finds in the table the slot of each hit's occlusion cell that ao_reproject did not find.
 
 #include "lib/address.glsl"
 

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Share of cosine-weighted rays off each hit that meet nothing within the radius: 1 in the open, and for misses.
+// Fraction of cosine-distributed rays from each hit that meet nothing within the radius; 1 for unoccluded
+// hits and for misses.
 
 #include "lib/address.glsl"
 

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Position in scene space and depth along the view axis (panoramas: distance) of each hit. Misses have position 0 and depth kMissDepth.
+// Position in scene space and depth along the view axis (panoramas: distance) of each hit. Misses have
+// position 0 and depth kMissDepth.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// First voxel that each ray of a list meets, entering the world as camera rays do: what `voxilux bench march` times.
+// First voxel that each ray of a list hits, entering the world as camera rays do: what `voxilux bench march`
+// times.
 
 #include "lib/address.glsl"
 #include "lib/invocation.glsl"

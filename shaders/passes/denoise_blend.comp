@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Mixes the plain picture of both halves with the filtered one, and adds the light that is not filtered.
+// Mixes the undenoised image of both halves with the filtered one, and adds the light that is not filtered.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -19,7 +19,7 @@ VX_INPUT(SharpB);
 VX_OUTPUT(ResultA);
 VX_OUTPUT(ResultB);
 
-// A pixel whose surfaces reflect nothing is as it is.
+// A pixel whose surfaces reflect nothing is left unchanged.
 vec3 blended(vec3 plain, vec4 filtered, float share) {
     return filtered.w > 0.0 ? mix(plain, filtered.xyz, share) : plain;
 }

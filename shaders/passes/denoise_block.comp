@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Sums the terms of a block of pixels: those that see one surface, and the others.
+// Sums the terms of a block of pixels, separately for pixels that see one surface and for the others.
 
 #include "lib/invocation.glsl"
 

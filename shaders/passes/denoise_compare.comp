@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Terms of the best mixture: of the levels of the filter, each with the next coarser one, or at the end of the plain
-// picture with the filtered one. Light is compared as it is reflected.
+// Terms of the best mixture: of each level of the filter with the next coarser one, or finally of the
+// undenoised image with the filtered one. What is compared is reflected light.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

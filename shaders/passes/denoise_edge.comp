@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Finds the light of pixels that see several surfaces from the pixels around, and makes light reflected again.
+// Finds the light of pixels that see several surfaces from the pixels around them, and multiplies light by
+// albedo again.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The denoised picture, and what it is off: estimates of each pixel alone, which are noisy and have no bias.
+// The denoised image, and error estimates of each pixel by itself, which are noisy and unbiased.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -15,15 +15,15 @@ VX_INPUT(SharpA);
 VX_INPUT(SharpB);
 VX_INPUT(ResultA);
 VX_INPUT(ResultB);
-VX_OUTPUT(Picture);  // R G B and its share of relMSE
-VX_OUTPUT(Errors);   // what of that is variance; the plain picture's share of relMSE; the squared error of the luminance
+VX_OUTPUT(Picture);  // R G B and its relMSE
+VX_OUTPUT(Errors);   // the variance in that; relMSE of the undenoised image; squared error of the luminance
 
 vec3 mean_at(ivec2 place) {
     int at = texel_at(place);
     return mix(VX_LOAD(ResultB, at).xyz, VX_LOAD(ResultA, at).xyz, push.share);
 }
 
-// What stands for the true value: the smaller one of the pixel and of what is around it, to be on the safe side.
+// A conservative estimate of the true value: the smaller of the pixel and the mean around it.
 vec3 likely_value(ivec2 place, vec3 own) {
     vec3 sum = vec3(0.0);
     float count = 0.0;

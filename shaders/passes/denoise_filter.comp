@@ -9,7 +9,7 @@
 
 #include "lib/denoise_planes.glsl"
 
-VX_SPECIALIZED(uint, fits_slopes, 1u);  // else it takes the mean
+VX_SPECIALIZED(uint, fits_slopes, 1u);  // 0: the mean
 
 VX_INPUT(Light);
 VX_INPUT(Guide);

@@ -2,9 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// What guides the denoiser (shared/denoise.h), summed for one half of the film: of what is shaded, the normal, its distance
-// from the camera along the normal (the same all over a face of voxels), the share of light that it reflects to the camera;
-// and the light that is seen without noise, which is that of misses, of emitters and of the sun.
+// Sums the guides of the denoiser (shared/denoise.h) for one half of the film: of the shaded surface its
+// normal, the distance of its plane from the camera along the normal (the same all over a voxel face) and its
+// albedo as seen by the camera; and the noise-free part of the light, from misses, emitters and the sun.
 
 #include "lib/address.glsl"
 
@@ -28,7 +28,7 @@ layout(push_constant, scalar) uniform Push {
 
 #include "lib/film_cover.glsl"
 
-// radiance() without light that is found by chance.
+// radiance() without the light found by random sampling.
 vec3 sharp_radiance(Group group, uint k) {
     if (is_surface(group.hits[k])) {
         group.direct[k] = vec3(0.0);

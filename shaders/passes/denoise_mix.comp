@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Mixes the levels of the filter of both halves.
+// Mixes the levels of the filter for both halves.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Divides the light of a half by its albedo, and makes the guide of each pixel.
+// Divides the light of a half by its albedo, and computes the guide of each pixel.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,9 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light that reaches each hit straight from an emitter: the mean of the emitters' radiance over the cosine-weighted hemisphere,
-// irradiance / pi. One ray goes to an emitter drawn by power, one where a diffuse surface would send it, unless paths do
-// that; the balance heuristic weighs them. Source: Veach and Guibas 1995.
+// Light that reaches each hit directly from emitters: their mean radiance over the cosine-weighted
+// hemisphere, irradiance / pi. One ray goes to an emitter selected by power, and one in the direction of a
+// diffuse reflection unless paths trace it; the balance heuristic weighs them. Source: Veach and Guibas 1995.
 
 #include "lib/address.glsl"
 
@@ -20,7 +20,7 @@ layout(scalar) writeonly buffer Direct {
     vec3 direct[];
 };
 
-VX_SPECIALIZED(uint, rays, 2u);  // 1: others follow the second one
+VX_SPECIALIZED(uint, rays, 2u);  // 1: paths trace the second one
 
 void main() {
     init_scene();

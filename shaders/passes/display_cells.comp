@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The occlusion cells that the pixels of the last sample found, as 8-bit sRGB codes: how many samples each holds, and
-// so where one ends and the next begins.
+// The occlusion cells of the pixels of the last sample, as 8-bit sRGB codes: how many samples each holds, and
+// where one cell ends and the next begins.
 
 #include "lib/address.glsl"
 
@@ -14,7 +14,7 @@
 #include "shared/false_colour.h"
 #include "shared/window.h"
 
-VX_SPECIALIZED(uint, is_bgr, 0u);  // blue is the lowest byte
+VX_SPECIALIZED(uint, is_bgr, 0u);  // else red is
 
 layout(scalar) readonly buffer Slots {
     uint slots[];

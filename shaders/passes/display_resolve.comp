@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// A film tile as a display shows it: 8-bit sRGB codes of the means of a plane, four pixels per invocation.
+// A film tile for display: 8-bit sRGB codes of the means of a plane, four pixels per invocation.
 
 #include "lib/address.glsl"
 
@@ -18,10 +18,10 @@
 VX_SPECIALIZED(uint, shows, 0u);       // kShows*
 VX_SPECIALIZED(uint, compares, 0u);    // kCompares*
 VX_SPECIALIZED(uint, components, 3u);  // of the plane: 1 or 3
-VX_SPECIALIZED(uint, has_halves, 1u);  // the plane is the sum of two
+VX_SPECIALIZED(uint, has_halves, 1u);  // the plane is the sum of two halves
 VX_SPECIALIZED(uint, has_floats, 0u);  // the plane holds floats, not sums
 VX_SPECIALIZED(uint, is_filmic, 1u);
-VX_SPECIALIZED(uint, is_bgr, 0u);  // blue is the lowest byte
+VX_SPECIALIZED(uint, is_bgr, 0u);  // else red is the lowest byte
 
 layout(rgba32ui) readonly uniform uimageBuffer Values;
 layout(rgba32ui) readonly uniform uimageBuffer OtherHalf;
@@ -35,7 +35,7 @@ layout(push_constant, scalar) uniform Push {
     DisplayResolvePush push;
 };
 
-// Two sums in a texel.
+// Two sums of a texel as floats.
 vec2 floats_of(uvec4 sums) {
     return vec2(film_float(sums.xy), film_float(sums.zw));
 }
@@ -58,8 +58,8 @@ vec3[kGroupPixels] load_values(uint group) {
     return VX_GROUP_SUMS(Values, group);
 }
 
-// The standard error of the luminance of the mean of n samples, of which the even ones are in `even`: that of
-// film_image().
+// The standard error of the luminance of a mean of n samples, as in film_image(). The samples with even
+// numbers are in `even`.
 float error_of(vec3 even, vec3 odd, uint n) {
     if (n < 2u) return luminance_of(even + odd);
     float odd_samples = float(n / 2u);

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Shades the camera rays of a sample and adds what they saw to the exact sums of the film. Sums that the plan lacks are left
-// alone.
+// Shades the camera rays of a sample and adds what they saw to the exact sums of the film, as far as the plan
+// has them.
 
 #include "lib/address.glsl"
 
@@ -13,10 +13,10 @@
 #include "lib/film_group.glsl"
 #include "lib/film_sums.glsl"
 
-VX_SPECIALIZED(uint, has_specular, 1u);  // then the first hits are others than those that are shaded
+VX_SPECIALIZED(uint, has_specular, 1u);  // first hits differ from the shaded ones
 VX_SPECIALIZED(uint, sums_squares, 1u);
 VX_SPECIALIZED(uint, sums_bias, 1u);
-VX_SPECIALIZED(uint, sums_coverage, 0u);  // a background is behind the scene: rays that meet nothing show nothing
+VX_SPECIALIZED(uint, sums_coverage, 0u);  // there is a background: misses are transparent
 VX_SPECIALIZED(uint, sums_surface, 1u);
 VX_SPECIALIZED(uint, sums_ao, 1u);
 VX_SPECIALIZED(uint, sums_sun, 1u);
@@ -60,10 +60,11 @@ void add_beauty(uint at, uint film_group, Group group) {
     }
 }
 
-// How far the light of photons is off because discs smooth it, as radiance. To first order the error of a disc is
-// proportional to its area, and the half-area one has half of it: so it is twice the difference. Noisy, and its mean is not.
-// Source: Hachisuka, Jarosz and Jensen 2010, "A Progressive Error Estimation Framework for Photon Density Estimation", for
-// the idea; the second radius stands for their derivatives of the kernel.
+// The bias that the smoothing by kernels adds to the light of photons, as radiance. To first order it is
+// proportional to the area of the kernel, and the half-area kernel has half of it: so it is twice the
+// difference. Each estimate is noisy; their mean converges. Source: Hachisuka, Jarosz and Jensen 2010, "A
+// Progressive Error Estimation Framework for Photon Density Estimation", for the idea; the second radius
+// replaces their derivatives of the kernel.
 void add_bias(uint film_group, Group group, vec3 half_area_light[kGroupPixels]) {
     vec3 off[kGroupPixels];
     for (uint k = 0u; k < kGroupPixels; ++k) {
@@ -74,7 +75,7 @@ void add_bias(uint film_group, Group group, vec3 half_area_light[kGroupPixels]) 
     VX_ADD_VECTORS(Bias, film_group, add_pair, off);
 }
 
-// Albedo and normal of what camera rays meet first; zero for misses.
+// Albedo and normal of the first hits of camera rays; zero for misses.
 void add_surface(uint film_group, Group group) {
     vec3 albedo[kGroupPixels];
     vec3 normal[kGroupPixels];

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the path of each visible point starts: its first direction, by the cosine. A pass of its own, because software
-// devices would run through it in every turn of the loop of path_trace.
+// Draws the first direction, cosine-distributed, of the path of each visible point. A pass of its own,
+// because software devices would otherwise run through this code in every turn of the loop of path_trace.
 
 #include "lib/address.glsl"
 
@@ -14,7 +14,7 @@
 #include "lib/path.glsl"
 #include "lib/path_start.glsl"
 
-VX_SPECIALIZED(uint, finds_media, 0u);  // the glass voxels that visible points are in
+VX_SPECIALIZED(uint, finds_media, 0u);  // visible points may be inside glass voxels
 
 uint medium_at(Ray ray) {
     ray.t_max = kProbeLength;

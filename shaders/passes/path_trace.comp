@@ -2,10 +2,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light that reaches each visible point by way of other surfaces, and the sky's: the mean radiance over the
-// cosine-weighted hemisphere, irradiance / pi, and what emitters send there straight. One path for each pixel. An invocation
-// traces many of them, ray by ray in one loop, so that those that end early do not wait for the others. Where its loops
-// have turned too often it goes on in the next round.
+// Light that reaches each visible point from the sky, by way of other surfaces, and from emitters that the
+// path's first ray hits: the mean radiance over the cosine-weighted hemisphere, irradiance / pi. One path per
+// pixel. An invocation traces many paths, ray by ray in one loop, so that those that end early do not wait
+// for the others. When its loops have used up their turns it goes on in the next round.
 
 #include "lib/address.glsl"
 
@@ -23,7 +23,7 @@
 #include "lib/path_start.glsl"
 
 VX_SPECIALIZED(uint, direct_stride, 0u);
-VX_SPECIALIZED(uint, has_rounds, 0u);  // paths go on from States
+VX_SPECIALIZED(uint, has_rounds, 0u);  // paths continue from States
 
 layout(r32ui) readonly uniform uimageBuffer Direct;
 layout(scalar) writeonly buffer Light {
@@ -33,7 +33,7 @@ layout(scalar) buffer States {
     PathState states[];
 };
 
-// What emitters were found to send straight to the visible point.
+// Direct light of emitters that direct.trace has found at the visible point.
 vec3 direct_light(uint i) {
     uvec3 words = uvec3(0u);
     if (direct_stride != 0u) {
@@ -43,7 +43,7 @@ vec3 direct_light(uint i) {
     return uintBitsToFloat(words);
 }
 
-// Whether the ray may be followed to what it has met.
+// Whether the path can continue at what the ray has hit.
 bool is_met(Walk walk, PathHit found) {
     bool is_sound = found.hit.face != kFaceInside || found.stays;
     return is_surface(found.hit) && is_sound && walk.surfaces + walk.glints < kMaxPathSurfaces;
@@ -54,7 +54,7 @@ void main() {
     init_walks();
     uint lane = linear_id();
     if (lane >= push.lanes) return;
-    uint end = frame.first_element + frame.column_count * frame.row_count;  // of the tile, in its planes
+    uint end = frame.first_element + frame.column_count * frame.row_count;  // after the tile's last pixel
     Walk walk = no_walk();
     uint next_id = frame.first_element + lane;
     if (has_rounds != 0u && states[lane].next_id != 0u) {
@@ -92,7 +92,7 @@ void main() {
         }
     }
     if (has_rounds != 0u) states[lane] = state_of(walk, next_id);
-    // What paths would still find after the last round is lost.
+    // What is left after the last round is lost.
     uint left = 0u;
     if (walk.kind != kRayNone) {
         light[next_id - push.lanes] = walk.light;

@@ -2,9 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the photons of a sample start. Emitters are Lambertian emitters; the sun's photons come from a disc that faces it.
-// All the photons of a sample are one set of points of the sample sequence, scrambled by the number of the sample; a
-// run of them starts together.
+// Draws where the photons of a sample start. Emitters are Lambertian; the sun's photons start on a disc that
+// faces it. All photons of a sample are one point set of the sample sequence, scrambled by the index of the
+// sample; the photons of a run start together.
 
 #include "lib/address.glsl"
 

@@ -2,9 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Irradiance at each visible point from the photons around it, for two radii. Pixels may have radii of their own, which
-// shrink with the photons that they meet. Where the photons of an iteration come in several runs, their sums are added
-// up for photon_resolve.
+// Irradiance at each visible point from the photons around it, for two radii. Pixels may have radii of their
+// own, which shrink with the photons that they gather. Where the photons of an iteration come in several
+// runs, their sums are added up for photon_resolve.
 
 #include "lib/address.glsl"
 
@@ -29,7 +29,7 @@ void add_to_totals(uint pixel, PhotonSums sums) {
 void main() {
     init_photons();
     Pixel pixel = tile_pixel();
-    // Invocations outside the picture go along: photons are fetched by all of a subgroup.
+    // Invocations outside the image take part, too, because all of a subgroup fetch photons.
     Hit hit;
     hit.face = kFaceMiss;
     if (pixel.inside) hit = hits[pixel.index];

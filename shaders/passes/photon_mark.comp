@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Marks the cells in which a photon could meet a visible point: those that its disc touches. Photons elsewhere, which no
-// point would take, are not stored.
+// Marks the cells in which a photon could contribute to a visible point: those that its kernel touches.
+// Photons elsewhere are not stored.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"
@@ -16,7 +16,7 @@ layout(scalar) readonly buffer Hits {
     Hit hits[];
 };
 layout(scalar) buffer WantedCells {
-    uint wanted_cells[];  // a bit of each mark
+    uint wanted_cells[];  // a bit per mark
 };
 
 // Sets the marks of neighbouring cells of a row.
@@ -28,7 +28,7 @@ void mark_cells(uint first_key, uint cells) {
         uint bit = mark & 31u;
         uint taken = min(left, 32u - bit);
         uint bits = (0xFFFFFFFFu >> (32u - taken)) << bit;
-        // Most are set already, and a look costs less than an atomic.
+        // Most are already set, and a read costs less than an atomic.
         if ((~wanted_cells[mark >> 5u] & bits) != 0u) atomicOr(wanted_cells[mark >> 5u], bits);
         key += taken;
         left -= taken;

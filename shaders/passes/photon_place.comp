@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Puts each visible point into its place among those of its bucket.
+// Sorts each visible point into its bucket.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Counts the visible points of each bucket, for photons that look for points.
+// Counts the visible points of each bucket, for splatting.
 
 #define VX_GROUP_2D
 #include "lib/invocation.glsl"

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Irradiance at each visible point from the sums of photon_splat, or of photon_gather over several runs of photons.
+// Irradiance at each visible point from the sums of photon_splat, or of photon_gather over several runs of
+// photons.
 
 #include "lib/address.glsl"
 

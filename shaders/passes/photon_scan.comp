@@ -2,8 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the photons of each bucket begin: exclusive prefix sums of the buckets' counts, in three dispatches. The first
-// adds up runs of buckets, the second turns the sums of runs into prefix sums, the third goes through the runs again.
+// The index of each bucket's first photon: exclusive prefix sums of the buckets' counts, in three dispatches.
+// The first sums up runs of buckets, the second turns the sums of runs into prefix sums, the third computes
+// those within each run.
 
 #include "lib/invocation.glsl"
 
@@ -34,7 +35,7 @@ void sum_run(uint run, uint buckets) {
     run_sums[run] = sum;
 }
 
-// One workgroup. Each invocation takes an equal part of the runs.
+// Runs in one workgroup. Each invocation takes an equal part of the runs.
 void scan_runs_of_all(uint runs, uint buckets) {
     uint lane = gl_LocalInvocationID.x;
     uint length = (runs + kLinearGroup - 1u) / kLinearGroup;

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Puts each stored photon into its place among those of its bucket.
+// Sorts each stored photon into its bucket.
 
 #include "lib/address.glsl"
 

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Adds each stored photon to the visible points around it: the sums of photon_gather, found the other way round.
+// Adds each stored photon to the visible points around it: the sums of photon_gather, computed in the
+// opposite direction.
 
 #include "lib/address.glsl"
 #extension GL_EXT_shader_atomic_int64 : require
@@ -38,7 +39,8 @@ void add(uint first, uvec3 quanta) {
     atomicAdd(totals[first + 2u], uint64_t(quanta.z));
 }
 
-// The points in a row of cells, of which some may belong to others that share its buckets.
+// Adds a photon to the points in a row of cells. Rows may share buckets, so some points there belong to other
+// rows.
 void splat_row(SortedPhoton from, int y, int z) {
     float reach = photon.radius * kPhotonReach;
     int x0 = photon_cell(from.position.x - reach, photon.grid.x_cells_per_voxel);

@@ -2,9 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Carries photons from surface to surface and stores them where diffuse ones receive them, but for light straight from
-// an emitter, which direct.trace finds. An invocation traces several photons, surface by surface in one loop, so that those
-// whose photons end early do not wait for the others.
+// Traces photons from surface to surface and stores them where diffuse surfaces receive them, except for
+// direct light of emitters, which direct.trace finds. An invocation traces several photons, surface by
+// surface in one loop, so that those that end early do not wait for the others.
 
 #include "lib/address.glsl"
 
@@ -14,11 +14,11 @@
 #include "lib/photon_start.glsl"
 #include "lib/photon_store.glsl"
 
-VX_SPECIALIZED(uint, keeps_caustics, 1u);  // light that mirrors and glass alone have sent
-VX_SPECIALIZED(uint, keeps_indirect, 1u);  // light that a diffuse surface has sent
-VX_SPECIALIZED(uint, sends_caustics_on, 0u);  // of indirect light, that which mirrors or glass have sent first
+VX_SPECIALIZED(uint, keeps_caustics, 1u);  // light that has met mirrors and glass only
+VX_SPECIALIZED(uint, keeps_indirect, 1u);  // light that has met a diffuse surface
+VX_SPECIALIZED(uint, sends_caustics_on, 0u);  // of indirect light, only what has met mirrors or glass first
 VX_SPECIALIZED(uint, lanes, 1u);           // invocations
-VX_SPECIALIZED(uint, depth_limit, 0u);     // surfaces that a photon meets; 0: roulette ends its path
+VX_SPECIALIZED(uint, depth_limit, 0u);     // surfaces that a photon hits; 0: roulette ends its path
 
 struct Photon {
     PathRay path;
@@ -26,9 +26,9 @@ struct Photon {
     vec3 throughput;  // since then
     NoiseStream noise;
     uint bounces;       // surfaces
-    bool has_passed;    // a border of glass that is no surface, behind which no shadow ray looks
+    bool has_passed;    // a border of glass without a surface, where shadow rays end
     bool is_scattered;  // by a diffuse surface
-    bool is_caustic;    // mirrors or glass had sent it there
+    bool is_caustic;    // mirrors or glass came first
 };
 
 Photon start_photon(uint place, uint id) {
@@ -61,7 +61,7 @@ vec2 draw_pair(inout Photon photon) {
     return vec2(u, draw(photon));
 }
 
-// Sends the photon on from what it has met. False where it ends.
+// Continues the photon at what it has hit. False where it ends.
 bool bounce(inout Photon photon, PathHit found) {
     BsdfSample event = path_event(photon.path, found, draw_pair(photon));
     PathRay next = path_after(photon.path, found, event);

@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Where the camera rays of each beam tile of the tile may start.
+// The time at which the camera rays of each beam tile may start.
 
 #include "lib/address.glsl"
 #include "lib/invocation.glsl"

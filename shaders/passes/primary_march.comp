@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// First voxel that each camera ray of the tile meets.
+// First voxel that each camera ray of the tile hits.
 
 #include "lib/address.glsl"
 
@@ -22,7 +22,7 @@ layout(scalar) writeonly buffer Hits {
     Hit hits[];
 };
 
-// Of the beam tile that the pixel is in.
+// Start of the beam tile that contains the pixel.
 float start_of(Pixel pixel) {
     uint column = (pixel.x - frame.first_column) / kBeamPixels;
     uint row = (pixel.y - frame.first_row) / kBeamPixels;

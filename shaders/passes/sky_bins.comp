@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The light of the sky in the middle of each bin that directions are drawn from (sky_sample.h), a bin per invocation.
+// The radiance of the sky at the centre of each bin that directions are drawn from (sky_sample.h), a bin per
+// invocation.
 
 #include "lib/invocation.glsl"
 #include "lib/sky.glsl"

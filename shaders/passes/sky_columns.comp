@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The shares of the bins of a row for a face, summed up: a row of a face per invocation (sky_bins.h). The last is
-// exactly 1; where no light comes from the row, all bins are alike.
+// Cumulative distribution over the bins of a row, for a face: a row of a face per invocation (sky_bins.h).
+// The last entry is exactly 1; where no light comes from the row, the distribution is uniform.
 
 #include "lib/invocation.glsl"
 #include "shared/sky_bins.h"

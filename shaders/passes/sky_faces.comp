@@ -2,7 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Irradiance by the sky of the six faces of a voxel that sees all of it, over pi: a face per invocation.
+// Irradiance / pi of the six faces of an unoccluded voxel under the sky: a face per invocation.
 
 #include "lib/invocation.glsl"
 #include "lib/sky.glsl"

@@ -2,10 +2,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light of an atmosphere where the share of the sky in sight is known. For a ray that leaves the scene: the radiance
-// of the sky there. For a hit: the irradiance by all of the sky over pi, times the share of it in sight. A sphere's
-// irradiance is interpolated between the faces by the squares of its normal (the ambient cube of McTaggart 2004,
-// "Half-Life 2 / Valve Source Shading").
+// Light of an atmosphere where ambient visibility is known. For a ray that leaves the scene: the radiance of
+// the sky there. For a hit: irradiance / pi of the whole sky, times the visibility. A sphere's irradiance is
+// interpolated between the faces by the squares of its normal (the ambient cube of McTaggart 2004, "Half-Life
+// 2 / Valve Source Shading").
 
 #include "lib/address.glsl"
 
@@ -31,7 +31,7 @@ layout(scalar) writeonly buffer SkyLight {
     vec3 sky_light[];
 };
 
-// Over pi, of a surface that sees all of the sky.
+// Irradiance / pi of an unoccluded surface.
 vec3 open_irradiance(vec3 normal) {
     vec3 share = normal * normal;
     return share.x * sky_faces[normal.x < 0.0 ? 0u : 1u] + share.y * sky_faces[normal.y < 0.0 ? 2u : 3u] +

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// The shares of the rows of bins for a face, summed up, as sky_columns does those of the bins of a row: a face per
-// invocation.
+// Cumulative distribution over the rows of bins, for a face, like that of sky_columns within a row: a face
+// per invocation.
 
 #include "lib/invocation.glsl"
 #include "shared/sky_bins.h"

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 // One round of gathering the light that arrives anywhere in the air: a texel of its table (sky_march.h) per
-// invocation, from the table of the round before.
+// invocation, from the table of the previous round.
 
-// Few texels that take long: small groups keep all threads of a software device busy.
+// There are few texels, and each takes long: small groups keep all threads of a software device busy.
 #define VX_LINEAR_GROUP 8
 #include "lib/invocation.glsl"
 #include "lib/sky_build.glsl"

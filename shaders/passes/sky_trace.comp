@@ -2,10 +2,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light of an atmosphere. For a ray that leaves the scene: the radiance of the sky there. For a hit: the irradiance by
-// the sky over pi, by rays that meet nothing within the occlusion radius; and the share of cosine-distributed ones
-// that do, its visibility. Rays off voxels are drawn in proportion to the light that an open face receives, those off
-// spheres are cosine-distributed.
+// Light of an atmosphere. For a ray that leaves the scene: the radiance of the sky there. For a hit:
+// irradiance / pi from the sky, by rays that meet nothing within the occlusion radius, and its visibility,
+// the fraction of cosine-distributed rays that do not. Rays from voxels are drawn in proportion to the light
+// that an unoccluded face receives; rays from spheres are cosine-distributed.
 
 #include "lib/address.glsl"
 
@@ -41,7 +41,7 @@ layout(scalar) writeonly buffer SkyLight {
 
 struct SkyRay {
     vec3 direction;
-    float weight;  // of what it sees in the mean, over pi
+    float weight;  // mean factor of its radiance, over pi
 };
 
 SkyRay sky_ray(Hit hit, vec2 u) {

@@ -2,8 +2,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Follows each camera ray through mirrors and glass to the diffuse surface or the sky that is seen there. `t` of the
-// result is the length of the whole way, its `fraction` at the sky the direction of the ray. Which way a ray takes at glass is drawn anew in each sample.
+// Follows each camera ray through mirrors and glass to the diffuse surface or the sky that is seen there. `t`
+// of the result is the total length of the path; at the sky, `fraction` is the direction of the ray.
+// Reflection or refraction at glass is drawn anew in each sample.
 
 #include "lib/address.glsl"
 
@@ -18,7 +19,7 @@ layout(scalar) readonly buffer FirstHits {
 layout(scalar) writeonly buffer Hits {
     Hit hits[];
 };
-// What the radiance seen there is multiplied by.
+// Factor of the radiance seen there.
 layout(scalar) writeonly buffer Weights {
     vec3 weights[];
 };

@@ -2,7 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Replaces hits that lie behind an analytic sphere. Earlier hits are read with a stride, 0 when there are none.
+// Replaces hits that are behind an analytic sphere. Earlier hits are read with a stride, 0 when there are
+// none.
 
 #include "lib/address.glsl"
 

@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Sunlight that reaches each hit, as a share of the irradiance on a surface that faces the sun: visibility of a random
-// point of the sun's disc times the cosine. 0 for misses.
+// Sunlight that reaches each hit, as a fraction of the irradiance on a surface that faces the sun: visibility
+// of a random point of the sun's disc times the cosine. 0 for misses.
 
 #include "lib/address.glsl"
 

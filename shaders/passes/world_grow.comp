@@ -2,8 +2,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// One step of growing the boxes of one level of the world, a cell per invocation. The level is read as it was before
-// the step, through its own pointer, and written to `grown`.
+// One step of expanding the empty boxes of one level of the world, a cell per invocation. The level is read
+// as it was before the step, through its own pointer, and written to `grown`.
 
 #include "lib/address.glsl"
 #include "lib/invocation.glsl"
@@ -17,7 +17,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Gr
 #include "lib/world_access.glsl"
 #include "shared/grow_distances.h"
 
-// Edge of the level's cells in voxels, as a power of two. A constant, so that no way to a level that is not asked for is
+// Edge of the level's cells in voxels, as a power of two. A constant, so that only the requested level is
 // compiled: software devices run through branches that no invocation takes.
 VX_SPECIALIZED(uint, level, 0u);
 

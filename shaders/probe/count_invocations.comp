@@ -1,4 +1,4 @@
-// Adds one to the cell of each invocation, so that a host sees who ran and how often.
+// Adds one to the element of each invocation, so that the host can check which ran and how often.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -1,4 +1,4 @@
-// What the device makes of expressions that the languages leave open: inputs and results, in words.
+// How the device evaluates expressions that the languages leave open: inputs and results, in words.
 #ifndef VX_DEVICE_FACTS_H
 #define VX_DEVICE_FACTS_H
 
@@ -27,7 +27,7 @@ struct FactInputs {
     uint thirty_two;
 };
 
-// Floats as their bits. The first part is only shown, the second is what shaders rely on.
+// Floats as their bits. The first results are for information only; shaders rely on the later ones.
 struct FactResults {
     uint min_nan_one;
     uint min_one_nan;

@@ -1,5 +1,5 @@
 // What the march probe computes from one ray: the same function runs on the device and, compiled as C++,
-// beside it. The including side has defined how the world is read, see march.h.
+// beside it. The including file must define world access, see march.h.
 #ifndef VX_MARCH_FUNCTIONS_H
 #define VX_MARCH_FUNCTIONS_H
 

@@ -1,4 +1,4 @@
-// Stores photons from a list, as a pass that traces them does.
+// Stores photons from a list, like a pass that traces them.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

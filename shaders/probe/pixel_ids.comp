@@ -1,4 +1,4 @@
-// Writes to each pixel its index and the shape of the group it ran in.
+// Writes to each pixel its index and the size of the workgroup it ran in.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require

@@ -79,7 +79,7 @@ struct SequenceOut {
     vec2 sobol;
     vec2 halton;
     vec2 white;
-    vec3 single;  // 1-D of sobol, halton, white
+    vec3 single;  // one-dimensional sobol, halton, white
     SampleKey wide;
 };
 VX_FN SequenceOut probe_sequence(SampleIn v) {
@@ -171,8 +171,8 @@ VX_FN TwoFloatOut probe_two_float(TwoFloatIn v) {
     return r;
 }
 
-// two_sum without precise: what the driver makes of it. Alone in its shader, because an equal precise
-// expression beside it would be merged with it.
+// two_sum without precise, as the driver optimizes it. It has a shader of its own, because the compiler would
+// merge it with an equal precise expression.
 VX_FN TwoFloat probe_plain_two_sum(TwoFloatIn v) {
     float s = v.a.hi + v.b.hi;
     float b_part = s - v.a.hi;

@@ -1,10 +1,10 @@
 // Distances of an empty cell in six fields of kFarBits bits, as find_cell.h reads them, and the step that
-// grows them. A box [c - e(-x), c + e(+x)] x ... grows along one axis by looking at the cell just beyond its
-// end: if that cell is empty and its own box is at least as wide on the four sides, both boxes join. Rounds
-// raise the longest distance allowed from 1 to 3, 7, 15, 31, and each goes over x, y, z in turn, so that
-// boxes stay near to cubes; one join takes a box from one bound to the next, where growing by single cells
-// (Ulschmid et al., NAADF, CGF 45(2), 2026) takes 31 rounds. Each step reads only the state before it, so the
-// result does not depend on the order of the cells.
+// expands them. A box [c - e(-x), c + e(+x)] x ... expands along one axis by the cell just beyond its end: if
+// that cell is empty and its own box is at least as wide on the four sides, both boxes join. Rounds raise the
+// longest distance allowed from 1 to 3, 7, 15, 31, and each goes over x, y, z in turn, so that boxes stay
+// close to cubes. One join takes a box from one bound to the next, where expanding by single cells (Ulschmid
+// et al., NAADF, CGF 45(2), 2026) takes 31 rounds. Each step reads only the state before it, so the result
+// does not depend on the order of the cells.
 #ifndef VX_AADF_H
 #define VX_AADF_H
 
@@ -34,8 +34,8 @@ VX_FN uint distance_towards(uint distances, uint direction) {
     return (distances >> (kFarBits * direction)) & kDistanceOnes;
 }
 
-// Whether `other` is at least `own` in the four directions that are not of `axis`. All fields are compared at
-// once: the lower bits by a subtraction that cannot borrow from the next field, then the top bits.
+// Whether `other` is at least `own` in the four directions across `axis`. All fields are compared at once:
+// the lower bits by a subtraction that cannot borrow from the next field, then the top bits.
 VX_FN bool covers_sides(uint other, uint own, uint axis) {
     const uint low = (other | kDistanceTops) - (own & ~kDistanceTops);
     const uint not_less = (other & ~own) | (~(other ^ own) & low);
@@ -56,7 +56,7 @@ VX_FN uint inherited_distances(uint distances, ivec3 place) {
     return inherited;
 }
 
-// Distances `own` after the cell looked at `other`, those beyond its end in `direction` (or kNotEmpty).
+// Distances `own` after a step: `other` is those of the cell beyond its end in `direction` (or kNotEmpty).
 VX_FN uint joined_distances(uint own, uint other, uint direction, int bound) {
     const int distance = int(distance_towards(own, direction));
     if (distance >= bound || other == kNotEmpty || !covers_sides(other, own, direction >> 1u)) return own;

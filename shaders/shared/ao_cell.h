@@ -2,10 +2,10 @@
 //
 // A cell of level k is 2^-k voxels wide, so it lies within one face of one voxel: all of it is surface, it
 // has one normal, and no wall can stand on it. Light does not leak between the two sides of a thin wall, and
-// every sample of the cell may start at a point of the cell that depends on the sample's number alone. So the
-// sums of a cell depend on how many samples it has, not on which pixels or threads took them. Cells keyed by
-// place, size and normal: Gautron 2020, "Real-time ray-traced ambient occlusion of complex scenes using
-// spatial hashing", SIGGRAPH Talks; levels by distance as there, with a largest and a smallest one.
+// every sample of the cell may start at a point of the cell that depends on the sample's index alone. The
+// sums of a cell therefore depend on how many samples it has, not on which pixels or threads took them. Cells
+// keyed by position, size and normal: Gautron 2020, "Real-time ray-traced ambient occlusion of complex scenes
+// using spatial hashing", SIGGRAPH Talks; levels by distance as there, with a largest and a smallest one.
 #ifndef VX_AO_CELL_H
 #define VX_AO_CELL_H
 
@@ -20,7 +20,7 @@ struct AoCell {
     ivec3 voxel;  // local to the world, each component below kAoMaxEdge
     uint face;    // 0..5
     uint level;   // 0..kAoLevels-1: the cell is 2^-level voxels wide
-    uvec2 part;   // of the face, in cells along face_u and face_v
+    uvec2 part;   // position on the face in cells, along the axes of on_face()
 };
 
 // A point of a face: its coordinates along the two axes that follow the normal's in cyclic order.
@@ -30,7 +30,7 @@ VX_FN vec2 on_face(uint face, vec3 point) {
                 axis == 0u ? point.z : (axis == 1u ? point.x : point.y));
 }
 
-// The point of a face of the unit voxel at such coordinates.
+// The point of the unit voxel at such coordinates of a face.
 VX_FN vec3 off_face(uint face, vec2 place) {
     const uint axis = face >> 1u;
     const float height = float(face & 1u);
@@ -39,9 +39,9 @@ VX_FN vec3 off_face(uint face, vec2 place) {
                 axis == 0u ? place.y : (axis == 1u ? place.x : height));
 }
 
-// Level of cells whose wanted width is `width` voxels: the largest not wider, within the stated bounds. The
-// comparisons are exact; no logarithm rounds. (One for each of the kAoLevels - 1 borders: a loop would cost
-// software devices more.)
+// Level of cells whose wanted width is `width` voxels: the largest that is not wider, within the bounds of
+// levels. The comparisons are exact; no logarithm rounds. (There is one for each of the kAoLevels - 1
+// borders, because a loop would cost software devices more.)
 VX_FN uint ao_level(float width) {
     return (width < 1.0f ? 1u : 0u) + (width < 0.5f ? 1u : 0u) + (width < 0.25f ? 1u : 0u) +
            (width < 0.125f ? 1u : 0u);
@@ -65,7 +65,7 @@ VX_FN vec3 ao_cell_point(AoCell cell, vec2 u) {
 }
 
 // The cell as 64 bits, low word first: equal keys are equal cells. The top bit of both words is set, so that
-// a half-written key is no key, and 0 is none.
+// a half-written key is never valid, and 0 means none.
 //   low: x (17), low bits of y (14); high: high bits of y (3), z (17), face and part (11)
 VX_FN uvec2 ao_cell_key(AoCell cell) {
     const uint first = ((1u << (2u * cell.level)) - 1u) / 3u;  // parts of all coarser levels

@@ -1,16 +1,16 @@
-// The air of a planet: what it is made of, and how much light it lets through. Model and coefficients:
-// Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", section 4, with
-// the aerosol absorption of its reference code (0.444e-3/km; the table of the paper has a misprint).
+// The air of a planet: what it is made of, and how much light it transmits. Model and coefficients: Hillaire
+// 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", section 4, with the aerosol
+// absorption of its reference code (0.444e-3/km; the table of the paper has a misprint).
 //
-// Unlike that paper we need no table of transmittances. The column of an exponential atmosphere along a ray
-// is a Chapman function, for which there is a closed form good to 1e-6, and the ozone layer is a tent whose
-// column two Gauss points give exactly enough. Transmittances are within 0.05 % of quadrature in double
-// precision, at the horizon too, where tables are worst.
+// Unlike that paper we need no table of transmittances. The column of an exponential atmosphere along a
+// ray is a Chapman function, which has a closed form that is accurate to 1e-6, and the ozone layer is a tent
+// whose column two Gauss points integrate accurately enough. Transmittances are within 0.05 % of quadrature
+// in double precision, even at the horizon, where tables are worst.
 //
-// Lengths are kilometres. Heights h above the ground are carried instead of radii: in a float, the radius has
-// steps of 0.5 m, and differences of squares of radii lose what matters near the horizon. Cosines are to the
-// vertical at the place. Columns have x: air, y: aerosol, z: ozone, in kilometres of the density that the
-// coefficients belong to.
+// Lengths are in kilometres. Heights h above the ground are used instead of radii: as a float, the radius
+// has steps of 0.5 m, and differences of squared radii lose their significant bits near the horizon. Cosines
+// are relative to the local vertical. Columns have x: air, y: aerosol, z: ozone, in kilometres of the density
+// that the coefficients refer to.
 #ifndef VX_ATMOSPHERE_H
 #define VX_ATMOSPHERE_H
 
@@ -51,11 +51,11 @@ VX_FN vec3 air_transmittance(Air air, vec3 columns) {
 // Height after a distance t along a ray.
 VX_FN float height_after(float h, float cosine, float t) {
     const float r = kGroundRadius + h;
-    const float gain = (2.0f * r * cosine + t) * t;  // of the squared radius
+    const float gain = (2.0f * r * cosine + t) * t;  // added to the squared radius
     return max(h + gain / (r + sqrt(max(r * r + gain, 0.0f))), 0.0f);
 }
 
-// Distance along a ray to where it is `rise` >= 0 higher, the farther of two.
+// Distance along a ray to the farther of the two points where it is `rise` >= 0 higher.
 VX_FN float distance_to_rise(float h, float cosine, float rise) {
     const float r = kGroundRadius + h;
     const float b = r * cosine;
@@ -69,7 +69,7 @@ VX_FN bool hits_ground(float h, float cosine) {
     return cosine < 0.0f && b * b >= h * (2.0f * kGroundRadius + h);
 }
 
-// Of a ray that hits it.
+// For a ray that hits the ground.
 VX_FN float distance_to_ground(float h, float cosine) {
     const float b = (kGroundRadius + h) * cosine;
     const float c = h * (2.0f * kGroundRadius + h);
@@ -92,10 +92,10 @@ VX_FN float horizon_elevation(float h) {
 }
 
 // Chapman's function of x = radius / scale height and a cosine >= 0: the column of an exponential atmosphere
-// upwards along a ray over that along the vertical. With heights to the second order in the distance from the
-// lowest point it is sqrt(pi x / 2) erfcx(y), y = cosine sqrt(x / 2), and the next order adds 3/8 to 1 part
-// in x of it. Both factors are polynomials in 1 / (1 + 0.45 y), fitted by us for y from 0 to 80: erfcx within
-// 7e-7 of itself, the part within 0.0013.
+// upwards along a ray divided by that along the vertical. With heights to second order in the distance from
+// the lowest point it is sqrt(pi x / 2) erfcx(y), y = cosine sqrt(x / 2); the next order adds 3/8 to 1 times
+// 1/x of it. Both factors are polynomials in 1 / (1 + 0.45 y), fitted by us for y from 0 to 80: erfcx with a
+// relative error of 7e-7, the other factor within 0.0013.
 VX_FN float chapman(float x, float cosine) {
     const float t = 1.0f / (1.0f + 0.45f * cosine * sqrt(0.5f * x));
     float erfcx = -0.239837724f + t * 0.0662460664f;
@@ -107,8 +107,8 @@ VX_FN float chapman(float x, float cosine) {
     return sqrt(0.5f * kPi * x) * erfcx * (1.0f + part / x);
 }
 
-// Ozone column between two distances that lie on one side of the middle of the layer. Heights along a ray are
-// nearly quadratic in the distance, and two Gauss points are exact to the third power.
+// Ozone column between two distances on the same side of the layer's middle. Heights along a ray are nearly
+// quadratic in the distance, and two Gauss points are exact up to the third power.
 VX_FN float ozone_column(float h, float cosine, float from, float to) {
     const float middle = 0.5f * (from + to);
     const float offset = 0.288675135f * (to - from);
@@ -135,7 +135,7 @@ VX_FN vec3 columns_out(float h, float cosine) {
     return 2.0f * columns_up(lowest_height(h, cosine), 0.0f) - part;
 }
 
-// Share of the light of a direction beyond the air that reaches a place; none through the ground.
+// Fraction of the light from beyond the air that reaches a place; none through the ground.
 VX_FN vec3 transmittance_out(Air air, float h, float cosine) {
     if (hits_ground(h, cosine)) return vec3(0.0f);
     return air_transmittance(air, columns_out(h, cosine));
@@ -154,7 +154,8 @@ VX_FN float mie_phase(float g, float c) {
 }
 
 // How much of the light's variation over directions, in spherical harmonics of degree 0, 1 and 2, a
-// scattering leaves: the phase function's means of Legendre's polynomials. Air leaves (1, 0, 1/10).
+// scattering event preserves: the means of the Legendre polynomials over the phase function. Air preserves
+// (1, 0, 1/10).
 VX_FN vec3 mie_moments(float g) {
     const float scale = 1.5f / (2.0f + g * g);
     const float g2 = g * g;

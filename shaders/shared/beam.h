@@ -1,16 +1,17 @@
 // How far all camera rays of a tile of pixels run through empty space: a beam around them is marched once,
 // and the rays start where it ends.
 //
-// A beam is a cone with its tip in the camera: at time t it reaches `spread` * t beyond t * `axis` on each of
-// the three axes of the world. It moves from empty box to empty box (the boxes of world_cell.h) as long as
-// the whole cross-section fits into one. (Beams for primary rays: Amanatides, Ray Tracing with Cones, 1984;
-// their use as starting points: Laine & Karras, Efficient Sparse Voxel Octrees, 2010, section 4.4.)
+// A beam is a cone with its tip at the camera: at time t it reaches `spread` * t beyond t *
+// `axis` on each of the three axes of the world. It moves from empty box to empty box (the boxes of
+// world_cell.h) as long as the whole cross-section fits into one. (Beams for primary rays: Amanatides, Ray
+// Tracing with Cones, 1984; their use as starting points: Laine & Karras, Efficient Sparse Voxel Octrees,
+// 2010, section 4.4.)
 //
-// No ray of the tile meets a solid cell before the beam's end, so march_from gives the hit of march, bit for
-// bit. Rounding is inside the beam: directions, crossing times and positions are off by a few units of 2^-23
-// of the distance, and kBeamError of the distance is added to the spread.
+// No ray of the tile hits a solid cell before the beam's end, so march_from gives the hit of march, bit
+// for bit. The beam includes rounding errors: directions, crossings and positions are off by a few units of
+// 2^-23 of the distance, and kBeamError of the distance is added to the spread.
 //
-// The including side provides what find_cell.h asks for.
+// The including file provides what find_cell.h requires.
 #ifndef VX_BEAM_H
 #define VX_BEAM_H
 
@@ -30,7 +31,7 @@ struct Beam {
     vec3 pad;      // of its cross-section at the tip, on each axis
 };
 
-// Unit direction through a point of the picture, in pixels from its upper left corner.
+// Unit direction through a point of the image, in pixels from its upper left corner.
 VX_FN vec3 picture_direction(FrameParams frame, float x, float y) {
     const float right = 2.0f * x / float(frame.width) - 1.0f;
     const float up = 1.0f - 2.0f * y / float(frame.height);
@@ -44,7 +45,7 @@ VX_FN vec3 pinhole_direction(FrameParams frame, uint projection, float x, float 
                : panorama_direction(frame, projection, x, y);
 }
 
-// Parallel rays: all of them are as far from the one in the middle as at the camera.
+// Parallel rays: their distances from the middle one are the same everywhere.
 VX_FN Beam parallel_beam(FrameParams frame, uint x, uint y) {
     const Ray middle = orthographic_ray(frame, x + kBeamPixels / 2u, y + kBeamPixels / 2u, vec2(0.0f));
     Beam beam;
@@ -74,7 +75,7 @@ VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
             distance(beam.axis, pinhole_direction(frame, projection, left + edge, top + edge)));
     float widest = max(upper, lower);
     // Where the angle ends at pi, an edge may bulge beyond the corners. An equidistant map stretches nothing,
-    // so the angle of half a tile's diagonal bounds all of it.
+    // so the angle of half a tile's diagonal bounds the whole tile.
     if (projection == kFisheye) widest = 1.41421356f * edge * frame.camera_angle / float(frame.height);
     beam.spread = widest * kBeamMargin + kBeamError;
     beam.pad = vec3(kBeamPad);
@@ -87,8 +88,8 @@ VX_FN Beam tile_beam(FrameParams frame, uint projection, uint x, uint y) {
     return beam;
 }
 
-// Time at which one axis of the beam leaves an interval of positions relative to the tip; below 0 when it is
-// not inside at time t.
+// Time at which one axis of the beam leaves an interval of positions relative to the tip; below 0
+// when it is not inside at t.
 VX_FN float leave_interval(float axis, float spread, float low, float high, float t) {
     const float upper = axis + spread;
     const float lower = axis - spread;
@@ -98,8 +99,8 @@ VX_FN float leave_interval(float axis, float spread, float low, float high, floa
     return min(rise, fall);
 }
 
-// Time until which the beam stays in the empty box around a cell, given relative to the tip's; below 0 when
-// it is not inside at time t. The space around the world is empty.
+// Time up to which the beam stays in the empty box around a cell, whose position is relative to the
+// tip's cell; below 0 when the beam is not inside at t. The space around the world is empty.
 VX_FN float leave_box(VX_WORLD_PARAM Beam beam, ivec3 cell, float t, ivec3 chunks) {
     const ivec3 size = chunks << kChunkLog2;
     const ivec3 local = clamp(beam.cell + cell, ivec3(0), size - 1);
@@ -127,9 +128,9 @@ VX_FN float leave_box(VX_WORLD_PARAM Beam beam, ivec3 cell, float t, ivec3 chunk
     return min(x, min(y, z));
 }
 
-// Time from the tip before which no ray of the beam meets a solid cell: kUnbounded when none ever does, 0
-// when nothing is gained. Where the cross-section has reached the end of a box although its middle has not,
-// the box around a cell further ahead may go on.
+// Time before which no ray of the beam hits a solid cell: kUnbounded when none ever does, 0 when
+// nothing is gained. Where the edge of the cross-section has reached the end of a box but its centre has not,
+// the box of a cell further ahead may contain both.
 VX_FN float beam_start(VX_WORLD_PARAM Beam beam, ivec3 chunks) {
     if (!(beam.spread < kWidestBeam)) return 0.0f;
     float t = 0.0f;

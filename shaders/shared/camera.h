@@ -13,8 +13,8 @@
 
 VX_BEGIN
 
-// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from a sequence, given by its
-// kSequence* id. Box filter. Every technique takes its camera rays from here.
+// The ray through pixel (x, y), row 0 at the top, at a point of the pixel drawn from the sequence with a
+// kSequence* id. Box filter. All techniques take their camera rays from here.
 VX_FN Ray camera_ray(FrameParams frame, uint projection, uint sequence, uint x, uint y) {
     const SampleKey key = sample_key(y * frame.width + x, uvec2(frame.sample_index, 0u), frame.seed);
     const vec2 jitter = sample_2d(sequence, key, kPairPixel);
@@ -26,7 +26,7 @@ VX_FN Ray camera_ray(FrameParams frame, uint projection, uint sequence, uint x, 
     VX_PRECISE vec3 v = frame.camera_forward + right * frame.camera_right + up * frame.camera_up;
     if (projection == kThinLens)
         return lens_ray(frame, v, aperture_point(frame.lens_blades, sample_2d(sequence, key, kPairLens)));
-    VX_PRECISE float square = dot(v, v);  // >= 1: forward is unit and the others are at right angles to it
+    VX_PRECISE float square = dot(v, v);  // >= 1: forward is unit, and the others are perpendicular to it
     Ray ray;
     ray.cell = frame.camera_cell;
     ray.fraction = frame.camera_fraction;
@@ -36,7 +36,7 @@ VX_FN Ray camera_ray(FrameParams frame, uint projection, uint sequence, uint x, 
 }
 
 struct WorldEntry {
-    Ray ray;  // restarted at the border of the world; its t_max is what is left
+    Ray ray;  // restarted at the border of the world, with the remaining t_max
     float t;  // from the start to the border
     bool enters;
 };
@@ -48,8 +48,8 @@ VX_FN PlaneCount count_planes(TwoFloat time, float speed, int flip, float offset
     return count_whole(tf_add(moved, start));
 }
 
-// Time at which an axis has crossed `planes` planes: below 0, and so never the latest, when it has none to
-// cross.
+// Time at which an axis has crossed `planes` planes; below 0, and therefore never the latest, when it has
+// none to cross.
 VX_FN TwoFloat entry_time(int planes, int flip, float offset, float speed) {
     if (planes <= 0) return two_float(-1.0f, 0.0f);
     return tf_div(two_sum(float(planes + flip), offset), two_float(speed, 0.0f));

@@ -1,15 +1,16 @@
-// A hash table of cells that many threads fill at once: open addressing with linear probing, at most
-// kCellProbes slots from a cell's home on.
+// A hash table of cells that many threads fill at once: open addressing with linear probing, in at most
+// kCellProbes slots starting at a cell's home.
 //
 // Within a pass slots only go from empty to taken, and each is taken by one 64-bit compare-and-swap of its
-// whole key. A thread first searches every slot that may hold its key, so what an earlier pass left behind an
-// emptied slot is found, and only then takes the first slot that is empty. All threads with one key walk the
-// same slots in the same order, and none of those they pass can become empty: the first to take one is met by
-// all others. So no key is in the table twice. Slots are emptied in passes of their own (cell_age.h).
+// whole key. A thread first searches every slot that may hold its key, so it also finds keys that an earlier
+// pass stored behind a slot emptied since. Only then it takes the first empty slot. All threads with the same
+// key visit the same slots in the same order, and none of those can become empty: the first thread to take a
+// slot is seen by all others. So no key is in the table twice. Slots are emptied in passes of their own
+// (cell_age.h).
 //
-// The including side provides, of its table:
-//   uvec2 table_key(slot)         the key in a slot; may be old by some writes, but a written key stays
-//   uvec2 table_claim(slot, key)  compares the key in a slot with 0 and swaps; returns what was there
+// The including file provides, for its table:
+//   uvec2 table_key(slot)         the key in a slot; may be stale, but a written key stays
+//   uvec2 table_claim(slot, key)  compares the key in a slot with 0 and swaps; returns the old key
 // and defines VX_TABLE_PARAM and VX_TABLE_ARG.
 #ifndef VX_CELL_TABLE_H
 #define VX_CELL_TABLE_H
@@ -22,12 +23,12 @@
 VX_BEGIN
 
 struct FoundSlot {
-    uint slot;    // kNoSlot when every slot that may hold the key has another one
-    uint probes;  // keys looked at in the search; 0 when the guess was right
+    uint slot;    // kNoSlot when every slot that may hold the key holds another one
+    uint probes;  // keys compared in the search; 0 when the guess was right
     bool claimed;
 };
 
-// Where the search for a key starts. `mask` is the number of slots, a power of two, less one.
+// Where the search for a key starts. `mask` is the number of slots, a power of two, minus one.
 VX_FN uint home_slot(uvec2 key, uint mask) {
     return hash4(key.x, key.y, 0x686F6D65u, 0u) & mask;  // "home"
 }
@@ -38,16 +39,16 @@ VX_FN bool holds_key(VX_TABLE_PARAM uint slot, uvec2 key) {
     return there.x == key.x && there.y == key.y;
 }
 
-// The slot of a key, taken for it if the table has none. `guess` is a slot of the table that may be it, or
-// kNoSlot.
+// The slot of a key, claimed for it if the key is not in the table. `guess` is a slot of the table that may
+// hold it, or kNoSlot.
 VX_FN FoundSlot find_or_claim(VX_TABLE_PARAM uvec2 key, uint mask, uint guess) {
     const uint home = home_slot(key, mask);
     const uint most = min(kCellProbes - 1u, mask) + 1u;
     FoundSlot found;
     found.slot = kNoSlot;
     found.claimed = false;
-    // The guess is looked at as number 0, so that a right one costs one look and a wrong one no loop of its
-    // own.
+    // The guess is tried as probe 0, so that a right one costs one comparison and a wrong one needs no loop
+    // of its own.
     for (found.probes = guess == kNoSlot ? 1u : 0u; found.probes <= most; ++found.probes) {
         const uint slot = found.probes == 0u ? guess : (home + found.probes - 1u) & mask;
         if (holds_key(VX_TABLE_ARG slot, key)) {

@@ -1,13 +1,13 @@
 // A smooth surface between two transparent media. With c = cos of the angle of incidence and eta = n_far /
 // n_near, everything follows from g = eta cos(angle of refraction) = sqrt(eta^2 - 1 + c^2): Snell's law,
-// Fresnel's equations, and total reflection where the root has no real value. Source: Born and Wolf 1999,
-// "Principles of Optics", 7th edition, section 1.5.2, eqs. 21 and 22. We differ in that g^2 is summed in
-// two floats and differences of nearly equal numbers are factored out, so that the critical angle is decided
+// Fresnel's equations, and total reflection where the root is not real. Source: Born and Wolf 1999,
+// "Principles of Optics", 7th edition, section 1.5.2, eqs. 21 and 22. We differ in that g^2 is summed in two
+// floats and differences of nearly equal numbers are factored out, so that the critical angle is decided
 // exactly and eta = 1 changes nothing.
 //
-// Radiance across a surface changes by 1 / eta^2, because what a lossless surface keeps is radiance / n^2. A
-// path that starts at the camera multiplies by radiance_scale() whenever it is refracted; photons carry power
-// and do not. Source: Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 5.2.
+// Radiance across a surface changes by 1 / eta^2, because a lossless surface preserves radiance / n^2. A path
+// that starts at the camera multiplies by radiance_scale() at each refraction; photons carry power and do
+// not. Source: Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", section 5.2.
 #ifndef VX_DIELECTRIC_H
 #define VX_DIELECTRIC_H
 
@@ -24,7 +24,7 @@ struct Dielectric {
 };
 
 // Reflection and refraction for cos_incidence in [0, 1] and eta = n_far / n_near in [1 / kMaxEta, kMaxEta];
-// what lies outside is moved to the nearest end. Never NaN. The reflectance is exactly 0 for eta = 1.
+// values outside are clamped. Never NaN. The reflectance is exactly 0 for eta = 1.
 VX_FN Dielectric dielectric(float cos_incidence, float eta) {
     float c = cos_incidence > 0.0f ? min(cos_incidence, 1.0f) : 0.0f;
     float n = eta > 1.0f / kMaxEta ? min(eta, kMaxEta) : 1.0f / kMaxEta;
@@ -51,7 +51,7 @@ VX_FN Dielectric dielectric(float cos_incidence, float eta) {
     return result;
 }
 
-// v with length 1; v is nearly so.
+// v, whose length is nearly 1, normalized.
 VX_FN vec3 trimmed(vec3 v) {
     VX_PRECISE vec3 unit = v / sqrt(dot(v, v));
     return unit;
@@ -66,14 +66,14 @@ VX_FN vec3 refracted_direction(vec3 direction, vec3 normal, float eta, Dielectri
     return trimmed(v);
 }
 
-// Unit direction of a mirror; `direction` and `normal` are unit.
+// Unit direction of the mirror reflection; `direction` and `normal` are unit.
 VX_FN vec3 mirror_direction(vec3 direction, vec3 normal) {
     VX_PRECISE float c = dot(direction, normal);
     VX_PRECISE vec3 v = direction - (2.0f * c) * normal;
     return trimmed(v);
 }
 
-// What a path from the camera multiplies its radiance by when it is refracted into a medium of eta = n_far /
+// The factor on the radiance of a path from the camera that is refracted into a medium of eta = n_far /
 // n_near.
 VX_FN float radiance_scale(float eta) {
     return 1.0f / (eta * eta);

@@ -1,5 +1,5 @@
-// Who uses which dimensions of a sample: the one register, so that no two decisions share numbers by
-// accident and an effect that comes or goes leaves the numbers of the others alone.
+// The register of a sample's dimensions: no two decisions share random numbers by accident, and an effect
+// that is added or removed leaves the numbers of the others unchanged.
 #ifndef VX_DIMENSIONS_H
 #define VX_DIMENSIONS_H
 
@@ -11,27 +11,27 @@
 VX_BEGIN
 
 // Pairs of dimensions of the sample sequence (sequence.h). The first dimensions of every sequence are the
-// best, so the sky's light on surfaces, whose noise is the largest, comes first: occlusion rays or paths.
+// best, so the sky's light on surfaces, which is the noisiest, comes first: occlusion rays or paths.
 VX_CONST(uint, kPairOcclusion, 0u);
 VX_CONST(uint, kPairPath, kPairOcclusion);  // the first direction of a path
 VX_CONST(uint, kPairPixel, 1u);
 VX_CONST(uint, kPairSun, 2u);
 VX_CONST(uint, kPairEmitter, 3u);       // which emitter
 VX_CONST(uint, kPairEmitterPoint, 4u);  // which point of it
-VX_CONST(uint, kPairSurface, 5u);       // where a diffuse surface sends light
-VX_CONST(uint, kPairPhoton, 6u);        // three pairs, of the emission of a photon
+VX_CONST(uint, kPairSurface, 5u);       // direction of a diffuse reflection
+VX_CONST(uint, kPairPhoton, 6u);        // three pairs, for the emission of a photon
 VX_CONST(uint, kPairLens, 9u);          // which point of the camera's aperture
-VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path meets
+VX_CONST(uint, kPairBounce, 16u);       // kPairsOfBounce for each surface that a path hits
 VX_CONST(uint, kPairsOfBounce, 3u);
 
-// White noise of paths: three numbers for each use at each surface, the same for all scenes.
+// White noise for paths: three numbers for each use at each surface, the same in all scenes.
 VX_CONST(uint, kUseEvent, 0u);         // which lobe, Fresnel's choice, roulette
 VX_CONST(uint, kUseEmitter, 1u);       // which emitter
 VX_CONST(uint, kUseEmitterPoint, 2u);  // which point of it
-VX_CONST(uint, kUseDirection, 3u);     // where to, by the cosine
+VX_CONST(uint, kUseDirection, 3u);     // cosine-distributed direction
 VX_CONST(uint, kUseSun, 4u);           // which point of the sun
-VX_CONST(uint, kUseImage, 5u);         // the same of an image of the sun, and which image
-VX_CONST(uint, kUseGlint, 6u);  // at mirrors and glass on the way to the sun: which lobe, Fresnel's choice
+VX_CONST(uint, kUseImage, 5u);         // the same for an image of the sun, and which image
+VX_CONST(uint, kUseGlint, 6u);         // at mirrors and glass on the way to the sun: lobe, Fresnel's choice
 VX_CONST(uint, kUsesOfSurface, 7u);
 
 // Keeps them apart from other noise drawn with the same counters ("path" in ASCII).

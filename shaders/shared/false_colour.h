@@ -1,4 +1,4 @@
-// Numbers as colours: of maps on the host, of a window on the device.
+// Numbers as colours, for maps on the host and for a window on the device.
 #ifndef VX_FALSE_COLOUR_H
 #define VX_FALSE_COLOUR_H
 
@@ -6,9 +6,9 @@
 
 VX_BEGIN
 
-// sRGB codes in [0,1] of a number in [0,1], from black through purple and orange to pale yellow: every fourth
-// part of matplotlib's map "magma" (N. Smith and S. van der Walt, 2015, public domain). Its lightness rises
-// evenly, also in print and for every eye.
+// sRGB codes in [0,1] of a number in [0,1], from black through purple and orange to pale yellow: interpolated
+// between five entries of matplotlib's map "magma", a quarter of its range apart (N. Smith and S. van der
+// Walt, 2015, public domain). Its lightness rises evenly, also in print and for colour-blind viewers.
 VX_FN vec3 false_colour(float number) {
     vec3 a = vec3(0.0f, 0.0f, 4.0f);
     vec3 b = vec3(81.0f, 18.0f, 124.0f);

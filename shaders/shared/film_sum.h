@@ -1,6 +1,6 @@
-// Exact film sums: signed 64-bit fixed point with kFilmFractionBits fraction bits, held as two words {low,
-// high} in two's complement. Integer sums do not depend on the order of the samples and do not stop growing
-// as float sums do.
+// Exact film sums: signed 64-bit fixed point with kFilmFractionBits fraction bits, stored as two words {low,
+// high} in two's complement. Integer sums do not depend on the order of the samples, and unlike float sums
+// they do not stop growing.
 #ifndef VX_FILM_SUM_H
 #define VX_FILM_SUM_H
 
@@ -30,13 +30,13 @@ VX_FN uvec2 film_add(uvec2 a, uvec2 b) {
     return uvec2(low, a.y + b.y + (low < a.x ? 1u : 0u));
 }
 
-// True where a + b leaves the signed range: both have the sign that the sum lacks.
+// True where a + b leaves the signed range: both have the sign that the sum does not have.
 VX_FN bool film_add_overflows(uvec2 a, uvec2 b) {
     uvec2 sum = film_add(a, b);
     return (((a.y ^ sum.y) & (b.y ^ sum.y)) >> 31u) != 0u;
 }
 
-// A float of 0 and above, by its bits, as fixed point; below 2^39. Both parts of it and their products with
+// The bits of a float >= 0 and below 2^39 as fixed point. Both parts of the value and their products with
 // powers of two are exact, and a part that is rounded is below 2^8, so it cannot carry.
 VX_FN uvec2 film_magnitude(uint bits) {
     float value = uintBitsToFloat(bits);
@@ -68,7 +68,7 @@ VX_FN FilmFixed film_fixed(float value) {
     return result;
 }
 
-// The square of a sample as fixed point, of the value that film_fixed() makes of it.
+// The square of film_fixed(value) as fixed point.
 VX_FN uvec2 film_square(float value) {
     uint magnitude = floatBitsToUint(value) & 0x7FFFFFFFu;
     if (magnitude >= 0x7F800000u) return uvec2(0u, 0u);
@@ -77,13 +77,13 @@ VX_FN uvec2 film_square(float value) {
     return film_magnitude(floatBitsToUint(taken * taken));
 }
 
-// a + b of sums that are 0 or above. One that would not fit stays at the largest number: two samples of
-// kFilmMaxValue get there, 2^20 of 724.
+// a + b for sums >= 0, saturating at the largest number: two samples of kFilmMaxValue reach it, or 2^20
+// samples of 724.
 VX_FN uvec2 film_add_square(uvec2 a, uvec2 b) {
     return film_add_overflows(a, b) ? uvec2(0xFFFFFFFFu, 0x7FFFFFFFu) : film_add(a, b);
 }
 
-// A sum as a float: with an error of 2^-22 of it at most.
+// A sum as a float, with a relative error of at most 2^-22.
 VX_FN float film_float(uvec2 sum) {
     bool is_negative = (sum.y >> 31u) != 0u;
     uvec2 magnitude = is_negative ? film_negate(sum) : sum;

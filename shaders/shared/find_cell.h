@@ -1,7 +1,7 @@
-// The cell of a structure (world_cell.h) that holds a voxel: the one thing that differs between traversals.
+// The cell of a structure (world_cell.h) that holds a voxel: the only difference between traversals.
 //
-// The including side defines VX_WORLD_PARAM, VX_WORLD_ARG, VX_TRAVERSAL (a specialization constant on the
-// device, so that one branch is left of each choice) and load_root(), load_node(), load_leaf().
+// The including file defines VX_WORLD_PARAM, VX_WORLD_ARG, VX_TRAVERSAL (a specialization constant on the
+// device, so that only one branch of each choice remains) and load_root(), load_node(), load_leaf().
 #ifndef VX_FIND_CELL_H
 #define VX_FIND_CELL_H
 
@@ -34,7 +34,7 @@ VX_FN uint load_half_leaf(VX_WORLD_PARAM uint i) {
 VX_FN MarchCell cell_of_mask(VX_WORLD_PARAM uint number, ivec3 local, int log2) {
     const ivec3 c = local & ((1 << log2) - 1);
     const uint i = uint(c.x) | (uint(c.y) << uint(log2)) | (uint(c.z) << uint(2 * log2));
-    const uint first = number << uint(3 * log2);  // its first voxel of all mixed bricks
+    const uint first = number << uint(3 * log2);  // index of its first voxel among those of all mixed bricks
     const bool solid = ((load_node(VX_WORLD_ARG(first + i) >> 5u) >> (i & 31u)) & 1u) != 0u;
     MarchCell found;
     found.cell = make_cell(kCellEmpty, 0u);

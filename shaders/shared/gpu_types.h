@@ -33,11 +33,11 @@ struct Hit {
 
 VX_CONST(uint, kHitWords, 10u);
 
-// Pixels that the film takes together, so that their sums, hits, vectors and floats are whole texels of four
-// words. Planes have whole groups.
+// Pixels that the film processes together, so that their sums, hits, vectors and floats are whole texels of
+// four words. Planes consist of whole groups.
 VX_CONST(uint, kGroupPixels, 4u);
 
-// Camera rays start a beam tile at a time (beam.h): one float for each one of a tile, row by row.
+// Camera rays start at a beam tile (beam.h): one float for each beam tile of a dispatch tile, row by row.
 VX_CONST(uint, kBeamPixels, 8u);  // edge of a beam tile
 
 // Tiles that cover a row or a column of `pixels`.
@@ -45,13 +45,13 @@ VX_FN uint beam_count(uint pixels) {
     return (pixels + kBeamPixels - 1u) / kBeamPixels;
 }
 
-// How light leaves a surface, as the passes read it: a share of what arrives meets a mirror, a share clear
-// glass, and the rest a diffuse surface. All three multiply by the albedo.
+// How light leaves a surface, as the passes read it: lobe weights of a mirror and of clear glass; the rest is
+// diffuse. All three lobes are multiplied by the albedo.
 struct SurfaceMaterial {
     vec3 albedo;    // linear, [0,1]
-    float mirror;   // share, [0,1]
-    vec3 emission;  // radiance; where it is not 0 both shares are
-    float glass;    // share; mirror + glass <= 1
+    float mirror;   // lobe weight, [0,1]
+    vec3 emission;  // radiance; where it is not 0 both lobe weights are
+    float glass;    // lobe weight; mirror + glass <= 1
     float ior;      // of the glass
     uint pad_0;     // three texels of four words
     uint pad_1;
@@ -59,7 +59,7 @@ struct SurfaceMaterial {
 };
 VX_CONST(uint, kMaterialTexels, 3u);
 
-// An emitter, as light_what() packs it: an emitting sphere, or a face of an emitting voxel.
+// An emitter: an emitting sphere, or a face of an emitting voxel (light.h packs `what`).
 struct LightRecord {
     ivec3 cell;  // of a face: its voxel, local to the world
     uint what;
@@ -76,13 +76,13 @@ VX_CONST(uint, kNoSphere, 0xFFFFFFFFu);
 // A node of the hierarchy over spheres (sphere_tree.h): a box, local to the world, voxels.
 struct SphereNode {
     vec3 low;
-    uint next;  // number of the node behind all that this one holds
+    uint next;  // index of the next node that is not below this one
     vec3 high;
     uint sphere;  // of a leaf; kNoSphere of the others
 };
 
-// What all passes of one tile of one sample share. A tile is a run of rows of the picture, and the picture
-// the whole image or a window of it.
+// What all passes of one tile of one sample share. A tile is a run of rows of the crop window, which may be
+// the whole image.
 struct FrameParams {
     ivec3 chunks;        // of the world, per axis
     ivec3 world_origin;  // scene cell of the world's cell 0
@@ -93,7 +93,7 @@ struct FrameParams {
     vec3 camera_right;
     vec3 camera_up;
     vec3 camera_forward;  // unit
-    float camera_angle;   // fisheye: from the middle of the image to its upper edge, radians
+    float camera_angle;   // fisheye: from the centre of the image to its upper edge, radians
     uint camera_block;    // orthographic: pixels, >= 1
     uvec2 camera_pixel;   // orthographic: pixels from the camera's cell to the image's upper left corner
     float lens_radius;    // thin lens: of the aperture, voxels
@@ -103,10 +103,10 @@ struct FrameParams {
     uint height;
     uint first_row;  // of the tile, image row
     uint row_count;
-    uint first_column;  // of the picture, image column
+    uint first_column;  // of the crop window, image column
     uint column_count;
     uint film_tile_first_row;  // of the film tile that the tile is in, image row
-    uint first_element;  // of the tile's planes that is a pixel: groups of pixels are those of the film tile
+    uint first_element;  // of the tile's planes, index of its first pixel: groups are those of the film tile
     uint sample_index;
     uint seed;
     float ao_radius;  // voxels
@@ -114,12 +114,12 @@ struct FrameParams {
     vec3 sun_direction;      // unit, towards the sun
     vec3 sun_irradiance;     // on a surface facing the sun
     float sun_cone_height;   // cone_height of the sun's angular radius
-    uint ground_material;    // index of it; of no meaning without a ground
-    float ground_luminance;  // of the ground where nothing is in the light's way
+    uint ground_material;    // its index; undefined without a ground
+    float ground_luminance;  // of the ground where no light is blocked
     uint light_count;
-    float light_power;  // of all emitters: brightness() times etendue, summed
-    // Photons of one sample: those of the emitters first, then those of the sun, which start on a disc that
-    // covers what the sun can reach.
+    float light_power;  // of all emitters: sum of light selection weight times etendue
+    // Photons of one sample: first those of the emitters, then those of the sun, which start on a disc that
+    // covers everything the sun can reach.
     uint emitter_photons;
     uint sun_photons;
     vec3 sun_disc_centre;   // local to the world
@@ -131,12 +131,12 @@ struct PhotonStart {
     ivec3 cell;  // of the origin, local to the world
     vec3 fraction;
     vec3 direction;
-    uint sphere;  // that it starts on, or all bits set
+    uint sphere;  // on which it starts, or all bits set
     vec3 power;
     uint noise;  // state of its NoiseStream
 };
 
-// Words of 64 bits that shaders read and write it by.
+// Its size in 64-bit words, by which shaders read and write it.
 VX_CONST(uint, kStartWords, 7u);
 
 #ifdef __cplusplus
@@ -149,16 +149,16 @@ struct PathRay {
     ivec3 cell;  // of the origin, as in Ray; inside glass the glass voxel
     vec3 fraction;
     vec3 direction;
-    uint own;     // the sphere that it starts on, or kNoSphere
-    uint medium;  // material of the glass voxels that it goes through, or kNoMedium
+    uint own;     // the sphere on which it starts, or kNoSphere
+    uint medium;  // material of the glass voxels that it is in, or kNoMedium
 };
 
-// Where the path of a visible point starts. A direction of zero starts none.
+// Where the path of a visible point starts. A direction of zero means no path.
 struct PathStart {
     ivec3 cell;   // of the origin, as in Ray
-    uint stream;  // of samples of its pixel
+    uint stream;  // sample stream of its pixel
     vec3 fraction;
-    uint own;  // the sphere that it starts on, or kNoSphere
+    uint own;  // the sphere on which it starts, or kNoSphere
     vec3 direction;
     uint medium;  // material of the glass voxel that the visible point is in, or kNoMedium
     vec3 normal;  // unit, on the side that was hit; only where the plan needs it
@@ -166,7 +166,8 @@ struct PathStart {
 };
 VX_CONST(uint, kPathStartTexels, 4u);
 
-// A path between two of its rays, from which path_trace goes on in another round (lib/path_walk.glsl: Walk).
+// A path between two of its rays, from which path_trace continues in the next round (lib/path_walk.glsl:
+// Walk).
 struct PathState {
     PathRay ray;
     uint kind;
@@ -179,34 +180,34 @@ struct PathState {
     uint surfaces;
     uint vertices;
     uint is_straight;
-    uint next_id;  // pixel of the tile that the invocation takes next; 0 before the first round
+    uint next_id;  // next pixel of the tile for this invocation; 0 before the first round
 };
 
 // Push constants of path_trace.
 struct PathPush {
     uint lanes;    // invocations
-    uint is_last;  // 1 in the last round of a sample: paths that are not done are lost
+    uint is_last;  // 1 in the last round of a sample: unfinished paths are lost
 };
 
-// What the passes of the ambient occlusion hash share beside FrameParams: one sample of one frame.
+// What the passes of the ambient occlusion hash share in addition to FrameParams: one sample of one frame.
 struct AoParams {
-    ivec3 last_camera_cell;  // of the sample before, for the reprojection
+    ivec3 last_camera_cell;  // of the previous sample, for reprojection
     vec3 last_camera_fraction;
     vec3 last_right;       // half the image plane's width at distance 1, divided by its squared length
     vec3 last_up;          // half its height, likewise
     vec3 last_forward;     // unit
-    uint has_last;         // 0: there was no sample before, and the table is emptied
+    uint has_last;         // 0: there is no previous sample, and the table is emptied
     uint frame;            // number of the frame, which may wrap
     uint pass_number;      // samples taken since the table was empty, which may wrap
-    uint table_mask;       // slots of the table less one
-    uint max_age;          // frames that a cell stays unseen
-    uint sample_limit;     // cells with as many samples take no more; 0: no limit
-    float cell_width;      // wanted width of a cell in voxels at distance 1, of rays from one point
-    float parallel_width;  // of parallel rays, at any distance
+    uint table_mask;       // slots of the table minus one
+    uint max_age;          // frames for which a cell may stay unseen
+    uint sample_limit;     // cells with this many samples take no more; 0: no limit
+    float cell_width;      // wanted width of a cell in voxels at distance 1, perspective rays
+    float parallel_width;  // for parallel rays, at any distance
 };
 
-// Head of the list of pixels whose occlusion cell has to be searched: the workgroups of the search, as an
-// indirect dispatch reads them, and how many pixels follow.
+// Head of the list of pixels whose occlusion cells have to be searched: the workgroups of the search, as an
+// indirect dispatch reads them, and the number of pixels that follow.
 struct AoMissed {
     uint groups_x;
     uint groups_y;
@@ -235,7 +236,7 @@ struct FilmAddPush {
 
 // What a march of bench.march found.
 struct BenchHit {
-    ivec3 cell;  // solid cell local to the world; of no meaning on a miss
+    ivec3 cell;  // solid cell local to the world; undefined on a miss
     uint face;   // 0..5, kFaceInside or kFaceMiss
     float t;     // from the start of the ray
     uint steps;

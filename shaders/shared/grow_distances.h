@@ -1,6 +1,6 @@
-// Growing the boxes of chunks and of bricks, cell by cell (aadf.h says how). The including side provides what
-// find_cell.h asks for; the level that grows is read from the world as it was before the step. Boxes of
-// voxels do not grow here: they are made with the bricks.
+// Expands the boxes of chunks and of bricks, cell by cell (see aadf.h). The including file provides what
+// find_cell.h requires; the level being expanded is read as it was before the step. The boxes of voxels are
+// built with the bricks and not here.
 #ifndef VX_GROW_DISTANCES_H
 #define VX_GROW_DISTANCES_H
 
@@ -25,7 +25,7 @@ VX_FN uint distances_at(VX_WORLD_PARAM ivec3 cell, int log2, ivec3 chunks) {
     return cell_payload(found);
 }
 
-// The word of a cell after a step of growth, which goes both ways along one axis. Only empty cells change.
+// The word of a cell after a step, which expands both ways along one axis. Only empty cells change.
 VX_FN uint grown_word(VX_WORLD_PARAM uint own, ivec3 cell, int log2, ivec3 chunks, GrowthStep step) {
     if (cell_state(own) != kCellEmpty) return own;
     const ivec3 unit = ivec3(step.axis == 0u ? 1 : 0, step.axis == 1u ? 1 : 0, step.axis == 2u ? 1 : 0);

@@ -62,8 +62,8 @@ VX_FN uint radical_inverse_24(uint index, uint base) {
     return (high << 12u) | low;
 }
 
-// Float in [0, 1) for one dimension. Repeats after kHaltonPeriod frames; white noise from kHaltonDimensions
-// on.
+// Float in [0, 1) for one dimension; white noise from kHaltonDimensions on. Repeats after kHaltonPeriod
+// frames.
 VX_FN float halton_float(uint seed, uint stream, uint frame, uint dimension) {
     if (dimension >= kHaltonDimensions) return rng_float(seed, stream, frame, dimension);
     uint point = radical_inverse_24((frame & (kHaltonPeriod - 1u)) + 1u, halton_base(dimension));

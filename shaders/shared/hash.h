@@ -1,4 +1,4 @@
-// Integer hashes behind all randomness: pure functions of 32-bit words, the same bits on every device.
+// Integer hashes that generate all randomness: pure functions of 32-bit words, the same bits on every device.
 #ifndef VX_HASH_H
 #define VX_HASH_H
 
@@ -19,7 +19,7 @@ VX_FN uint pcg_hash(uint v) {
 }
 
 // Three words to three: a bijection. Differences in the high bits of the input reach only part of the output,
-// so take the result through pcg_hash where every bit counts. Source: Jarzynski and Olano 2020, pcg3d.
+// so apply pcg_hash to the result where every bit matters. Source: Jarzynski and Olano 2020, pcg3d.
 VX_FN uvec3 pcg3d(uvec3 v) {
     v = v * 1664525u + 1013904223u;
     for (int pass = 0; pass < 2; ++pass) {
@@ -45,8 +45,8 @@ VX_FN uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
-// One well mixed word from four: each input bit flips each output bit with probability one half, within what
-// 16384 trials can tell. It takes the last word that pcg4d computes; the first is biased by up to 0.13.
+// One well mixed word from four: each input bit flips each output bit with probability one half, as far as
+// 16384 trials can tell. It is the last word that pcg4d computes; the first is biased by up to 0.13.
 VX_FN uint hash4(uint a, uint b, uint c, uint d) {
     return pcg_hash(pcg4d(uvec4(a, b, c, d)).w);
 }

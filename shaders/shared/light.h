@@ -1,5 +1,5 @@
-// Emitters: how they are packed, and how likely a direction or a photon is to be drawn. An emitter is drawn
-// in proportion to its power, brightness() of its radiance times its etendue (power over radiance).
+// Emitters: how they are packed, and the probability densities of sampling them. An emitter is selected in
+// proportion to its power: the light selection weight of its radiance times its etendue (power / radiance).
 #ifndef VX_LIGHT_H
 #define VX_LIGHT_H
 
@@ -14,7 +14,7 @@ VX_BEGIN
 VX_CONST(uint, kLightSphere, 0u);
 VX_CONST(uint, kLightFace, 1u);
 
-// An emitting sphere by its number.
+// An emitting sphere by its index.
 VX_FN uint light_sphere(uint sphere) {
     return (sphere << 1u) | kLightSphere;
 }
@@ -40,17 +40,17 @@ VX_FN LightParts light_parts(uint what) {
     return parts;
 }
 
-// What colours count for when emitters are chosen.
+// Light selection weight of a radiance.
 VX_FN float brightness(vec3 v) {
     return v.x + v.y + v.z;
 }
 
-// Power over radiance of a face of a voxel: pi times its area, 1.
+// Etendue (power / radiance) of a voxel face: pi times its area, 1.
 VX_CONST(float, kFaceEtendue, kPi);
 
-// Weight of a direction that one of two ways of sampling has drawn, by the balance heuristic: both ways'
-// densities, that of the drawing way first. 0 where neither can draw it.
-// Source: Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering".
+// Weight of a direction drawn by one of two sampling techniques, by the balance heuristic; the densities of
+// both are given, that of the drawing one first. 0 where neither can draw it. Source: Veach and Guibas 1995,
+// "Optimally Combining Sampling Techniques for Monte Carlo Rendering".
 VX_FN float balance_weight(float own_pdf, float other_pdf) {
     float sum = own_pdf + other_pdf;
     if (!(sum > 0.0f)) return 0.0f;

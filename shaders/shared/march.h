@@ -26,16 +26,15 @@
 
 VX_BEGIN
 
-// What does not change along a ray. Axis a advances by planes: after n crossings the ray is in cell[a] + n or
-// cell[a] - n. `sign_mask` is 0 for directions >= 0 and -1 below, so (n ^ sign_mask) - sign_mask is the
-// signed step.
+// Constants of a ray. Axis a advances by planes: after n crossings the ray is in cell[a] + n or cell[a] - n.
+// `sign_mask` is 0 for directions >= 0 and -1 below, so (n ^ sign_mask) - sign_mask is the signed step.
 struct MarchAxes {
     ivec3 cell;  // of the start
     ivec3 sign_mask;
     vec3 speed;               // |direction|, 0 where it counts as zero
     vec3 inverse_direction;   // 1 / speed, or kNeverCrossed
     vec3 offset;              // T(j) = (j + sign_mask + offset) * inverse_direction
-    ivec3 direction_numbers;  // number of the direction -x +x -y +y -z +z that the ray takes on each axis
+    ivec3 direction_numbers;  // index of the ray's direction -x +x -y +y -z +z on each axis
     ivec3 far_shift;  // where its distances start in fields of kFarBits; in fields of kNearBits at twice
                       // `direction_numbers`
 };
@@ -54,7 +53,7 @@ struct MarchHit {
     uint fault;  // kMarch*
 };
 
-// Whether a ray can be marched: finite, with a direction. Reads the bits, because drivers fold tests such as
+// Whether a ray can be marched: finite, with a direction. Tests the bits, because drivers fold tests such as
 // x - x.
 VX_FN bool is_sound(Ray ray) {
     const vec3 d = ray.direction;
@@ -88,7 +87,7 @@ VX_FN MarchAxes march_axes(Ray ray) {
     return axes;
 }
 
-// Number of the direction that the ray takes on an axis.
+// Index of the direction that the ray takes on an axis.
 VX_FN int direction_number(MarchAxes axes, int axis) {
     return axis == 0 ? axes.direction_numbers.x
                      : (axis == 1 ? axes.direction_numbers.y : axes.direction_numbers.z);
@@ -116,16 +115,16 @@ VX_FN NextCrossing first_crossing(vec3 t) {
     return first;
 }
 
-// The cell that a ray is in after so many crossings.
+// The cell of a ray after these crossings.
 VX_FN ivec3 cell_behind(MarchAxes axes, ivec3 crossed) {
     return axes.cell + (crossed ^ axes.sign_mask) - axes.sign_mask;
 }
 
 // Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
-// `high` are not passed. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
+// `high` are not exceeded. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
 VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
     const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.sign_mask) - kPlaneMargin;
-    ivec3 n = clamp(ivec3(estimate), low, high);  // what is negative is below `low` either way
+    ivec3 n = clamp(ivec3(estimate), low, high);  // negative values are below `low` in any case
     const vec3 next = plane_times(axes, n + 1);
     n.x += next.x < t || (next.x == t && 0 < axis) ? 1 : 0;
     n.y += next.y < t || (next.y == t && 1 < axis) ? 1 : 0;
@@ -145,8 +144,8 @@ VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     return ((extent + 1) << found.log2) - passed;
 }
 
-// Planes that a ray from inside the world can cross. (A limit that is the same for all rays would be another
-// bound of the loop for each world, and lavapipe would compile the march anew for each dispatch.)
+// Planes that a ray from inside the world can cross. (With a limit shared by all rays, lavapipe would compile
+// the march anew for each dispatch.)
 VX_FN uint planes_ahead(MarchAxes axes, ivec3 size) {
     const ivec3 ahead = ivec3(axes.sign_mask.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
                               axes.sign_mask.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
@@ -167,9 +166,9 @@ VX_FN MarchHit march_nothing(Ray ray) {
     return hit;
 }
 
-// The hit of march() for a ray that is known to meet no solid cell before the time `start`: it steps from
+// The hit of march() for a ray that is known to hit no solid cell before the time `start`: it steps from
 // there. The loop has one way out and changes few values, because software devices blend each of them for all
-// invocations, at each way out.
+// invocations at each way out.
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
@@ -205,14 +204,14 @@ VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
 }
 
 // First solid cell along the ray whose entry time is below ray.t_max; a solid start cell is a hit at 0, and
-// an empty interval (t_max not above 0) a miss. The world has `chunks` chunks per axis. Each step crosses at
-// least one plane, so a sound world never meets the step limit.
+// an empty interval (t_max not above 0) is a miss. The world has `chunks` chunks per axis. Each step crosses
+// at least one plane, so the step limit is never reached in a valid world.
 VX_FN MarchHit march(VX_WORLD_PARAM Ray ray, ivec3 chunks) {
     return march_from(VX_WORLD_ARG ray, chunks, 0.0f);
 }
 
-// Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face. What is subtracted is
-// one rounding of a number that a mirrored ray has, too, so mirrored hits have mirrored fractions.
+// Position of a hit inside its cell, [0,1]^3: exactly 0 or 1 on the axis of the face. The subtrahend is a
+// single rounding, which a mirrored ray shares, so mirrored hits have mirrored fractions.
 VX_FN vec3 hit_fraction(Ray ray, MarchHit hit) {
     const MarchAxes axes = march_axes(ray);
     VX_PRECISE vec3 passed = hit.t * axes.speed - (vec3(hit.crossed + axes.sign_mask) + axes.offset);

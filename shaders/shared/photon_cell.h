@@ -1,12 +1,11 @@
-// Where photons are kept so that a disc finds them: sorted by cell into the buckets of a hash table. A row is
-// a line of cells along x on one surface; its cells go into neighbouring buckets, so the part of a row that a
-// box touches is one run of the sorted photons. A box as wide as a disc touches at most two cells along y and
-// along z; along x, cells are narrower, so that a run fits the disc better.
+// How photons are stored so that a kernel finds them: sorted by cell into the buckets of a hash table. A row
+// is a line of cells along x on one surface; its cells go into neighbouring buckets, so the part of a row
+// that a box touches is one run of the sorted photons. A box as wide as a kernel touches at most two cells
+// along y and along z; along x, cells are narrower, so that a run fits the kernel better.
 //
-// Different rows may share buckets: whoever reads a row leaves out the photons of others (photon_cell()), so
-// each is met once, and pictures do not depend on the size of the table.
-// Source: Hachisuka and Jensen 2010, "Parallel Progressive Photon Mapping on GPUs", for the hashed grid; rows
-// are ours.
+// Different rows may share buckets: readers of a row skip the photons of others (photon_cell()), so each
+// photon counts once, and images do not depend on the size of the table. Source: Hachisuka and Jensen 2010,
+// "Parallel Progressive Photon Mapping on GPUs", for the hashed grid; rows are ours.
 #ifndef VX_PHOTON_CELL_H
 #define VX_PHOTON_CELL_H
 
@@ -18,13 +17,13 @@
 VX_BEGIN
 
 VX_CONST(uint, kNoSurface, 0xFFFFFFFFu);
-VX_CONST(uint, kNoBucket, 0xFFFFFFFFu);  // of a place in the store that holds no photon
+VX_CONST(uint, kNoBucket, 0xFFFFFFFFu);  // of a slot in the store that holds no photon
 VX_CONST(uint, kSphereSurface, 0x80000000u);
 VX_CONST(uint, kInsideOfSphere, 0x40000000u);
 
-// What a photon and a visible point must share to meet: the sphere and its side, or the plane and the side of
-// a voxel's face. Light so never leaks round an edge or through a wall, however thin. kNoSurface for a miss
-// and inside of a solid cell.
+// What a photon and a visible point must share: the sphere and its side, or the plane and the side of a
+// voxel's face. Light therefore never leaks round an edge or through a wall, however thin. kNoSurface for a
+// miss and inside a solid cell.
 VX_FN uint photon_surface(Hit hit) {
     if (hit.face == kFaceSphere) return kSphereSurface | hit.sphere;
     if (hit.face == kFaceSphereInside) return kSphereSurface | kInsideOfSphere | hit.sphere;
@@ -49,7 +48,7 @@ VX_FN float photon_distance_squared(vec3 a, vec3 b) {
     return squared;
 }
 
-// Number of the cell of a coordinate. It never falls while the coordinate rises, rounding included.
+// Index of the cell of a coordinate. Monotonic in the coordinate, rounding included.
 VX_FN int photon_cell(float coordinate, float cells_per_voxel) {
     VX_PRECISE float cell = floor(coordinate * cells_per_voxel);
     return int(min(max(cell, -kFarthestPhotonCell), kFarthestPhotonCell));
@@ -60,7 +59,7 @@ VX_FN uint photon_row(int y, int z, uint surface) {
     return pcg_hash(uint(y) + pcg_hash(uint(z) + pcg_hash(surface)));
 }
 
-// Number of a photon's cell, from which bucket and mark follow.
+// Key of a photon's cell, from which bucket and mark follow.
 VX_FN uint photon_key(vec3 position, uint surface, PhotonGrid grid) {
     const int x = photon_cell(position.x, grid.x_cells_per_voxel);
     const int y = photon_cell(position.y, grid.cells_per_voxel);
@@ -73,14 +72,14 @@ VX_FN uint photon_bucket(vec3 position, uint surface, PhotonGrid grid) {
     return photon_key(position, surface, grid) & grid.mask;
 }
 
-// Mark of a cell: whether a visible point could take photons in it. Cells may share a mark; there are more of
-// them than buckets, as unwanted cells are many where a room goes on out of sight.
+// Mark of a cell: whether a visible point could gather photons in it. Cells may share a mark. There are more
+// marks than buckets, because most cells of a room may be out of sight.
 VX_FN uint photon_mark(uint key, PhotonGrid grid) {
     return key & ((grid.mask * kMarksPerBucket + (kMarksPerBucket - 1u)) | 31u);
 }
 
-// Neighbouring buckets, from `begin` to before `end`, places in the table of starts; it goes on at the
-// table's beginning when it wraps.
+// Neighbouring buckets, from `begin` to `end` - 1, as indices of the table of starts; a run that wraps
+// continues at the table's beginning.
 struct BucketRun {
     uint begin;
     uint end;
@@ -101,15 +100,15 @@ VX_FN BucketRun bucket_run(int y, int z, int x0, int x1, uint surface, PhotonGri
 }
 
 #ifdef __cplusplus
-// Words of 32 bits that hold the marks beside so many buckets.
+// 32-bit words that hold the marks for this many buckets.
 inline std::uint32_t mark_words(std::uint32_t buckets) {
     return (buckets * kMarksPerBucket + 31) / 32;
 }
 
-// The grid for discs of a radius in a world whose coordinates are at most `extent` > 0 in magnitude, and a
-// power of two of buckets. Cells are wider than the disc by 2^-20 of the extent, several roundings of a
-// coordinate, so that the ends of a disc never lie in three of them; and there are less than 2^21 along an
-// axis.
+// The grid for kernels of a radius in a world whose coordinates are at most `extent` > 0 in magnitude, with a
+// power of two of buckets. Cells are wider than the kernel by 2^-20 of the extent, several roundings of a
+// coordinate, so that a kernel never touches three of them along an axis, and there are fewer than 2^21 along
+// an axis.
 inline PhotonGrid photon_grid(float radius, float extent, std::uint32_t buckets) {
     const double width = 2.0 * radius * 1.001 + extent * 0x1p-20;
     return {.cells_per_voxel = static_cast<float>(1.0 / width),

@@ -1,14 +1,15 @@
 // The power of a photon as three integers of 21 bits, so that sums over photons do not depend on their order.
 //
-// Range: a scale that takes the largest power of a photon to kPhotonQuanta uses all bits, and 2^43 photons of
-// that power fit in a sum of 64 bits; no store holds so many. With roulette by the largest component of the
-// throughput no photon outgrows its start, so the host knows the largest power: that of the brightest light.
+// Range: the scale takes the largest power of a photon to kPhotonQuanta, which uses all bits, and 2^43
+// photons of that power fit in a 64-bit sum, more than any store holds. With roulette by the largest
+// component of the throughput no photon exceeds its initial power, so the host knows the largest power: that
+// of the strongest light.
 //
-// Rounding: up with the probability of the part that is cut off, so the mean of many photons is exact,
-// however dim they are. Rounding to the nearest would take equal photons of 0.4 quanta to nothing. The
-// probability is drawn from the photon's place: the same photon always rounds the same way. The error of a
-// sum of n photons has a deviation of at most sqrt(n) / 2 quanta, 2^-22 / sqrt(n) of the sum where they carry
-// the largest power.
+// Rounding: up with the probability of the fraction that is cut off, so the mean of many photons is exact,
+// however dim they are. Rounding to nearest would reduce equal photons of 0.4 quanta to nothing. The
+// probability is drawn from the photon's position: the same photon always rounds the same way. The error of a
+// sum of n photons has a standard deviation of at most sqrt(n) / 2 quanta, or 2^-22 / sqrt(n) of the sum
+// where they carry the largest power.
 #ifndef VX_PHOTON_POWER_H
 #define VX_PHOTON_POWER_H
 
@@ -18,7 +19,7 @@
 
 VX_BEGIN
 
-VX_CONST(uint, kPhotonQuanta, 0x1FFFFFu);  // most quanta of a photon
+VX_CONST(uint, kPhotonQuanta, 0x1FFFFFu);  // largest power of a photon, quanta
 
 struct PackedPower {
     uvec2 words;
@@ -43,7 +44,7 @@ VX_FN Quanta photon_quanta(float power, float scale, float dither) {
     return quanta;
 }
 
-// What a photon at a place carries, packed: bits 0 to 20 are red, 21 to 41 green, 42 to 62 blue.
+// Packs a photon's power: bits 0 to 20 are red, 21 to 41 green, 42 to 62 blue.
 VX_FN PackedPower pack_power(vec3 power, vec3 scale, vec3 position) {
     const uvec3 dither =
         pcg3d(uvec3(floatBitsToUint(position.x), floatBitsToUint(position.y), floatBitsToUint(position.z)));
@@ -62,7 +63,7 @@ VX_FN uvec3 unpack_power(uvec2 words) {
                  words.y >> 10u);
 }
 
-// A sum of 64 bits {low, high} as a float, one rounding of 2^-23.
+// A 64-bit sum {low, high} as a float, with a single rounding of 2^-23.
 VX_FN float photon_sum(uvec2 sum) {
     VX_PRECISE float high = float(sum.y) * 4294967296.0f;
     VX_PRECISE float value = high + float(sum.x);

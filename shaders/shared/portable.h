@@ -1,8 +1,8 @@
 // The bridge that lets the headers of this folder compile as C++20 (namespace voxilux::gpu, vectors from GLM)
-// and as GLSL 4.60. Rules of the portable subset: no swizzles of more than one component (.x .y .z .w only),
-// suffixes 1.0f and 1u on every literal, comparisons of vectors component by component, results returned as
-// structs, constants from limits.h, and VX_PRECISE on every float whose exact bits matter (drivers
-// re-associate the others).
+// and as GLSL 4.60. Rules of the portable subset: swizzles of one component only (.x .y .z .w), suffixes 1.0f
+// and 1u on every literal, comparisons of vectors component by component, results returned as structs,
+// constants from limits.h, and VX_PRECISE on every float whose exact bits matter (drivers re-associate the
+// others).
 #ifndef VX_PORTABLE_H
 #define VX_PORTABLE_H
 

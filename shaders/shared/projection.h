@@ -1,12 +1,12 @@
-// The projections of a camera beside perspective (camera.h): where their rays start and point.
+// The projections of a camera other than perspective (camera.h): where their rays start and point.
 //
 // Orthographic: parallel rays. Pixels are counted in blocks that are as wide as camera_right is long, from a
-// point that blocks begin at. A camera that looks along an axis with a whole number of pixels per voxel has
-// blocks of one voxel, and then the cell that a ray starts in follows from whole numbers alone: no rounding
-// moves a ray across the border of a pixel.
+// point where a block begins. For a camera that looks along an axis with an integer number of pixels per
+// voxel, a block is one voxel wide; the cell in which a ray starts then follows from integers alone, and no
+// rounding moves a ray across the border of a pixel.
 //
-// Panoramas: a longitude and latitude (equirectangular), or an angle from the view axis in proportion to the
-// distance from the middle of the image (fisheye, equidistant).
+// Panoramas: longitude and latitude (equirectangular), or an angle from the view axis in proportion to the
+// distance from the centre of the image (fisheye, equidistant).
 //
 // Thin lens: perspective through an aperture. What lies in the plane of focus is sharp, see lens_ray.
 #ifndef VX_PROJECTION_H
@@ -42,7 +42,7 @@ VX_FN PlaneCount count_whole(TwoFloat number) {
     return count;
 }
 
-// Of a point of the image along one of its axes: whole blocks, and the rest in blocks.
+// Position of an image point along one axis: whole blocks, and the rest in blocks.
 VX_FN PlaneCount image_blocks(uint pixel, float point, uint block) {
     PlaneCount count;
     const uint whole = pixel / block;
@@ -52,7 +52,7 @@ VX_FN PlaneCount image_blocks(uint pixel, float point, uint block) {
     return count;
 }
 
-// How far `blocks` blocks of length `step` reach.
+// The length of `blocks` blocks of length `step`.
 VX_FN TwoFloat blocks_along(PlaneCount blocks, float step) {
     return tf_add(two_prod(float(blocks.whole), step), two_prod(blocks.rest, step));
 }
@@ -82,9 +82,9 @@ VX_FN Ray orthographic_ray(FrameParams frame, uint x, uint y, vec2 point) {
     return ray;
 }
 
-// Unit direction through a point of the image, in pixels from its upper left corner. The middle of an
+// Unit direction through a point of the image, in pixels from its upper left corner. The centre of an
 // equirectangular image looks forward, columns turn clockwise seen from above, and rows go from the zenith to
-// the nadir. A fisheye ends at the direction backwards.
+// the nadir. The edge of a fisheye at pi is the direction backwards.
 VX_FN vec3 panorama_direction(FrameParams frame, uint projection, float x, float y) {
     vec3 v;
     if (projection == kEquirectangular) {
@@ -148,12 +148,12 @@ VX_FN Ray lens_ray(FrameParams frame, vec3 through, vec2 aperture) {
     return ray;
 }
 
-// What the width of a pixel is in proportion to: the distance, but for parallel rays.
+// What the width of a pixel is proportional to: the distance, except for parallel rays.
 VX_FN float pixel_growth(uint projection, float distance) {
     return projection == kOrthographic ? 1.0f : distance;
 }
 
-// Width of a pixel at distance 1 (orthographic: at any), voxels. Of a panorama, of a pixel in its middle.
+// Width of a pixel at distance 1 (orthographic: anywhere), voxels. For a panorama, of a pixel at its centre.
 VX_FN float pixel_width(FrameParams frame, uint projection) {
     if (projection == kOrthographic) return length(frame.camera_up) / float(frame.camera_block);
     if (projection == kEquirectangular) return kPi / float(frame.height);

@@ -1,5 +1,5 @@
-// White noise. Counter-based: no state, so any thread can draw any number in any order. And as streams, for
-// those who draw many numbers in a row: a fifth of the arithmetic.
+// White noise. Counter-based: no state, so any thread can draw any number in any order. Also as streams,
+// which take a fifth of the arithmetic to draw many numbers in a row.
 #ifndef VX_RNG_H
 #define VX_RNG_H
 
@@ -13,7 +13,7 @@ VX_FN float unit_float(uint bits) {
     return float(bits >> 8u) * kUnitStep;
 }
 
-// The inverse of unit_float(), with zeros below.
+// The inverse of unit_float(); the lower bits are 0.
 VX_FN uint unit_bits(float u) {
     return uint(u * kUnitSteps) << 8u;
 }
@@ -28,14 +28,14 @@ VX_FN float rng_float(uint seed, uint stream, uint index, uint dimension) {
     return unit_float(rng_uint(seed, stream, index, dimension));
 }
 
-// A stream of numbers. Those of different increments, which are odd, are different sequences of period 2^32.
-// Source: O'Neill 2014, "PCG", section 6.3.4 (RXS-M-XS).
+// A stream of numbers. Different increments, which are odd, give different sequences of period 2^32. Source:
+// O'Neill 2014, "PCG", section 6.3.4 (RXS-M-XS).
 struct NoiseStream {
     uint state;
     uint increment;
 };
 
-// The next number of a stream, uniform in [0, 1), and the stream after it.
+// The next number of a stream, uniform in [0, 1), and the advanced stream.
 VX_FN float stream_float(NoiseStream stream) {
     return unit_float(pcg_output(stream.state));
 }

@@ -1,7 +1,7 @@
 // Directions from points of the unit square. Cosine and cone both start from the concentric map of the square
-// to the disk, which keeps neighbours together and so keeps the stratification of the sequence. Every float
-// that decides the result is precise and the sine is our own polynomial: CPU and device agree to the bit
-// where sqrt and division are correctly rounded (the CPU and llvmpipe are).
+// to the disk, which keeps neighbours together and therefore keeps the stratification of the sequence. Every
+// float that decides the result is precise and the sine is our own polynomial: CPU and device agree to the
+// bit where sqrt and division are correctly rounded (as on the CPU and llvmpipe).
 #ifndef VX_SAMPLING_H
 #define VX_SAMPLING_H
 
@@ -40,7 +40,7 @@ VX_FN vec2 sin_cos_eighth(float s) {
 }
 
 // Uniform point of the unit disk and its radius: xy and z. The radius lies strictly in (0, 1), because u, a
-// multiple of 2^-24, is moved to the middle of its lattice cell, which is exact and misses both centre and
+// multiple of 2^-24, is moved to the centre of its lattice cell, which is exact and avoids both centre and
 // rim. Source: Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square".
 VX_FN vec3 concentric_disk(vec2 u) {
     VX_PRECISE float a = (2.0f * u.x - 1.0f) + kUnitStep;
@@ -63,7 +63,8 @@ VX_FN vec3 cosine_hemisphere(vec2 u) {
     return vec3(disk.x, disk.y, sqrt(z2));
 }
 
-// Cosine-weighted direction off a face 0..5 of a cell; the component along the face normal is at least 2^-12.
+// Cosine-weighted direction from a face 0..5 of a cell; the component along the face normal is at least
+// 2^-12.
 VX_FN vec3 cosine_on_face(uint face, vec2 u) {
     vec3 local = cosine_hemisphere(u);
     float out_of_face = (face & 1u) == 0u ? -local.z : local.z;
@@ -108,8 +109,8 @@ VX_FN vec3 cosine_about(vec3 normal, vec2 u) {
     return from_basis(basis_around(normal), cosine_hemisphere(u));
 }
 
-// 1 - cos(half_angle), as 2 sin^2(half_angle / 2): no cancellation, so a sun of 0.265 degrees keeps all its
-// bits. half_angle in radians, [0, pi].
+// 1 - cos(half_angle), as 2 sin^2(half_angle / 2): no cancellation, so a sun of 0.265 degrees keeps all bits.
+// half_angle in radians, [0, pi].
 VX_FN float cone_height(float half_angle) {
     float s = sin(0.5f * half_angle);
     return 2.0f * s * s;

@@ -1,5 +1,5 @@
-// One interface to the sample sequences. A key names a sample; dimensions number the decisions taken for it,
-// and pair p is dimensions 2p and 2p+1, so a user of sample_1d and a user of sample_2d must not share a pair.
+// One interface to all sample sequences. A key names a sample; dimensions number the decisions made with it.
+// Pair p consists of dimensions 2p and 2p+1, so uses of sample_1d and sample_2d must not share a pair.
 #ifndef VX_SEQUENCE_H
 #define VX_SEQUENCE_H
 
@@ -20,7 +20,7 @@ struct SampleKey {
     uint seed;
 };
 
-// The key of a sample whose number has 64 bits (low word, high word): each 2^32 samples take a new seed, so
+// The key of a sample whose index has 64 bits (low word, high word): every 2^32 samples use a new seed, so
 // streams never repeat. With a high word of 0 it is the plain key.
 VX_FN SampleKey sample_key(uint stream, uvec2 index, uint seed) {
     SampleKey key;

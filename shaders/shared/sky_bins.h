@@ -9,12 +9,12 @@
 
 VX_BEGIN
 
-// Per face: the shares of the rows up to each one, then of each row those of its bins.
-VX_CONST(uint, kSkyBins, 64u);  // rows, and bins of a row
+// Per face: the cumulative distribution over rows, then for each row the one over its bins.
+VX_CONST(uint, kSkyBins, 64u);  // rows, and bins per row
 VX_CONST(uint, kFaceShares, kSkyBins + kSkyBins * kSkyBins);
 VX_CONST(uint, kSkyShares, kFaceCount* kFaceShares);
-// Added to the cosines, so that no direction out of a face is left out where a bin lies across its horizon,
-// and no sample is more than some 50 times as bright as the mean.
+// Added to the cosines, so that every direction out of a face can be drawn even where a bin straddles its
+// horizon, and no sample is more than some 50 times as bright as the mean.
 VX_CONST(float, kSkyCosineFloor, 0.02f);
 
 // A direction of a bin: `place` is in [0, 1)^2.
@@ -25,13 +25,13 @@ VX_FN vec3 bin_direction(uint row, uint column, vec2 place) {
     return vec3(horizontal * cos(azimuth), horizontal * sin(azimuth), z);
 }
 
-// How likely a bin is for a face, times a constant. light: the sum of the colours in the middle of the bin.
+// The weight of a bin for a face, up to a constant. light: the sum of the colours at the centre of the bin.
 VX_FN float bin_weight(uint face, uint row, uint column, float light) {
     const float cosine = dot(bin_direction(row, column, vec2(0.5f)), face_normal(face));
     return (max(cosine, 0.0f) + kSkyCosineFloor) * light;
 }
 
-// A sum over the first of kSkyBins weights as a share of their total.
+// A sum over the first of kSkyBins weights as a fraction of their total.
 VX_FN float summed_share(float sum, float total, uint number) {
     if (number == kSkyBins - 1u) return 1.0f;
     return total > 0.0f ? min(sum / total, 1.0f) : float(number + 1u) / float(kSkyBins);

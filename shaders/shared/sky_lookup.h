@@ -1,4 +1,4 @@
-// The radiance of the sky by its table (sky_view.h), and the sun's disc. The including side defines
+// The radiance of the sky from its table (sky_view.h), and the sun's disc. The including file defines
 // VX_VIEW_PARAM and VX_VIEW_ARG and load_view(), which reads a colour of the table.
 #ifndef VX_SKY_LOOKUP_H
 #define VX_SKY_LOOKUP_H
@@ -7,7 +7,8 @@
 
 VX_BEGIN
 
-// The sum of a pair of products in one order, so that quarter turns about the vertical keep its bits.
+// The sum of a pair of products in a fixed order, so that quarter turns about the vertical give the same
+// bits.
 VX_FN float product_sum(float a, float b, float c, float d) {
     VX_PRECISE float first = a * b;
     VX_PRECISE float second = c * d;
@@ -26,7 +27,7 @@ VX_FN vec3 view_blend(VX_VIEW_PARAM ViewPlace place, uint columns, uint colour) 
                mix(load_view(VX_VIEW_ARG below), load_view(VX_VIEW_ARG below + kViewColours), w), v);
 }
 
-// Radiance that comes from a unit direction, ground included, the sun's disc not.
+// Radiance from a unit direction, including the ground but not the sun's disc.
 VX_FN vec3 sky_radiance(VX_VIEW_PARAM SkyParams sky, vec3 direction) {
     const vec3 sun = sky.sun_direction;
     const float horizontal2 = product_sum(direction.x, direction.x, direction.y, direction.y);
@@ -49,7 +50,7 @@ VX_FN vec3 sky_radiance(VX_VIEW_PARAM SkyParams sky, vec3 direction) {
 VX_FN vec3 sun_disc_radiance(SkyParams sky, vec3 direction) {
     const vec3 away = direction - sky.sun_direction;
     const float part =
-        0.5f * dot(away, away) / max(sky.disc_height, 1e-12f);  // squared sine over the radius'
+        0.5f * dot(away, away) / max(sky.disc_height, 1e-12f);  // squared sine relative to the radius'
     if (sky.disc_height <= 0.0f || part >= 1.0f) return vec3(0.0f);
     const vec3 darkening = vec3(0.397f, 0.503f, 0.652f);
     const vec3 limb = pow(vec3(sqrt(1.0f - part)), darkening) * (0.5f * darkening + vec3(1.0f));

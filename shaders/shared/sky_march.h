@@ -3,14 +3,14 @@
 // The first order is integrated along the ray with exact phase functions. The others come from a table of the
 // light that arrives at a place from all directions, in spherical harmonics of degree 0 to 2 (6 numbers per
 // colour, as the light is symmetric about the vertical plane of the sun), by height and by the sun's cosine.
-// A scattering multiplies each degree by a moment of its phase function. The table is the fixed point of its
-// own definition: gathered from rays that march through it (scatter_texel), a few times over. Hillaire 2020
-// keeps the mean over directions alone and closes the orders by a geometric series, which leaves the light of
-// later orders without direction and without neighbours; this removes most of its error, at the horizon and
-// in twilight in particular, at the same cost. (Discrete ordinates with delta-free moments: Chandrasekhar
-// 1960, "Radiative Transfer", section 48.)
+// Scattering multiplies each degree by a moment of its phase function. The table is the fixed point of its
+// own definition: gathered from rays that march through it (scatter_texel), in a few rounds. Hillaire 2020
+// keeps only the mean over directions and closes the orders by a geometric series, which ignores the
+// direction of the light of later orders and its variation from place to place. This method removes most of
+// that error, in particular at the horizon and in twilight, at the same cost. (Discrete ordinates with
+// delta-free moments: Chandrasekhar 1960, "Radiative Transfer", section 48.)
 //
-// All light is per unit of the sun's irradiance above the air. The including side defines VX_SKY_PARAM and
+// All light is per unit of the sun's irradiance above the air. The including file defines VX_SKY_PARAM and
 // VX_SKY_ARG and load_scatter(), which reads a word of the table.
 #ifndef VX_SKY_MARCH_H
 #define VX_SKY_MARCH_H
@@ -20,21 +20,22 @@
 
 VX_BEGIN
 
-// The sun's cosines lie densest around the middle one, where it sets, and end where even the top is dark.
+// The sun's cosines are densest around the middle one, at sunset, and end where even the top of the air is
+// dark.
 VX_CONST(float, kScatterMiddle, -0.06f);
 VX_CONST(float, kScatterWidth, 0.25f);
 VX_CONST(float, kScatterFirst, -0.489795918f);  // (-0.3 - middle) / (|-0.3 - middle| + width)
 VX_CONST(float, kScatterLast, 0.809160305f);    // of cosine 1
-// The sun's cosine, at or below which there is no light: that of the first column.
+// The sun's cosine at or below which there is no light: that of the first column.
 VX_CONST(float, kScatterDark, -0.2999f);
-// Nodes of a stretch of a ray: 6 Gauss points times the panels.
+// Nodes of a section of a ray: 6 Gauss points per panel.
 VX_CONST(uint, kGaussNodes, 6u);
 VX_CONST_LIST(float, kGaussNode, 6) = {0.0337652429f, 0.1693953068f, 0.3806904070f,
                                        0.6193095930f, 0.8306046932f, 0.9662347571f};
 VX_CONST_LIST(float, kGaussWeight, 6) = {0.0856622462f, 0.1803807865f, 0.2339569673f,
                                          0.2339569673f, 0.1803807865f, 0.0856622462f};
 
-// A ray through the air by what its light depends on.
+// A ray through the air, by the quantities that its light depends on.
 struct AirRay {
     float height;     // of the start, [0, kAirTop]
     float cosine;     // to the vertical there
@@ -53,11 +54,11 @@ VX_FN AirRay ray_after(AirRay ray, float t) {
 }
 
 struct AirLight {
-    vec3 rayleigh;  // scattered once, by air, over its phase function
-    vec3 mie;       // scattered once, by aerosol, over its phase function
+    vec3 rayleigh;  // scattered once, by air, divided by its phase function
+    vec3 mie;       // scattered once, by aerosol, divided by its phase function
     vec3 multiple;  // scattered more than once
-    vec3 ground;    // from the ground, dimmed on the way
-    vec3 scatters;  // share of light along the ray, the same everywhere, that scattering would add
+    vec3 ground;    // from the ground, attenuated along the ray
+    vec3 scatters;  // fraction that scattering would add to light that is the same all along the ray
 };
 
 struct SkyHarmonics {
@@ -89,8 +90,9 @@ VX_FN SkyHarmonics scatter_entry(VX_SKY_PARAM uint texel, float weight) {
     return entry;
 }
 
-// What arrives at a height when the sun is at a cosine, as the factors of the harmonics. Linear on the
-// triangles of the table: most of the time of a march are loads, and a triangle has three corners.
+// The light that arrives at a height when the sun has a cosine, as the coefficients of the harmonics.
+// Interpolated linearly on the triangles of the table: a march spends most of its time on loads, and a
+// triangle has only three corners.
 VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
     const float row = sqrt(clamp(h / kScatterTop, 0.0f, 1.0f)) * float(kScatterHeights - 1u);
     const float away = sun - kScatterMiddle;
@@ -113,7 +115,7 @@ VX_FN SkyHarmonics scatter_lookup(VX_SKY_PARAM float h, float sun) {
     return found;
 }
 
-// What light scatters into a direction: `cosine` to the vertical, `across` its x of the harmonics' frame.
+// The light scattered into a direction: `cosine` to the vertical, `across` its x in the harmonics' frame.
 // zeroth, first, second: scattering coefficients times the moments of the phase function.
 VX_FN vec3 scattered_light(SkyHarmonics light, float cosine, float across, vec3 zeroth, vec3 first,
                            vec3 second) {
@@ -124,7 +126,7 @@ VX_FN vec3 scattered_light(SkyHarmonics light, float cosine, float across, vec3 
                (light.c[3] * (1.5f * z2 - 0.5f) + light.c[4] * (cosine * across) + light.c[5] * difference);
 }
 
-// Irradiance of the ground by the harmonics of the light there.
+// Irradiance of the ground from the harmonics of the light there.
 VX_FN vec3 diffuse_irradiance(SkyHarmonics light) {
     return max(kPi * light.c[0] + (2.0f / 3.0f * kPi) * light.c[1] + (0.25f * kPi) * light.c[3], vec3(0.0f));
 }
@@ -136,9 +138,8 @@ VX_FN vec3 ground_radiance(VX_SKY_PARAM Air air, float sun, bool has_table) {
     return (air.ground_albedo * kInversePi) * irradiance;
 }
 
-// Where a ray is cut, in rising order: at its lowest point and where it enters and leaves the planet's
-// shadow, the half cylinder of the ground's radius behind the centre. There its light has kinks. 0: not at
-// all.
+// Where a ray is split, in increasing order: at its lowest point and where it enters and leaves the planet's
+// shadow, the half cylinder of the ground's radius behind the centre. Its light has kinks there. 0: no split.
 VX_FN vec3 air_cuts(AirRay ray, float end) {
     const float r = kGroundRadius + ray.height;
     const float lowest = -r * ray.cosine;
@@ -159,11 +160,11 @@ VX_FN vec3 air_cuts(AirRay ray, float end) {
 }
 
 struct RayNode {
-    float way;     // share of a stretch of the ray
-    float weight;  // share of it that the node stands for
+    float way;     // fraction of a section of the ray
+    float weight;  // fraction of it that the node represents
 };
 
-// Nodes crowd where the air is dense: at the start of what rises, at both ends of the rest.
+// Nodes are densest where the air is: at the start of rising sections, at both ends of the others.
 VX_FN RayNode ray_node(uint number, uint panels, bool rises) {
     const uint panel = number / kGaussNodes;
     const uint place = number - panel * kGaussNodes;

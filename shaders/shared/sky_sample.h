@@ -1,9 +1,9 @@
-// Directions in proportion to the light that the sky sends to a face of a voxel: a bin (sky_bins.h) is as
-// likely as its radiance times its cosine to the face. A bin is drawn by inverting a distribution over rows
-// and one over the bins of a row, which keeps the stratification of low-discrepancy points (Pharr et al.,
-// "Physically Based Rendering", 4th edition, section A.5); within a bin, directions are uniform, so that the
-// density is exactly known. The including side defines VX_SAMPLE_PARAM and VX_SAMPLE_ARG and load_share(),
-// which reads a number of the distributions.
+// Directions in proportion to the light that the sky sends to a voxel face: the probability of a bin
+// (sky_bins.h) is proportional to its radiance times its cosine to the face. A bin is drawn by inverting a
+// distribution over rows and one over the bins of a row, which keeps the stratification of low-discrepancy
+// points (Pharr et al., "Physically Based Rendering", 4th edition, section A.5); within a bin, directions are
+// uniform, so that the density is known exactly. The including file defines VX_SAMPLE_PARAM and VX_SAMPLE_ARG
+// and load_share(), which reads a number of the distributions.
 #ifndef VX_SKY_SAMPLE_H
 #define VX_SKY_SAMPLE_H
 
@@ -13,11 +13,11 @@ VX_BEGIN
 
 struct DrawnShare {
     uint number;
-    float place;  // of u within its share, [0, 1)
+    float place;  // of u within its interval, [0, 1)
     float share;
 };
 
-// The one of 64 whose share of [0, 1) u lies in. `first`: of its shares, summed up.
+// The one of 64 intervals of [0, 1) that contains u. `first`: index of their cumulative distribution.
 VX_FN DrawnShare draw_share(VX_SAMPLE_PARAM uint first, float u) {
     uint number = 0u;
     for (uint step = kSkyBins / 2u; step > 0u; step /= 2u)

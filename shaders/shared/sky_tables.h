@@ -1,5 +1,5 @@
 // The texels of the sky's tables: of the light that arrives anywhere in the air (sky_march.h), and of the sky
-// that one observer sees (sky_view.h).
+// as one observer sees it (sky_view.h).
 #ifndef VX_SKY_TABLES_H
 #define VX_SKY_TABLES_H
 
@@ -8,8 +8,8 @@
 
 VX_BEGIN
 
-// Directions that a texel looks into: elevations on either side of the horizon, denser towards it, times
-// azimuths on one side of the sun, denser towards it. Gauss points of four.
+// Directions in which a texel gathers: elevations on either side of the horizon, denser towards it, times
+// azimuths on one side of the sun, denser towards it. Products of four Gauss points.
 VX_CONST(uint, kScatterRays, 32u);
 VX_CONST_LIST(float, kFourNode, 4) = {0.0694318442f, 0.3300094782f, 0.6699905218f, 0.9305681558f};
 VX_CONST_LIST(float, kFourWeight, 4) = {0.1739274226f, 0.3260725774f, 0.3260725774f, 0.1739274226f};
@@ -17,7 +17,7 @@ VX_CONST_LIST(float, kFourWeight, 4) = {0.1739274226f, 0.3260725774f, 0.32607257
 struct ScatterRay {
     float cosine;  // to the vertical
     float across;  // towards the sun's side
-    float weight;  // steradians that it stands for, those of the other side of the sun included
+    float weight;  // steradians that it represents, those on the other side of the sun included
 };
 
 VX_FN ScatterRay scatter_ray(float horizon, uint number) {
@@ -36,9 +36,9 @@ VX_FN ScatterRay scatter_ray(float horizon, uint number) {
     return ray;
 }
 
-// The texel at a height and a cosine of the sun: what arrives there by way of the table as it is. In the
-// first round there is none, and the light scattered once stands for all orders by the geometric series
-// of Hillaire 2020 (equation 10).
+// The texel at a height and a cosine of the sun: what arrives there according to the current table. In the
+// first round there is none, and the light scattered once stands for all orders by the geometric series of
+// Hillaire 2020 (equation 10).
 VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool is_first) {
     SkyHarmonics sum;
     for (uint k = 0u; k < kSkyHarmonics; ++k)
@@ -67,7 +67,7 @@ VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool 
         sum.c[5] += part * (2.0f * way.across * way.across - (1.0f - z2));
         scatters += way.weight * light.scatters;
     }
-    // Over the integrals of the squared harmonics.
+    // Inverse of the integrals of the squared harmonics.
     const float norm = 0.25f * kInversePi;
     sum.c[0] *= norm;
     sum.c[1] *= 3.0f * norm;
@@ -79,9 +79,9 @@ VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool 
     return sum;
 }
 
-// A word of a texel as the table keeps it.
+// A word of a texel as the table stores it.
 VX_FN uint scatter_word(SkyHarmonics texel, uint word) {
-    const uint first = 2u * word;  // of the texel's 18 numbers
+    const uint first = 2u * word;  // index among the texel's 18 numbers
     const uint second = first + 1u;
     const float a = texel.c[first / 3u][first % 3u];
     const float b = texel.c[second / 3u][second % 3u];
@@ -89,8 +89,8 @@ VX_FN uint scatter_word(SkyHarmonics texel, uint word) {
 }
 
 struct ViewTexel {
-    vec3 light;  // but for what aerosol scattered once
-    vec3 mie;    // that, over its phase function
+    vec3 light;  // without what aerosol scattered once
+    vec3 mie;    // that, divided by its phase function
 };
 
 VX_FN ViewTexel view_texel(VX_SKY_PARAM SkyParams sky, uint row, uint column) {

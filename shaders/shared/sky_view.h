@@ -1,8 +1,8 @@
-// The sky as one observer sees it under one sun: what it depends on, and the table of it. Rows are
-// elevations, denser towards the horizon, first those above it, then those below; columns are azimuths from
-// the sun, on one side of it. (Hillaire 2020, section 5.3, takes sin(azimuth / 2).) What aerosol has
-// scattered once has a texel of its own, without the phase function: so the glow around the sun does not pass
-// through the table, and the rest needs few texels.
+// The sky as one observer sees it under one sun: its parameters, and its table. Rows are elevations, denser
+// towards the horizon, first those above it, then those below; columns are azimuths from the sun, on one side
+// of it. (Hillaire 2020, section 5.3, takes sin(azimuth / 2).) What aerosol has scattered once has a texel of
+// its own, without the phase function: the glow around the sun is then not limited by the table, and the rest
+// needs few texels.
 #ifndef VX_SKY_VIEW_H
 #define VX_SKY_VIEW_H
 
@@ -33,12 +33,12 @@ VX_CONST(uint, kTexelWords, kSkyHarmonics * 3u / 2u);
 VX_CONST(uint, kScatterWords, kScatterTexels* kTexelWords);
 // Numbers are kept multiplied by this: half floats lose bits below 6e-5, and the sky of deep dusk is darker.
 VX_CONST(float, kScatterScale, 1024.0f);
-// Rounds after the first. A round multiplies what is missing by the share of light that scatters again, a
-// third in blue.
+// Rounds after the first. A round multiplies the missing light by the fraction that scatters again, a third
+// in blue.
 VX_CONST(uint, kScatterRounds, 2u);
 
-// Panels of a march (sky_march.h): of the table of the sky, order 1 errs by 0.1 % (rms over our oracle); fine
-// ones are within 1 % of it in every direction.
+// Panels of a march (sky_march.h): with these, order 1 in the table of the sky has an error of 0.1 % (RMS
+// over our oracle); with the fine ones it is within 1 % in every direction.
 VX_CONST(uint, kViewPanels, 2u);
 VX_CONST(uint, kFinePanels, 4u);
 
@@ -54,13 +54,14 @@ VX_FN uint view_columns(uint resolution) {
 VX_FN uint view_texels(uint resolution) {
     return (resolution + resolution / 2u) * view_columns(resolution);
 }
-// A texel has two colours: the light but for what aerosol scattered once, and that over its phase function.
+// A texel has two colours: the light without what aerosol scattered once, and that divided by its phase
+// function.
 VX_CONST(uint, kViewColours, 2u);
 
-// Radians by which the rows next to the horizon keep off it.
+// Distance in radians of the rows next to the horizon from it.
 VX_CONST(float, kHorizonGap, 1e-6f);
 
-// Where rays from an observer enter the air: 0 inside it, negative where they miss it.
+// Distance at which rays from an observer enter the air: 0 inside it, negative where they miss it.
 VX_FN float distance_to_air(float h, float cosine) {
     if (h <= kAirTop) return 0.0f;
     const float b = (kGroundRadius + h) * cosine;
@@ -69,7 +70,7 @@ VX_FN float distance_to_air(float h, float cosine) {
     return b < 0.0f && square >= 0.0f ? c / (sqrt(square) - b) : -1.0f;
 }
 
-// Place in a table with texels on both ends.
+// Position in a table with texels at both ends.
 struct ViewPlace {
     float row;
     float column;
@@ -102,8 +103,8 @@ VX_FN float view_azimuth(SkyParams sky, uint column) {
     return kPi * (float(column) / float(view_columns(sky.resolution) - 1u));
 }
 
-// Directions by which the irradiance of a surface is summed: elevations on either side of the horizon, denser
-// towards it, times azimuths all round. Midpoints.
+// Directions over which the irradiance of a surface is summed: elevations on either side of the horizon,
+// denser towards it, times azimuths all round. Midpoints.
 VX_CONST(uint, kFaceElevations, 24u);  // on a side
 VX_CONST(uint, kFaceAzimuths, 32u);
 VX_CONST(uint, kFaceRays, 2u * kFaceElevations * kFaceAzimuths);

@@ -1,11 +1,11 @@
-// Owen-scrambled Sobol' sequence by hashing: 2-D points in pairs of dimensions. Three pairs make a group with
+// Owen-scrambled Sobol' sequence by hashing: 2-D points in pairs of dimensions. Three pairs form a group with
 // one shuffle of the index, and each coordinate has its own scramble. Source: Burley 2020, "Practical
 // Hash-based Owen Scrambling", JCGT 9(4), sections 3 to 5. We differ in two things. The hash inside the
 // scramble is Vegdahl's of 2021, "Building a Better LK Hash" (psychopath.io), which has less correlation
 // between neighbouring streams than the constants of the paper. And the later pairs of a group are not
 // further Sobol' dimensions but the first two in another order (sobol_reorder), so that each pair alone is as
-// even as two dimensions can be, and the pairs together are even too: occlusion and the place in the pixel
-// are one 4-D integral. 32-bit integers throughout: the sequence has 2^32 points and nothing rounds.
+// even as two dimensions can be, and the pairs together are even, too: occlusion and the position in the
+// pixel are one 4-D integral. 32-bit integers throughout: the sequence has 2^32 points and nothing rounds.
 #ifndef VX_SOBOL_H
 #define VX_SOBOL_H
 
@@ -46,9 +46,8 @@ VX_FN uint owen_scramble(uint v, uint seed) {
 VX_CONST(uint, kSobolGroup, 3u);       // pairs
 VX_CONST(uint, kSobolOrderBits, 14u);  // of the index that take part in an order: 16384 samples
 // Columns of two unitriangular matrices over GF(2), lowest bit first. Found by a beam search, column by
-// column, that made small the t-values of the first 2^m points, m to 14, of the group's first four
-// dimensions, then of all six; a test holds what it found: t = 3 for the first 1024 points of the first two
-// pairs.
+// column, that minimized the t-values of the first 2^m points, m to 14, of the group's first four dimensions,
+// then of all six. A test checks the result: t = 3 for the first 1024 points of the first two pairs.
 VX_CONST_LIST(uint, kSobolOrder, 28) = {
     0x0001u, 0x0002u, 0x0005u, 0x000Bu, 0x0010u, 0x0021u, 0x0043u, 0x00FEu, 0x015Bu, 0x0211u,
     0x0402u, 0x0827u, 0x199Fu, 0x3D93u, 0x0001u, 0x0003u, 0x0004u, 0x000Au, 0x0017u, 0x0038u,
@@ -66,8 +65,8 @@ VX_FN uint sobol_reorder(uint index, uint place) {
     return order;
 }
 
-// The words that scramble one pair of dimensions of one stream: y and z for its coordinates. x shuffles the
-// index of the group whose number it is.
+// The words that scramble one pair of dimensions of one stream: y and z for its coordinates; x shuffles the
+// index and belongs to the group with that number.
 VX_FN uvec3 sobol_seeds(uint seed, uint stream, uint pair) {
     uvec4 v = pcg4d(uvec4(seed, stream, pair, kSobolSalt));
     return uvec3(pcg_hash(v.y), pcg_hash(v.z), pcg_hash(v.w));

@@ -12,21 +12,21 @@
 VX_BEGIN
 
 struct Sphere {
-    vec3 anchor;      // a point of the sphere, best the one nearest to what looks at it; world voxels
+    vec3 anchor;      // a point of the sphere, best the one nearest to the rays' origins; world voxels
     float curvature;  // 1 / radius, >= 0; 1 / voxel
     vec3 normal;      // outward, unit, at the anchor
 };
 
 struct SphereHit {
     bool hit;
-    float t;      // in units of the direction, inside the asked interval
+    float t;      // in units of the direction, inside the given interval
     vec3 normal;  // outward, unit
 };
 
 #ifdef __cplusplus
-// The sphere of a centre and a radius > 0, anchored at its point nearest to `near`; worked out in double
-// because a float cannot hold a big centre and a small anchor together. A `near` at the centre takes the top
-// as anchor.
+// The sphere with a centre and a radius > 0, anchored at its point nearest to `near`; computed in double
+// because a float cannot hold a big centre and a small anchor together. If `near` is the centre, the anchor
+// is the top.
 inline Sphere sphere_anchored_near(glm::dvec3 centre, double radius, glm::dvec3 near) {
     const glm::dvec3 away = near - centre;
     const double distance = glm::length(away);
@@ -95,7 +95,7 @@ VX_FN SphereHit sphere_intersect(Sphere sphere, vec3 origin, vec3 direction, flo
 
     VX_PRECISE vec3 normal = crossing.across + (take_h ? -crossing.s : crossing.s) * direction;
     VX_PRECISE float length_squared = dot(normal, normal);
-    // Counts as a hit only where the numbers held: NaN and infinity fail both comparisons.
+    // Rejects overflow: NaN and infinity fail both comparisons.
     if (!(length_squared > 0.25f && length_squared < 4.0f)) return result;
     result.hit = true;
     result.t = take_h ? crossing.t_h : crossing.t_c;
@@ -103,9 +103,9 @@ VX_FN SphereHit sphere_intersect(Sphere sphere, vec3 origin, vec3 direction, flo
     return result;
 }
 
-// The time of sphere_intersect() from t_min = 0, without the normal; t_max where there is no crossing before.
-// `starts_on` says that the ray starts on the sphere: that crossing is known and left out, whatever the
-// rounding of the start.
+// The t of sphere_intersect() from t_min = 0, without the normal; t_max where there is no crossing before it.
+// `starts_on` says that the ray starts on the sphere: that known crossing is left out, whatever the rounding
+// of the origin.
 VX_FN float sphere_time(Sphere sphere, vec3 origin, vec3 direction, float t_max, bool starts_on) {
     VX_PRECISE vec3 q = origin - sphere.anchor;
     VX_PRECISE vec3 gradient = sphere.normal + sphere.curvature * q;
@@ -124,7 +124,7 @@ VX_FN float sphere_time(Sphere sphere, vec3 origin, vec3 direction, float t_max,
     return discriminant >= 0.0f ? t : t_max;
 }
 
-// Whether a point is inside: k |q|^2 + 2 q.normal < 0. On the surface rounding decides.
+// Whether a point is inside: k |q|^2 + 2 q.normal < 0. On the surface, rounding decides.
 VX_FN bool is_in_sphere(Sphere sphere, vec3 point) {
     VX_PRECISE vec3 q = point - sphere.anchor;
     VX_PRECISE float f = sphere.curvature * dot(q, q) + 2.0f * dot(q, sphere.normal);

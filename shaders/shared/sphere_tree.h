@@ -1,8 +1,8 @@
-// A bounding volume hierarchy over spheres, its nodes in depth-first order: a ray that meets a box goes on
-// with the next node, one that misses it with the node behind all that the box holds. So a walk needs no
-// stack and is one flat loop.
+// A bounding volume hierarchy over spheres, its nodes in depth-first order: a ray that hits a box continues
+// with the next node, one that misses it with the node after all that the box contains. So a traversal needs
+// no stack and is one flat loop.
 //
-// The including side defines VX_SPHERES_PARAM, VX_SPHERES_ARG, load_sphere_node() and load_sphere().
+// The including file defines VX_SPHERES_PARAM, VX_SPHERES_ARG, load_sphere_node() and load_sphere().
 #ifndef VX_SPHERE_TREE_H
 #define VX_SPHERE_TREE_H
 
@@ -15,7 +15,7 @@ VX_BEGIN
 struct NearestSphere {
     uint i;  // kNoSphere: none before t
     float t;
-    uint steps;  // nodes that were visited
+    uint steps;  // visited nodes
 };
 
 // The smallest glass sphere around a point.
@@ -25,7 +25,8 @@ struct EnclosingSphere {
     uint steps;
 };
 
-// How far rounding may move what sphere_time() and is_in_sphere() take for the sphere, seen from a point.
+// Bound of the rounding errors of sphere_time() and is_in_sphere() for spheres in this box, seen from the
+// origin.
 VX_FN vec3 node_slack(vec3 low, vec3 high) {
     vec3 reach = max(abs(low), abs(high));
     return vec3(kSphereSlack * max(reach.x, max(reach.y, reach.z)));
@@ -38,7 +39,7 @@ VX_FN vec3 slab_scale(vec3 direction) {
                 1.0f / (abs(direction.z) < kLeastSlope ? kLeastSlope : direction.z));
 }
 
-// Whether a ray may meet a sphere in the box of the node at a time in [0, t_max].
+// Whether a ray may hit a sphere in the box of the node at a t in [0, t_max].
 VX_FN bool is_node_met(SphereNode node, vec3 origin, vec3 scale, float t_max) {
     vec3 low = node.low - origin;
     vec3 high = node.high - origin;
@@ -61,8 +62,8 @@ VX_FN bool is_node_near(SphereNode node, vec3 point, float radius) {
     return max(beyond.x, max(beyond.y, beyond.z)) <= 0.0f;
 }
 
-// The first sphere that a ray crosses before t_max, of equal times that of the smallest number. `own` is the
-// sphere that the ray starts on.
+// The first sphere that a ray crosses before t_max; at equal t the one with the smallest index. `own` is the
+// sphere on which the ray starts.
 VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origin, vec3 direction,
                                     float t_max, uint own) {
     NearestSphere nearest;
@@ -87,7 +88,8 @@ VX_FN NearestSphere nearest_in_tree(VX_SPHERES_PARAM uint node_count, vec3 origi
     return nearest;
 }
 
-// The smallest of the first `glass_count` spheres around a point, other than `but`. Of equal ones the later.
+// The smallest of the first `glass_count` spheres around a point, other than `but`; of equal ones the one
+// with the higher index.
 VX_FN EnclosingSphere enclosing_in_tree(VX_SPHERES_PARAM uint node_count, vec3 point, uint glass_count,
                                         uint but) {
     EnclosingSphere around;

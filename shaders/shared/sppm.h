@@ -1,6 +1,6 @@
-// The arithmetic of progressive photon mapping with one radius for all of an iteration, which depends on the
-// number of the iteration alone: iterations are independent and may run in any order, anywhere. Source: Knaus
-// and Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), eq. 18.
+// The arithmetic of progressive photon mapping with one radius per iteration, which depends on the index of
+// the iteration alone: iterations are independent and may run in any order, anywhere. Source: Knaus and
+// Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG 30(3), eq. 18.
 #ifndef VX_SPPM_H
 #define VX_SPPM_H
 
@@ -29,10 +29,10 @@ VX_FN float photon_kernel(float distance_squared, float radius) {
     return distance_squared <= radius_squared ? kInversePi / radius_squared : 0.0f;
 }
 
-// Radius of a pixel after it met so many more photons: N' = N + alpha M, r'^2 = r^2 N' / (N + M). The flux
-// that the paper keeps beside them, tau' = (tau + phi) r'^2 / r^2, is not needed: its density tau / (pi r^2)
-// grows in each iteration by that of the new photons, phi / (pi r^2) with the radius before, so the mean of
-// those densities is the paper's estimate. Source: Hachisuka and Jensen 2009, "Stochastic Progressive Photon
+// Radius of a pixel after M = `met` more photons: N' = N + alpha M, r'^2 = r^2 N' / (N + M). The flux that
+// the paper keeps beside them, tau' = (tau + phi) r'^2 / r^2, is not needed: its density tau / (pi r^2) grows
+// in each iteration by that of the new photons, phi / (pi r^2) with the radius before, so the mean of those
+// densities is the paper's estimate. Source: Hachisuka and Jensen 2009, "Stochastic Progressive Photon
 // Mapping", ACM TOG 28(5), eq. 6 to 9.
 VX_FN PixelRadius shrunk_radius(PixelRadius before, float met, float alpha) {
     PixelRadius after = before;
@@ -45,10 +45,10 @@ VX_FN PixelRadius shrunk_radius(PixelRadius before, float met, float alpha) {
     return after;
 }
 
-// Probability with which a path of this throughput goes on; what goes on is divided by it. It is the largest
-// component, at most 1, rounded up to a multiple of 2^-24, so that `u < survival` is as likely as it says for
-// u = unit_float(): roulette is unbiased down to the smallest throughput. 0 for a dead path. What is not a
-// number or infinite survives, to be counted as a fault where it arrives.
+// Probability with which a path of this throughput continues; the throughput is then divided by it. It is the
+// largest component, at most 1, rounded up to a multiple of 2^-24, so that `u < survival` has exactly this
+// probability for u = unit_float(): roulette is unbiased down to the smallest throughput. 0 for a path
+// without throughput. NaN and infinity survive, to be counted as a fault where the path arrives.
 VX_FN float roulette_survival(vec3 throughput) {
     float largest = max(max(throughput.x, throughput.y), throughput.z);
     if (largest <= 0.0f) return 0.0f;
@@ -60,7 +60,7 @@ VX_FN float roulette_survival(vec3 throughput) {
 
 // A photon that leaves a sphere.
 struct SphereEmission {
-    vec3 normal;     // where: centre + radius * normal
+    vec3 normal;     // position: centre + radius * normal
     vec3 direction;  // unit, away from the sphere
 };
 
@@ -73,20 +73,20 @@ VX_FN SphereEmission sphere_emission(vec2 u_place, vec2 u_direction) {
     return emission;
 }
 
-// Power over radiance: pi times the area, 4 pi^2 r^2.
+// Etendue (power / radiance): pi times the area, 4 pi^2 r^2.
 VX_FN float sphere_emission_etendue(float radius) {
     return 39.4784176f * radius * radius;
 }
 
-// The cone under which a sphere is seen.
+// The cone that a sphere subtends.
 struct SphereCone {
     vec3 axis;     // unit, towards the centre
-    float height;  // 1 - cos of its half angle, in (0, 1); 0 from inside or on the sphere: there is none
+    float height;  // 1 - cos of its half angle, in (0, 1); 0 on or inside the sphere: no cone
 };
 
-// `to_centre` is the way to the centre. 1 - cos = sin^2 / (1 + cos) keeps all bits of a tiny light, and 1 -
-// sin = (d - r) / d those of one that is very near.
-// Source: Pharr et al., "Physically Based Rendering", 4th edition, section 6.2.4.
+// `to_centre` is the vector to the centre. 1 - cos = sin^2 / (1 + cos) keeps all bits for a tiny light, and 1
+// - sin = (d - r) / d for a very near one. Source: Pharr et al., "Physically Based Rendering", 4th edition,
+// section 6.2.4.
 VX_FN SphereCone sphere_cone(vec3 to_centre, float radius) {
     VX_PRECISE float square = dot(to_centre, to_centre);
     float distance_to = sqrt(square);
@@ -102,7 +102,7 @@ VX_FN SphereCone sphere_cone(vec3 to_centre, float radius) {
     return cone;
 }
 
-// Per solid angle, of uniform_cone(cone.axis, cone.height, u); the height is not 0.
+// Density per solid angle of uniform_cone(cone.axis, cone.height, u); the height is not 0.
 VX_FN float sphere_cone_pdf(SphereCone cone) {
     return 1.0f / cone_solid_angle(cone.height);
 }

@@ -1,4 +1,4 @@
-// From linear light to what a display shows: of PNGs on the host, of a window on the device.
+// From linear light to what a display shows, for PNGs on the host and for a window on the device.
 #ifndef VX_TONE_CURVE_H
 #define VX_TONE_CURVE_H
 
@@ -6,14 +6,14 @@
 
 VX_BEGIN
 
-// Brings the fit to the brightness of the ACES reference (Narkowicz 2016).
+// Matches the fit to the luminance of the ACES reference (Narkowicz 2016).
 VX_CONST(float, kPreExposure, 0.6f);
-// The fit passes 1 at 7.25; beyond, squares would overflow long before infinity.
+// The fit exceeds 1 from 7.25 on; for large values, its squares would overflow.
 VX_CONST(float, kFitWhite, 16.0f);
 
-// Filmic: of the published curves (Hable 2010, Narkowicz 2016, Khronos PBR Neutral 2024) this is the fit with
-// the fewest constants (K. Narkowicz 2016). It maps 0 to 0, rises everywhere, and HDR-FLIP uses the very same
-// curve, so the error that the metric sees is the one a viewer sees. `linear` >= 0.
+// Filmic: of the published curves (Hable 2010, Narkowicz 2016, Khronos PBR Neutral 2024) this fit has the
+// fewest constants (K. Narkowicz 2016). It maps 0 to 0, rises everywhere, and HDR-FLIP uses the same curve,
+// so the metric sees the same error as a viewer. `linear` >= 0.
 VX_FN float filmic_curve(float linear) {
     float x = min(linear * kPreExposure, kFitWhite);
     return min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);

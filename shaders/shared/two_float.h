@@ -1,9 +1,9 @@
 // Numbers of about 48 bits as the unevaluated sum of two floats, for places where 24 bits are too few and
 // doubles are not portable. No fma: devices need not fuse it. Every step is precise, because the error terms
-// are zero in real arithmetic and a driver that re-associates removes them.
+// are zero in real arithmetic, and a driver that re-associates would remove them.
 //
 // Domain: operands of magnitude 2^-100 to 2^100 or zero; products, quotients and numerators of 2^-70 to 2^100
-// or zero. There no split overflows and no error term underflows.
+// or zero. In it no split overflows and no error term underflows.
 //
 // Sources: Dekker 1971, "A Floating-Point Technique for Extending the Available Precision"; Joldes, Muller
 // and Popescu 2017, "Tight and Rigorous Error Bounds for Basic Building Blocks of Double-Word Arithmetic",

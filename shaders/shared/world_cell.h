@@ -77,7 +77,7 @@ VX_FN int root_log2(uint traversal) {
     return traversal == kTraversalBrick4 || traversal == kTraversalWide ? kBrickLog2 : kChunkLog2;
 }
 
-// Whether chunks have bricks as children.
+// Whether bricks are the children of chunks.
 VX_FN bool has_brick_nodes(uint traversal) {
     return traversal == kTraversalNaadf || traversal == kTraversalDeep;
 }
@@ -91,31 +91,31 @@ VX_FN bool is_outside(ivec3 local, ivec3 size) {
     return uint(local.x) >= uint(size.x) || uint(local.y) >= uint(size.y) || uint(local.z) >= uint(size.z);
 }
 
-// Number of a root cell in a grid of `size` cells.
+// Index of a root cell in a grid of `size` cells.
 VX_FN uint grid_index(ivec3 cell, ivec3 size) {
     return uint(cell.x) + uint(size.x) * (uint(cell.y) + uint(size.y) * uint(cell.z));
 }
 
-// Word of the roots that holds the cell of `local`. Bricks are in order of their chunks, 64 together: a ray
-// stays in few cache lines.
+// Index of the root word that holds the cell of `local`. Bricks are in the order of their chunks, 64
+// together, so that a ray stays in few cache lines.
 VX_FN uint root_index(ivec3 local, ivec3 chunks, int log2) {
     if (log2 == kBrickLog2)
         return grid_index(local >> kChunkLog2, chunks) * 64u + child_slot((local >> kBrickLog2) & 3);
     return grid_index(local >> log2, (chunks << kChunkLog2) >> log2);
 }
 
-// Cell of a grid by its number.
+// Cell of a grid by its index.
 VX_FN ivec3 grid_cell(uint index, ivec3 size) {
     const int row = int(index / uint(size.x));
     return ivec3(int(index % uint(size.x)), row % size.y, row / size.y);
 }
 
-// Place of a child in its parent.
+// Position of a child in its parent.
 VX_FN ivec3 slot_cell(uint slot) {
     return ivec3(int(slot & 3u), int((slot >> 2u) & 3u), int(slot >> 4u));
 }
 
-// Cell that is the child `slot` of the cell `parent`, in cells of its own edge.
+// The child `slot` of the cell `parent`, in cells of the child's size.
 VX_FN ivec3 child_cell(ivec3 parent, uint slot) {
     return parent * 4 + slot_cell(slot);
 }

@@ -394,7 +394,7 @@ TEST(MeshFeatures, animation_of_nodes_is_noted) {
         file.root["animations"] = {{{"channels", {{{"target", {{"node", 0}, {"path", path}}}}}}}};
         return load(file).notes;
     };
-    EXPECT_EQ(animate("rotation"), "an animation is ignored: the mesh is read in its pose of rest\n");
+    EXPECT_EQ(animate("rotation"), "an animation is ignored: the mesh is read in its rest pose\n");
     EXPECT_EQ(animate("weights"), "");
     file.root["animations"] = {1, {{"channels", 3}}, {{"channels", {json::object(), {{"target", 1}}}}}};
     EXPECT_EQ(load(file).refusal, "");

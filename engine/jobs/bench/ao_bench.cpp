@@ -10,7 +10,7 @@
 namespace voxilux {
 namespace {
 
-// Frames whose error is measured: powers of 4, and the last.
+// Frames whose error is measured: powers of 4, and the last one.
 std::vector<int> measured_frames(int frames) {
     std::vector<int> measured;
     for (int frame = 1; frame < frames; frame *= 4)
@@ -19,7 +19,7 @@ std::vector<int> measured_frames(int frames) {
     return measured;
 }
 
-// References by what the camera sees.
+// References, shared by variants whose camera sees the same.
 class References {
   public:
     References(AoStage& stage, std::uint32_t rays) : stage_(stage), rays_(rays) {}
@@ -71,7 +71,7 @@ void set_counts(AoRow& row, const AoFootage& footage) {
     row.load = static_cast<double>(row.cells) / footage.slots;
 }
 
-// Takes the times of a round into a row that keeps the best.
+// Keeps the better times of a row and a new round.
 void take_times(AoRow& row, const AoFootage& footage) {
     std::map<std::string, std::vector<double>> ms;
     std::vector<double> cpu_ms;
@@ -92,8 +92,8 @@ void take_times(AoRow& row, const AoFootage& footage) {
     }
 }
 
-// The row of a first round: quality and counts are the same in all of them. Brute force repeats its rays: it
-// has no flicker that means anything.
+// The row of a first round: quality and counts are the same in all rounds. Brute force repeats its rays, so
+// it has no meaningful flicker.
 AoRow measure(const AoTake& take, AoStage& stage, References& references) {
     AoTake kept = take;
     for (const int frame : measured_frames(take.frames))

@@ -10,7 +10,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180.0;  // of a degree
+constexpr double kRadian = std::numbers::pi / 180.0;  // per degree
 constexpr double kSteepestPitchDeg = 80.0;
 constexpr std::array<std::string_view, kMotions.size()> kNames = {"still", "pan", "walk", "floor"};
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What `bench ao` measures of frames, as numbers.
+// The measures that `bench ao` takes of frames.
 
 #include <array>
 #include <cstddef>
@@ -12,25 +12,24 @@
 
 namespace voxilux {
 
-// Visibility in [0,1] of some pixels of a picture, from many rays.
+// Visibility in [0,1] of some pixels of an image, from many rays.
 struct AoReference {
-    std::vector<std::size_t> pixels;  // numbers in the picture, row by row
-    std::vector<float> visibility;    // of those
+    std::vector<std::size_t> pixels;  // indices in the image, row by row
+    std::vector<float> visibility;    // of these pixels
 };
 
-// Root of the mean squared difference over the reference's pixels; 0 when it has none. `visibility` is that
-// of the whole picture.
+// RMS difference over the reference's pixels; 0 when it has none. `visibility` covers the whole image.
 [[nodiscard]] double rmse_over(const AoReference& reference, std::span<const float> visibility);
 
-// Mean absolute difference of two pictures over some pixels; 0 when there are none.
+// Mean absolute difference of two images over some pixels; 0 when there are none.
 [[nodiscard]] double mean_change(std::span<const float> before, std::span<const float> after,
                                  std::span<const std::size_t> pixels);
 
-// The root of the mean variance that the reference itself has when its `rays` are independent. Rays that
-// follow a low-discrepancy sequence have less.
+// RMS noise of the reference itself when its `rays` are independent. Rays that follow a low-discrepancy
+// sequence have less.
 [[nodiscard]] double noise_bound(const AoReference& reference, std::uint32_t rays);
 
-// Sums of a counters (shared/counters.h) over some frames.
+// Sums of counters (shared/counters.h) over some frames.
 struct AoWork {
     std::uint64_t frames = 0;
     std::array<std::uint64_t, gpu::kCounterCount> counts{};
@@ -41,13 +40,13 @@ struct AoWork {
 };
 
 // Atomic operations on the table in a frame: one for each compare-and-swap of a key, and for each hit that
-// takes samples for its cell one for their number and one for the open ones.
+// adds samples to its cell one for their number and one for the unoccluded ones.
 [[nodiscard]] double atomics_per_frame(const AoWork& work, std::uint32_t rays_per_sample);
 
-// Hits of cells that were searched in the table, in percent of all of them; 0 without any.
+// Percentage of hits whose cells were searched in the table; 0 without hits.
 [[nodiscard]] double searched_percent(const AoWork& work);
 
-// Keys looked at per search; 0 without one.
+// Keys compared per search; 0 without searches.
 [[nodiscard]] double probes_per_search(const AoWork& work);
 
 }  // namespace voxilux

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Columns of times; ao.trace is what brute force has instead of ao.sample.
+// Columns of times. Brute force has ao.trace in place of ao.sample.
 constexpr std::array<std::string_view, 8> kPasses = {"ao.age",    "ao.lookup",  "ao.reproject", "ao.search",
                                                      "ao.sample", "ao.resolve", "ao.filter",    "ao.trace"};
 
@@ -22,8 +22,8 @@ std::string time_of(const AoRow& row, std::string_view label) {
 
 std::string heading_of(const AoRow& row) {
     std::string text = fmt::format(
-        "scene     {}, {}: {} frames, {} per pixel; the reference is off by {:.4f} at most\n", row.scene,
-        row.motion, row.frames,
+        "scene     {}, {}: {} frames, {} per pixel; the reference has an error of {:.4f} at most\n",
+        row.scene, row.motion, row.frames,
         row.rays_per_pixel == 1 ? "1 ray" : fmt::format("{} rays", row.rays_per_pixel), row.reference_noise);
     text += fmt::format("{:<13} {:>7}", "variant, ms", "ao");
     for (const std::string_view label : kPasses)

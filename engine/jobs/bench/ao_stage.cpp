@@ -19,26 +19,26 @@
 namespace voxilux {
 namespace {
 
-// The reference traces kStripRows rows of every kStripPeriod: enough pixels for a mean at a quarter of the
+// The reference traces kStripRows rows of every kStripPeriod: enough pixels for a mean, in a quarter of the
 // time. A strip is as high as a workgroup.
 constexpr std::uint32_t kStripRows = 8;
 constexpr std::uint32_t kStripPeriod = 32;
 
 constexpr int kMaterials = 24;  // of procedural_scene
 
-// Occlusion and what it needs; no sun and no planes for files.
+// Occlusion and what it needs, without the sun and without output files.
 PlanRequest occlusion_request(int frames) {
     PlanRequest request{.frames = static_cast<std::uint32_t>(frames)};
     request.effects.switches = {{Effect::ao, Switch::on}, {Effect::sun, Switch::off}};
     return request;
 }
 
-// The last buffer that holds the visibility of a frame.
+// The buffer that holds the final visibility of a frame.
 std::string visibility_buffer(const RenderPlan& plan) {
     return plan.ao.uses_cells() && plan.settings.ao.filter % 2 == 1 ? "ao.filtered" : "ao.visibility";
 }
 
-// Of the tile, not of the buffer: that has room for the largest tile.
+// Pixels of the tile. The buffer has room for the largest tile.
 std::uint64_t pixels_of(const RenderPlan& plan, const DispatchTile& tile) {
     return std::uint64_t{tile.row_count} * static_cast<std::uint64_t>(plan.settings.size.x);
 }
@@ -50,7 +50,7 @@ std::vector<AoPassTime> occlusion_times(const RunResult& result) {
     return times;
 }
 
-// The rows from `first` on that a reference traces at once.
+// The strip of rows, beginning at `first`, that a reference traces at once.
 DispatchTile strip_at(const RenderPlan& plan, std::uint32_t first) {
     const auto height = static_cast<std::uint32_t>(plan.settings.size.y);
     const std::uint32_t film_tile = first / plan.film_tile_rows;
@@ -65,7 +65,7 @@ struct TracedStrip {
     std::string visibility;
 };
 
-// Hits where `params` look, and their visibility by rays of the Sobol sequence.
+// Records the hits of a strip and their visibility by rays of the Sobol sequence.
 TracedStrip record_strip(const RenderPlan& plan, const DispatchTile& tile, gpu::FrameParams params,
                          Recording& recording) {
     params.first_row = tile.first_row;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The ways of finding occlusion that `bench ao` compares.
+// The variants of occlusion that `bench ao` compares.
 
 #include <string>
 #include <string_view>
@@ -18,7 +18,7 @@ struct AoVariant {
     bool operator==(const AoVariant&) const = default;
 };
 
-// The one that the others are compared with: rays for each pixel alone, and no memory of earlier frames.
+// The baseline: rays for each pixel alone, and no memory of earlier frames.
 inline constexpr const char* kAoBaseline = "brute";
 
 // Brute force, the hash as it is by default, and the hash with one option changed.
@@ -27,7 +27,8 @@ inline constexpr const char* kAoBaseline = "brute";
 // The variant of that name; Error(usage) with the known names when there is none.
 [[nodiscard]] const AoVariant& ao_variant_named(std::string_view name);
 
-// Whether a variant is the hash with a width of cells and no other change: they have a bias of their own.
+// Whether a variant is the hash with another cell width and no other change: such variants have a bias of
+// their own.
 [[nodiscard]] bool sets_only_width(const AoVariant& variant);
 
 }  // namespace voxilux

@@ -5,7 +5,7 @@
 
 #include "jobs/bench/item_named.h"
 #include "scene/scene_camera.h"
-#include "world/world_view.h"  // gives camera.h the world that it marches
+#include "world/world_view.h"  // needs the world access that this header gives
 
 #include "shared/camera.h"
 #include "shared/sampling.h"
@@ -17,7 +17,7 @@ constexpr float kOcclusionReach = 32.0f;  // voxels
 constexpr int kTile = 8;                  // pixels
 constexpr std::array<std::string_view, kRayKinds.size()> kRayNames = {"primary", "ao", "long"};
 
-// What camera_ray reads of the parameters.
+// The parameters that camera_ray reads.
 gpu::FrameParams camera_params(const BenchScene& scene, glm::ivec2 size, std::uint32_t seed) {
     const glm::dvec3 local = scene.camera.position - glm::dvec3(scene.world.origin());
     const glm::dvec3 cell = glm::floor(local);
@@ -36,7 +36,7 @@ gpu::FrameParams camera_params(const BenchScene& scene, glm::ivec2 size, std::ui
     return params;
 }
 
-// Pixels of the picture in the order of bench_rays: visit(x, y).
+// Calls visit(x, y) for the pixels of the image in the order of bench_rays.
 template <class Visit>
 void for_each_pixel(glm::ivec2 size, const Visit& visit) {
     const glm::ivec2 tiles = (size + kTile - 1) / kTile;

@@ -14,8 +14,8 @@
 
 namespace voxilux {
 
-// primary: one through each pixel. ao: one cosine-distributed ray off each surface that those meet, 32 voxels
-// long. unbounded: the same without end.
+// primary: one ray through each pixel. ao: one cosine-distributed ray, 32 voxels long, from each surface that
+// those hit. unbounded: the same without a limit.
 enum class RayKind : std::uint8_t { primary, ao, unbounded };
 inline constexpr std::array kRayKinds = {RayKind::primary, RayKind::ao, RayKind::unbounded};
 
@@ -25,9 +25,9 @@ inline constexpr std::array kRayKinds = {RayKind::primary, RayKind::ao, RayKind:
 // The kind of that name; Error(usage) with the known names when there is none.
 [[nodiscard]] RayKind ray_kind_named(std::string_view name);
 
-// The rays of a kind through a picture of `size` pixels, local to the world, in the order in which a render
-// marches them: tiles of 8 x 8 pixels, 64 in a row, the rows of tiles dealt alternately to the two halves of
-// the list. Only rays that exist are in it. `guide` is any structure of the scene's world.
+// The rays of a kind through an image of `size` pixels, local to the world, in the order in which a render
+// marches them: tiles of 8 x 8 pixels, 64 in a row, with rows of tiles dealt alternately to the two halves of
+// the list. Pixels without such a ray are left out. `guide` is any structure of the scene's world.
 [[nodiscard]] std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guide, RayKind kind,
                                                glm::ivec2 size, std::uint32_t seed);
 

@@ -31,7 +31,7 @@ const BenchRow* find_rays(const Rows& rows, const std::string& rays) {
     return found == rows.end() ? nullptr : *found;
 }
 
-// Geometric mean of the rates relative to the baseline's, over the rays that both have run.
+// Geometric mean of the rates relative to the baseline's, over the kinds of rays that both have run.
 std::optional<double> relative_rate(const Rows& rows, const Rows& baseline) {
     double sum = 0.0;
     int count = 0;

@@ -27,14 +27,14 @@ struct Dice {
     std::uint32_t object;
     std::uint32_t next = 0;
 
-    // Between `low` and `high`, in voxels of a world of `extent`, from shares of it.
+    // Between `low` and `high`, which are fractions of `extent`, in voxels.
     double between(double low, double high, int extent) {
         const double u = static_cast<double>(gpu::rng_float(seed, stream, object, next++));
         return (low + (high - low) * u) * extent;
     }
 };
 
-// Heights of the ground, and what is drawn on it.
+// The heights of the ground, and the voxels that are placed.
 class ProceduralWorld {
   public:
     ProceduralWorld(int extent, std::uint32_t seed)
@@ -69,7 +69,7 @@ class ProceduralWorld {
                         static_cast<std::size_t>(extent_) * static_cast<std::size_t>(column.y)];
     }
 
-    // The border of the grid stays empty, as VoxelWorld asks.
+    // The border of the grid stays empty, as VoxelWorld requires.
     void put(glm::ivec3 cell, int material) {
         if (glm::any(glm::lessThan(cell, glm::ivec3(1))) ||
             glm::any(glm::greaterThanEqual(cell, glm::ivec3(extent_ - 1))))
@@ -77,7 +77,7 @@ class ProceduralWorld {
         world.set(cell, static_cast<std::uint16_t>(material));
     }
 
-    // A column reaches down to the lowest of its neighbours, so that steep ground has no holes.
+    // A column reaches down to its lowest neighbour, so that steep ground has no holes.
     void draw_ground() {
         const int film_tile = std::max(1, extent_ / 4 / kMaterialsEach);
         for (int y = 0; y < extent_; ++y) {
@@ -116,14 +116,14 @@ class ProceduralWorld {
         }
     }
 
-    // Whether a place on a wall is in a window in one of the wall's two directions.
+    // Whether a position along one direction of a wall is inside a window.
     [[nodiscard]] bool is_open(int along) const {
         const int period = std::max(4, extent_ / 16);
         const int at = along % period;
         return at >= period / 4 && at < period - period / 4;
     }
 
-    // Column by column: the cells between two spheres.
+    // Fills the cells between two spheres, column by column.
     void draw_sphere(Dice dice) {
         const double radius = std::max(3.0, dice.between(0.02, 0.055, extent_));
         const glm::dvec3 centre(dice.between(0.1, 0.9, extent_), dice.between(0.1, 0.9, extent_),

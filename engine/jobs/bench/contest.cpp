@@ -6,7 +6,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kMinTurnCpuS = 0.1;  // a turn repeats its rays until it takes this
+constexpr double kMinTurnCpuS = 0.1;  // a turn repeats its rays until it has taken this long
 constexpr double kMaxRepeats = 256;
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// Warms all contestants up, then lets each have its turn, `rounds` times: ratios of their times hold although
-// the load of the machine changes. A contestant keeps the best of its turns.
+// Warms all contestants up, then gives each its turn, `rounds` times: taking turns keeps ratios of times
+// valid while the load of the machine changes. A contestant keeps the best of its turns.
 template <class Contestant>
 void run_contest(std::vector<Contestant>& contestants, int rounds) {
     for (Contestant& contestant : contestants)
@@ -20,7 +20,7 @@ void run_contest(std::vector<Contestant>& contestants, int rounds) {
             contestant.take_turn();
 }
 
-// The rows of contestants, in their order.
+// The rows of contestants, in the same order.
 template <class Contestant>
 [[nodiscard]] auto rows_of(const std::vector<Contestant>& contestants) {
     std::vector<decltype(Contestant::row)> rows;
@@ -29,12 +29,12 @@ template <class Contestant>
     return rows;
 }
 
-// Rays through a structure, with the best rates so far. `run` runs them `repeats` times and returns what that
-// took; empty when the row has a reason or no rays.
+// Rays through a structure, with the best rates so far. `run` runs them `repeats` times and returns the time
+// that took; it is empty when the row has a reason or no rays.
 struct MarchContestant {
     BenchRow row;
     std::function<Seconds(std::uint32_t repeats)> run;
-    std::uint32_t repeats = 1;  // in a turn, which is too short to be timed without
+    std::uint32_t repeats = 1;  // per turn, because one run is too short to be timed
 
     void warm_up();
     void take_turn();

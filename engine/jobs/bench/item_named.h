@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// The item of that name; Error(usage) with the known names when there is none. `kind` is for the message,
-// `name_of` a member or a function of an item.
+// The item of that name; Error(usage) with the known names when there is none. `kind` is used in the message;
+// `name_of` is a member or a function of an item.
 template <class Items, class NameOf>
 [[nodiscard]] const auto& item_named(std::string_view kind, std::string_view name, const Items& items,
                                      NameOf name_of) {

@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-constexpr std::uint64_t kJudgedCells = 20'000'000;  // about a second of plain walking per kind of rays
+constexpr std::uint64_t kJudgedCells = 20'000'000;  // about a second of cell-by-cell walking per kind of rays
 
 BufferProxy rays_buffer(RayKind kind, std::uint32_t count) {
     return {fmt::format("bench.rays.{}", name_of(kind)), std::max(count, 1u) * sizeof(gpu::Ray), true};

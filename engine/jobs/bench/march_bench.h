@@ -16,7 +16,7 @@ struct MarchBenchOptions {
     std::vector<RayKind> kinds{kRayKinds.begin(), kRayKinds.end()};
     Builder builder = Builder::cpu;
     glm::ivec2 size{640, 360};  // pixels
-    int rounds = 5;             // each row takes the best of them
+    int rounds = 5;             // each row takes the best
     std::uint32_t seed = 0;
 };
 
@@ -26,12 +26,12 @@ class MarchBench {
     // Throws Error(out_of_memory) when the device cannot bind the rays.
     MarchBench(const BenchScene& scene, const MarchBenchOptions& options, Device& device);
 
-    // A row for each structure and kind of rays, its hits judged; structures that the device cannot bind give
-    // rows with a reason. They must not outlive this.
+    // A contestant for each structure and kind of rays, its hits checked; structures that the device cannot
+    // bind give rows with a reason. Contestants must not outlive this.
     [[nodiscard]] std::vector<MarchContestant> contestants();
 
   private:
-    // The rays of a kind, on the device, with what some of them must meet.
+    // The rays of one kind on the device, and the expected hits of some of them.
     struct RayList {
         RayKind kind;
         std::uint32_t count = 0;

@@ -16,12 +16,12 @@ constexpr std::uint32_t kMinPhotons = 1u << 12;
 constexpr std::uint32_t kMaxPhotons = 1u << 18;
 constexpr int kSmallestEdge = 64;
 constexpr int kLargestEdge = 512;
-// Iterations of the rows where photons or pixels grow: enough for a mean, few enough for the largest of them.
+// Iterations of the rows where photons or pixels grow: enough for a mean, and few enough for the largest row.
 constexpr std::uint32_t kGrowthIterations = 16;
-// A time that no sample keeps: a render that it limits ends after the first.
+// A time limit that every sample exceeds: the render ends after the first.
 constexpr double kNoTime = 1e-9;
 
-// A row and what renders it.
+// A row and its renderer.
 struct PhotonContestant {
     const PhotonBenchOptions& options;
     PhotonRow row;
@@ -47,7 +47,7 @@ PhotonContestant enter(const Scene& base, const PhotonVariant& variant, const Ph
     return contestant;
 }
 
-// One iteration, which compiles the shaders.
+// Takes one iteration, which compiles the shaders.
 void PhotonContestant::warm_up() {
     const RenderOutcome outcome = session->render(0, kNoTime);
     if (!outcome.plan.photons.runs()) {

@@ -19,7 +19,7 @@ std::size_t index_of(const Image& image, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
 }
 
-// Where a row of `size` pixels is read at `at`, mirrored at its borders as often as it takes.
+// The index that position `at` reads in a row of `size` pixels, mirrored at the borders as often as needed.
 int mirrored(int at, int size) {
     const int turn = ((at % (2 * size)) + 2 * size) % (2 * size);
     return turn < size ? turn : 2 * size - 1 - turn;

@@ -13,11 +13,11 @@
 namespace voxilux {
 namespace {
 
-// Columns of times. `sort` is what brings photons, or points where photons scatter, into order; `find` is
-// where the two meet.
+// Columns of times. `sort` puts photons, or points where photons are splatted, into order; `find` brings the
+// two together.
 constexpr std::array<std::string_view, 7> kColumns = {"camera", "direct", "emit", "trace",
                                                       "sort",   "find",   "rest"};
-// The first beginning that fits names the column of a pass.
+// The first prefix that matches a pass gives its column.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kColumnOf = {
     {{"primary.", "camera"},
      {"sphere.", "camera"},

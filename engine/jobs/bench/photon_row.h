@@ -17,36 +17,36 @@
 
 namespace voxilux {
 
-// One render. Times are those of the fastest round, counts the same in all.
+// One render. Times are those of the fastest round; counts are the same in all.
 struct PhotonRow {
     std::string scene;
-    std::string series;  // "options", or what grows: "photons", "size", "iterations"
+    std::string series;  // "options", or the quantity that grows: "photons", "size", "iterations"
     PhotonVariant variant;
     std::uint32_t photons = 0;  // emitted in an iteration
     glm::ivec2 size{0};
     std::uint32_t iterations = 0;
     double radius = 0.0;  // of the first iteration, voxels
     double alpha = 0.0;
-    double wall_s = 0.0;                      // from the plan to the picture
-    double cpu_s = 0.0;                       // of all threads
+    double wall_s = 0.0;                      // from the plan to the image
+    double cpu_s = 0.0;                       // all threads
     std::map<std::string, double> passes_ms;  // per iteration
-    std::uint64_t stored = 0;                 // photons, in all iterations
-    std::uint64_t segments = 0;               // ways from surface to surface, and shadow rays
-    std::uint64_t faults = 0;                 // of all kinds: photons without room, paths cut off and so on
+    std::uint64_t stored = 0;                 // photons, over all iterations
+    std::uint64_t segments = 0;               // of photon paths, and shadow rays
+    std::uint64_t faults = 0;  // of all kinds: photons that do not fit, paths cut off and so on
     std::optional<PhotonErrors> errors;
 
-    [[nodiscard]] double photons_per_s() const;  // of wall time
+    [[nodiscard]] double photons_per_s() const;  // per second of wall time
 };
 
-// How much the work of a series grows with what is varied.
+// How the work of a series grows with the quantity that is varied.
 struct PhotonGrowth {
     std::string scene;
     std::string series;
     std::optional<double> wall;            // exponent of the wall time
-    std::map<std::string, double> passes;  // of each pass's time in all iterations
+    std::map<std::string, double> passes;  // of each pass's time over all iterations
 };
 
-// The exponents of the rows of one series, which differ in one number only. Size counts pixels.
+// The exponents of the rows of one series, which differ in one quantity only. "size" counts pixels.
 [[nodiscard]] PhotonGrowth growth_of(std::span<const PhotonRow> rows);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const PhotonRow& row);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The ways of tracing photons that `bench photons` compares.
+// The variants of photon tracing that `bench photons` compares.
 
 #include <cstdint>
 #include <string>
@@ -16,12 +16,12 @@ struct PhotonVariant {
     bool scatter = false;
     bool classic = false;
     bool roulette = true;
-    std::uint32_t slowness = 1;  // it takes so many times fewer iterations
+    std::uint32_t slowness = 1;  // divides the number of iterations
 
     bool operator==(const PhotonVariant&) const = default;
 };
 
-// The default first, then the others with one option changed.
+// The default first, then variants with one option changed.
 [[nodiscard]] const std::vector<PhotonVariant>& photon_variants();
 
 // The variant of that name; Error(usage) with the known names when there is none.

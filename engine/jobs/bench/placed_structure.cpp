@@ -17,7 +17,7 @@ std::string buffer_of(Traversal traversal, const char* part) {
     return fmt::format("bench.{}.{}", name_of(traversal), part);
 }
 
-// A buffer has at least one word, also where a level of a structure has no cells.
+// A buffer has at least one word, even if a level of a structure has no cells.
 std::string declare(const std::string& name, std::uint64_t bytes, bool is_persistent, Recording& recording) {
     recording.declare(
         {.name = name, .size_bytes = std::max<std::uint64_t>(bytes, 4), .persistent = is_persistent});
@@ -45,7 +45,8 @@ void build_on_device(const PlacedStructure& placed, const MarchWorld& unexpanded
     executor.run(recording);
 }
 
-// Bytes that the structure takes even if all its bricks are equal: the paper's form stores those once.
+// A lower bound of the structure's bytes, valid even if all its bricks are equal: the paper's form stores
+// equal bricks once.
 StructureBytes min_bytes(const VoxelWorld& world, Traversal traversal) {
     StructureBytes least = predict_bytes(take_census(world), traversal);
     if (traversal == Traversal::naadf) least.leaves = 0;
@@ -66,7 +67,7 @@ std::string misfit(const StructureBytes& bytes, const DeviceLimits& limits) {
     return "";
 }
 
-// Sets the size, how shaders read it and the reason; returns whether there is none.
+// Sets the sizes, the access by texels and the reason; returns whether the structure fits.
 bool is_fit(PlacedStructure& placed, const MarchWorld& built, const DeviceLimits& limits) {
     placed.bytes = bytes_of(built);
     placed.have_texels =
@@ -75,7 +76,7 @@ bool is_fit(PlacedStructure& placed, const MarchWorld& built, const DeviceLimits
     return placed.reason.empty();
 }
 
-// Builds a world of one voxel: compiles what builds the others.
+// Builds a world of one voxel, to compile the shaders of the build.
 void warm_up(Traversal traversal, const DeviceLimits& limits, Executor& executor) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set(glm::ivec3(8), 0);

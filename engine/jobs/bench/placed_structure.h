@@ -12,7 +12,7 @@
 
 namespace voxilux {
 
-// What builds a structure: one thread of the CPU, the device, or both for a comparison of the bits.
+// What builds a structure: one CPU thread, the device, or both, to compare the results to the bit.
 enum class Builder : std::uint8_t { cpu, device, both };
 
 struct PlacedStructure {
@@ -22,13 +22,13 @@ struct PlacedStructure {
     glm::ivec3 chunks{0};
     std::optional<double> cpu_build;  // seconds of build_march_world
     std::optional<Seconds>
-        device_build;    // from the voxels to the structure on the device, without compilation
+        device_build;    // from the voxels to the structure on the device, compilation excluded
     std::string reason;  // why it is not on the device; empty when it is
 };
 
-// Builds a structure of the world and puts it into persistent buffers. When both builders differ in a bit:
-// InternalError. What the device cannot hold has a reason instead, found before building where the size is
-// certain.
+// Builds a structure of the world and puts it into persistent buffers. Throws InternalError when both
+// builders differ in a bit. A structure that the device cannot hold gets a reason instead, before it is built
+// where its size is certain.
 [[nodiscard]] PlacedStructure place_structure(const VoxelWorld& world, Traversal traversal, Builder builder,
                                               const DeviceLimits& limits, Executor& executor);
 

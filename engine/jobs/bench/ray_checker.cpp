@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "world/world_view.h"  // gives camera.h the world that it marches
+#include "world/world_view.h"  // needs the world access that this header gives
 
 #include "shared/camera.h"
 
@@ -63,8 +63,8 @@ WalkedHit walk_ray(const VoxelWorld& world, const gpu::Ray& ray) {
 Verdicts check_rays(const VoxelWorld& world, std::span<const gpu::Ray> rays, std::uint64_t max_cells) {
     Verdicts verdicts;
     if (rays.empty()) return verdicts;
-    // Steps of the golden ratio visit a list evenly however early the visit ends; a step without a common
-    // divisor visits every entry once.
+    // Steps of the golden ratio spread the visited entries evenly however early the loop ends; a stride that
+    // has no common divisor with the length visits every entry once.
     std::size_t stride = static_cast<std::size_t>(0.6180339887498949 * static_cast<double>(rays.size())) | 1;
     while (std::gcd(stride, rays.size()) != 1)
         ++stride;

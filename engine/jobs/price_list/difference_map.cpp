@@ -12,7 +12,7 @@
 namespace voxilux {
 namespace {
 
-constexpr double kDecades = 3.0;  // of the scale, below 100 %
+constexpr double kDecades = 3.0;  // range of the scale, below 100 %
 
 }  // namespace
 

@@ -12,8 +12,8 @@ inline constexpr const char* kDifferenceScale =
     "%, "
     "pale yellow 100 % or more";
 
-// The picture of |x - r| / sqrt(r^2 + kRelMseEpsilon), the root of its mean square over the colours, from 0.1
-// % to 100 % on a logarithmic scale that is the same for all pictures. Ready for write_png.
+// The map of |x - r| / sqrt(r^2 + kRelMseEpsilon), RMS over the colour channels, from 0.1 % to 100 % on a
+// logarithmic scale that is the same for all images. Ready for write_png.
 [[nodiscard]] Image difference_map(const Image& picture, const Image& reference);
 
 // The colour of a relative difference, 8-bit sRGB codes.

@@ -8,9 +8,9 @@
 namespace voxilux {
 namespace {
 
-// A row is reached within this factor: times of single pictures scatter, and samples are whole numbers.
+// A target counts as reached within this factor: times of single images vary, and samples are integers.
 constexpr double kNear = 1.25;
-// The most and the least that an error may fall with samples when it is extended: bias makes it flat.
+// Limits of the exponent of error against samples when it is extrapolated: bias makes it flat.
 constexpr double kFlattest = -0.15;
 constexpr double kSteepest = -1.0;
 
@@ -19,7 +19,7 @@ struct Choice {
     std::size_t setting = 0;
 };
 
-// Each configuration once.
+// The chosen configurations, each once.
 std::vector<Choice> chosen(const ParameterDesign& design,
                            const std::vector<MeasuredConfiguration>& configurations) {
     std::vector<Choice> choices;
@@ -71,8 +71,8 @@ EqualPicture render(const Workshop& workshop, const MeasuredConfiguration& confi
     return result;
 }
 
-// The level `base` of configuration 0, and a picture of every chosen configuration with so many samples as
-// `samples_of` says. One is reached when its `member` is near the target or below.
+// The level `base` of configuration 0, and an image of every chosen configuration with the number of samples
+// that `samples_of` gives. An image reaches the target when its `member` is near it or below.
 template <class SamplesOf>
 EqualRow make_row(const Workshop& workshop, const ParameterDesign& design,
                   const std::vector<MeasuredConfiguration>& configurations, const Level& base, double target,

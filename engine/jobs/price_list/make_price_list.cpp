@@ -9,30 +9,31 @@
 namespace voxilux {
 namespace {
 
-// How the time is shared. The rest is for compiling, reading back, comparing and writing.
+// How the time is divided. The rest is for compiling, reading back, comparing and writing.
 constexpr double kReferenceShare = 0.30;
 constexpr double kEffectShare = 0.10;
-constexpr double kRunShare = 0.30;  // of the runs that are planned; more are made until kRunsEnd
+constexpr double kRunShare = 0.30;  // planned runs; more are made until kRunsEnd
 constexpr double kRunsEnd = 0.80;   // since the start
 constexpr double kRowsEnd = 0.95;
-constexpr double kMaxRowShare = 0.02;  // of one picture of equal error
-constexpr double kLoadShare = 0.04;    // most that a world of its own may take
-// A reference is of use up to so many times the samples of the longest run: its noise is then an eighth.
+constexpr double kMaxRowShare = 0.02;  // for one image of equal error
+constexpr double kLoadShare = 0.04;    // for building a configuration's own world
+// A reference is useful with up to this many times the samples of the longest run: its noise is then an
+// eighth.
 constexpr double kReferenceSamples = 64.0;
 constexpr double kMaxEffectSamples = 64.0;
-constexpr double kEffectTrials = 5.0;  // times of short pictures scatter
+constexpr double kEffectTrials = 5.0;  // times of short renders vary
 
 bool is_interrupted(const PriceListJob& job) {
     return job.options.interrupted != nullptr && job.options.interrupted->load();
 }
 
-// What is left of a share of the job's time.
+// The time that remains of a fraction of the job's time.
 double left_s(const PriceListJob& job, double share) {
     if (is_interrupted(job)) return 0.0;
     return share * job.time_limit_s - seconds_since(job.options.started);
 }
 
-// Progress of the whole job: stages one after the other, each with its share.
+// Progress of the whole job: stages one after the other, each with a weight.
 class Stages {
   public:
     explicit Stages(const PriceListJob& job) : job_(job) {}
@@ -72,15 +73,15 @@ std::vector<EffectPrice> price_all(RenderSession& session, const Workshop& works
                                    .trials = std::max(workshop.repeats, static_cast<std::size_t>(trials))});
 }
 
-// One sample, which finds the radius of photons.
+// Takes one sample, which finds the radius of photons.
 Measured first_picture(RenderSession& session, const Scene& scene, const Workshop& workshop) {
     const Configuration configuration{.settings = scene.settings, .request = workshop.options.plan};
     return measure_once(session,
                         {.configuration = configuration, .frame = workshop.frame, .seed = workshop.seed});
 }
 
-// All configurations have the radius of photons that the first picture found, so that they differ in one
-// thing.
+// All configurations use the radius of photons that the first image found, so that they differ in one setting
+// only.
 Configuration base_way(const Scene& scene, const Workshop& workshop, const RenderPlan& plan) {
     Configuration base{.settings = scene.settings, .request = workshop.options.plan};
     if (plan.photons.runs()) base.settings.photons.radius = plan.photons.radius;
@@ -96,7 +97,7 @@ ReferenceJob reference_job(const PriceListJob& job, const Configuration& base) {
             .budget_s = kReferenceShare * job.time_limit_s};
 }
 
-// Configurations, reference and effects are there: the runs and the rows of pictures.
+// Measures the runs and the rows of images; configurations, reference and effects must exist.
 void measure_runs(Workshop& workshop, const SamplePlan& samples, const PriceListJob& job, Stages& stages,
                   PriceList& list) {
     stages.begin(0.5, 0.85);

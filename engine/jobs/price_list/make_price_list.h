@@ -9,20 +9,20 @@
 
 namespace voxilux {
 
-// What to measure the price list of, and in which time.
+// The scene whose price list is measured, and the time for it.
 struct PriceListJob {
-    std::string name;  // of the scene, as the user calls it
+    std::string name;  // of the scene, as the user gave it
     const Scene& scene;
     std::int64_t frame = 0;
-    RenderOptions options;  // `started` is when the time begins
+    RenderOptions options;  // time counts from `started`
     double time_limit_s = 120.0;
-    std::size_t repeats = 3;           // pictures of each run
-    std::filesystem::path references;  // folder where converged pictures are kept; empty: nowhere
+    std::size_t repeats = 3;           // images of each run
+    std::filesystem::path references;  // folder that keeps converged images; empty: none
     std::function<void(const Progress&)> on_progress;
 };
 
-// Renders the configurations of the scene's plan, a reference, its effects and the rows of pictures. When it
-// is interrupted, the list has what was measured until then; throws Error(interrupted) if that is too little
+// Renders the configurations of the scene's plan, a reference, its effects and the rows of images. When
+// interrupted, the list holds what was measured until then; throws Error(interrupted) when that is too little
 // for a list.
 [[nodiscard]] PriceList make_price_list(const PriceListJob& job);
 

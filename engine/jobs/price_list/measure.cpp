@@ -16,10 +16,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kNothingMeasured =
     "interrupted before anything could be compared; no price list was written";
 
-// Steps through all seeds: the golden ratio of 2^32 and the square of it.
+// Steps through all seeds: 2^32 times the golden ratio, and times its square.
 constexpr std::uint32_t kRepeatStep = 0x9E3779B9;
 constexpr std::uint32_t kLevelStep = 0x61C88647;
-// Share of the budget that one configuration may take before it gets fewer samples.
+// Fraction of the budget that one configuration may take before it gets fewer samples.
 constexpr double kMaxShare = 0.12;
 
 std::uint32_t seed_of(const Workshop& workshop, std::size_t repeat, std::uint32_t samples) {
@@ -81,7 +81,7 @@ double cost_of(const std::vector<std::uint32_t>& levels, double per_sample_s) {
     return samples * per_sample_s;
 }
 
-// The levels of a configuration that must not take longer than `max_s`.
+// The levels of a configuration that take at most `max_s`.
 std::vector<std::uint32_t> levels_within(std::uint32_t top, double per_sample_s, double max_s) {
     while (top > 1 && cost_of(three_levels(top), per_sample_s) > max_s)
         top = std::max(top / 4, 1u);
@@ -120,7 +120,7 @@ void finish_round(const Workshop& workshop, std::vector<Round>& rounds, std::uin
     }
     for (Round& round : rounds) {
         round.level.picture = std::move(round.pictures.front());
-        // Of configuration 0 every picture is shown, of the others the last.
+        // The image of configuration 0 is kept at every level, those of the others only at the last.
         if (&round != &rounds.front() && !round.configuration->levels.empty())
             round.configuration->levels.back().picture = {};
         round.configuration->levels.push_back(std::move(round.level));
@@ -136,7 +136,7 @@ void measure_level(const Workshop& workshop, const std::vector<MeasuredConfigura
     finish_round(workshop, rounds, samples);
 }
 
-// The configurations that have taken as many samples as most, and how long one sample of all of them takes.
+// The configurations that have reached `samples`, and the time that one sample of each takes in total.
 std::vector<MeasuredConfiguration*> leading_ways(std::vector<MeasuredConfiguration>& configurations,
                                                  std::uint32_t samples, double& per_sample_s) {
     std::vector<MeasuredConfiguration*> leading;
@@ -275,7 +275,7 @@ SamplePlan plan_samples(const std::vector<MeasuredConfiguration>& configurations
         }
         if (plan.cost_s <= budget_s || plan.top == 1) break;
     }
-    // All are compared with configuration 0, which so needs the levels of all.
+    // All are compared with configuration 0, which therefore needs the levels of all.
     std::set<std::uint32_t> all;
     for (const std::vector<std::uint32_t>& levels : plan.of_configuration)
         all.insert(levels.begin(), levels.end());

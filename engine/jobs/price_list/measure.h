@@ -14,45 +14,44 @@
 
 namespace voxilux {
 
-// One picture to render.
+// One image to render.
 struct MeasureJob {
     Configuration configuration;
     std::int64_t frame = 0;
     std::uint32_t seed = 0;
     std::uint32_t samples = 1;
-    std::optional<double> time_limit_s;  // of the picture
+    std::optional<double> time_limit_s;  // for this image
 };
 
 struct Measured {
     RenderOutcome outcome;
-    double time_s = 0.0;  // of the samples, on the device
+    double time_s = 0.0;  // device time of the samples
 };
 
-// Renders the picture. The session is one of the configuration's scene and structure. Throws
-// Error(interrupted) when a signal ends it early: what it has then is no measurement.
+// Renders the image. The session must have the configuration's scene and structure. Throws Error(interrupted)
+// when a signal ends it early: a partial image is no measurement.
 [[nodiscard]] Measured measure_once(RenderSession& session, const MeasureJob& job);
 
-// Whether `work` came to its end, and was not interrupted.
+// Runs `work`; false when it was interrupted.
 [[nodiscard]] bool is_measured(const std::function<void()>& work);
 
-// The image without the channels that are no colour.
+// The colour channels of the image.
 [[nodiscard]] Image colours_of(Image image);
 
-// The settings of a run as the price list names them: those that its plan uses.
+// The settings of a run that the price list shows: those that its plan uses.
 [[nodiscard]] nlohmann::ordered_json settings_json(const Configuration& configuration, const RenderPlan& plan,
                                                    std::uint32_t samples);
 
-// One number of samples of a configuration, rendered as often as it was repeated, each time with other random
-// numbers.
+// One number of samples of a configuration, rendered several times with different random numbers.
 struct Level {
     std::uint32_t samples = 0;
     std::vector<double> times_s;
     SplitError error;
-    ErrorEstimate claimed;  // by the first picture, of itself
-    Image picture;          // the first
+    ErrorEstimate claimed;  // the first image's own estimate
+    Image picture;          // the first one
 };
 
-// A configuration, what renders it, and what it gave.
+// A configuration, its renderer, and its results.
 struct MeasuredConfiguration {
     Configuration configuration;
     std::unique_ptr<RenderSession> own;  // where it needs a world of its own
@@ -60,10 +59,10 @@ struct MeasuredConfiguration {
     RenderPlan plan;
     double load_s = 0.0;
     double per_sample_s = 0.0;
-    std::string refusal;        // why it cannot run; empty when it can
-    std::vector<Level> levels;  // by rising samples
+    std::string refusal;        // why it cannot run; else empty
+    std::vector<Level> levels;  // by increasing number of samples
     std::optional<std::uint64_t>
-        other_pixels;  // that differ from those of configuration 0 with the same random numbers
+        other_pixels;  // pixels that differ from configuration 0 with the same random numbers
 };
 
 // What all configurations share.
@@ -71,38 +70,38 @@ struct Workshop {
     Scene scene;
     RenderOptions options;
     std::int64_t frame = 0;
-    std::uint32_t seed = 0;  // the runs' random numbers follow from it
+    std::uint32_t seed = 0;  // all runs derive their random numbers from it
     std::size_t repeats = 3;
     const Image* reference = nullptr;
     ReferenceNoise noise;
     std::function<void(double share, std::uint32_t samples)> on_progress;  // of the stage
-    std::function<double()> left_s;                                        // of the time for the stage
+    std::function<double()> left_s;                                        // remaining time of the stage
 };
 
 // The configurations of a design, each rendered once to compile its shaders and once to time a sample.
-// Configuration 0 and all that share its world use `session`; worlds are built as long as `may_load(s)` of
-// the last one's time says so.
+// Configuration 0 and all that share its world use `session`. Other worlds are built while `may_load` accepts
+// the time that the last one took.
 [[nodiscard]] std::vector<MeasuredConfiguration> prepare_configurations(
     const Workshop& workshop, const ParameterDesign& design, RenderSession& session,
     const std::function<bool(double)>& may_load);
 
-// How many samples to take of which configuration.
+// How many samples each configuration takes.
 struct SamplePlan {
-    std::uint32_t top = 1;  // of most configurations: what their pictures are compared at
+    std::uint32_t top = 1;  // of most configurations; their images are compared at this count
     std::vector<std::vector<std::uint32_t>>
-        of_configuration;  // rising; none of configurations that cannot run
-    double cost_s = 0.0;   // expected
+        of_configuration;  // increasing; empty for configurations that cannot run
+    double cost_s = 0.0;   // expected time
 };
 
-// `asked` samples, or so many halves of it that all configurations together take at most `budget_s`: a
-// sixteenth, a quarter and all of them, and of configuration 0 every power of two. Configurations that are
-// too slow for their share take fewer.
+// `asked` samples, halved until all configurations together take at most `budget_s`: a sixteenth, a quarter
+// and all of them, and for configuration 0 every power of two. Configurations that are too slow for their
+// share take fewer.
 [[nodiscard]] SamplePlan plan_samples(const std::vector<MeasuredConfiguration>& configurations,
                                       std::uint32_t asked, std::size_t repeats, double budget_s);
 
-// Measures the configurations in turns, few samples first, then twice as many again and again up to `asked`
-// while Workshop::left_s allows, and configuration 0 alone once more. Returns the number of samples that most
-// configurations have reached.
+// Measures the configurations in turns, few samples first, then doubles up to `asked` while Workshop::left_s
+// allows, and configuration 0 alone once more. Returns the number of samples that most configurations have
+// reached.
 [[nodiscard]] std::uint32_t measure_levels(const Workshop& workshop, const SamplePlan& plan,
                                            std::uint32_t asked,
                                            std::vector<MeasuredConfiguration>& configurations);

@@ -14,14 +14,14 @@
 namespace voxilux {
 namespace {
 
-// Adds configurations that differ from the first in one thing.
+// Adds configurations that differ from the first in one setting.
 class Designer {
   public:
     explicit Designer(const Configuration& base) { design_.configurations.push_back(base); }
 
     void begin(Parameter parameter) { design_.parameters.push_back(std::move(parameter)); }
 
-    // A configuration that is there already is used again.
+    // A configuration that exists already is reused.
     void add(const std::string& name, const std::function<void(Configuration&)>& change) {
         Configuration configuration = design_.configurations.front();
         change(configuration);
@@ -37,7 +37,7 @@ class Designer {
 
     [[nodiscard]] const Configuration& base() const { return design_.configurations.front(); }
 
-    // Parameters with one setting have nothing to compare.
+    // Parameters with only one setting are left out.
     [[nodiscard]] ParameterDesign result() {
         std::erase_if(design_.parameters, [](const Parameter& parameter) {
             return parameter.name != "samples" && parameter.settings.size() < 2;
@@ -79,10 +79,10 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
     const AoMethod planned = plan.ao.method;
     designer.begin({.name = "ao",
                     .label = "occlusion",
-                    .axis = "way of finding occlusion",
+                    .axis = "technique for occlusion",
                     .why =
-                        "Pixels trace occlusion alone, or share samples in cells of the surface, which trade "
-                        "noise for blur."});
+                        "Each pixel traces its own occlusion rays, or pixels share samples in cells of the "
+                        "surface: less noise, more blur."});
     const auto method = [&](AoMethod wanted) {
         return [planned, wanted](Configuration& configuration) {
             if (planned != wanted) configuration.settings.ao.method = wanted;
@@ -106,21 +106,21 @@ void design_occlusion(const RenderPlan& plan, Designer& designer) {
     designer.begin({.name = "ao_rays",
                     .label = "occlusion rays",
                     .axis = "occlusion rays per sample",
-                    .why = "The share of the sky that a point sees is a mean over so many rays."});
+                    .why = "The visible fraction of the sky is a mean over this many rays."});
     const std::uint32_t rays = designer.base().settings.ao_rays;
     for (const std::uint32_t factor : {1u, 2u, 4u, 8u})
         designer.add(fmt::format("{}", factor * rays),
                      [&](Configuration& configuration) { configuration.settings.ao_rays = factor * rays; });
 }
 
-// What paths cost and save against what is there without them.
+// Cost and gain of paths against the techniques that replace them.
 void design_indirect(const RenderPlan& plan, Designer& designer) {
     designer.begin(
         {.name = "indirect",
          .label = "indirect light",
          .axis = "what finds light between surfaces",
-         .why = "Paths find it without bias. Occlusion stands for the sky's alone, and without either "
-                "surfaces receive light straight from sun, sky and emitters only."});
+         .why = "Paths find it without bias. Occlusion approximates only that of the sky, and without "
+                "either surfaces receive direct light only, from sun, sky and emitters."});
     designer.add("paths", [](Configuration&) {});
     const auto leave_out = [](Configuration& configuration) {
         choose_technique("indirect", "none", configuration.settings);
@@ -154,7 +154,7 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
     designer.begin({.name = "radius",
                     .label = "photon radius",
                     .axis = "radius of the first iteration, voxels",
-                    .why = "Light is averaged over a disc: a wide one blurs, a narrow one is noisy."});
+                    .why = "Light is averaged over a kernel: a wide one blurs, a narrow one is noisy."});
     const double radius = plan.photons.radius;
     for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
         designer.add(fmt::format("{:.3g}", factor * radius), [&](Configuration& configuration) {
@@ -164,8 +164,8 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
     designer.begin(
         {.name = "alpha",
          .label = "photon alpha",
-         .axis = "exponent of the radius' decline",
-         .why = "The smaller alpha, the faster the discs shrink: less blur in the end, more noise."});
+         .axis = "exponent with which the radius shrinks",
+         .why = "The smaller alpha, the faster kernels shrink: less blur in the end, more noise."});
     const double alpha = designer.base().settings.photons.alpha;
     for (const double value : {0.5, alpha, 0.8, 1.0})
         designer.add(fmt::format("{:.3g}", value),
@@ -175,9 +175,9 @@ void design_photon_numbers(const RenderPlan& plan, Designer& designer) {
 void design_photon_methods(Designer& designer) {
     designer.begin({.name = "gather",
                     .label = "photon search",
-                    .axis = "who looks for whom",
-                    .why = "Points gather photons or photons scatter to points, to the same pixels; classic "
-                           "gives each pixel a radius of its own."});
+                    .axis = "gathering, splatting or per-pixel radii",
+                    .why = "Points gather photons, or photons are splatted to points, with equal results; "
+                           "classic gives each pixel a radius of its own."});
     const std::string planned = photon_method(designer.base().settings.photons);
     for (const char* method : {"gather", "scatter", "classic"}) {
         designer.add(method, [&](Configuration& configuration) {
@@ -187,7 +187,7 @@ void design_photon_methods(Designer& designer) {
     designer.begin({.name = "paths",
                     .label = "photon paths",
                     .axis = "what ends a path",
-                    .why = "Chance ends paths without bias; a depth that is too small loses light."});
+                    .why = "Roulette ends paths without bias; a depth that is too small loses light."});
     const auto cut = [](std::uint32_t depth) {
         return [depth](Configuration& configuration) {
             configuration.settings.photons.roulette = false;
@@ -203,31 +203,29 @@ void design_photon_methods(Designer& designer) {
 void design_estimate(const RenderPlan& plan, Designer& designer) {
     if (!plan.has_independent_samples()) {
         designer.fix({"error estimate", "from two halves",
-                      "squares of samples tell an error only where samples are independent: white noise or "
+                      "squares of samples give an error only where samples are independent: white noise or "
                       "photons"});
         return;
     }
     designer.begin({.name = "estimate",
                     .label = "error estimate",
                     .axis = "what the render sums of its samples",
-                    .why =
-                        "Sums of squares, and of the bias of photons, tell the error more exactly than two "
-                        "halves; they change no pixel."});
+                    .why = "Sums of squares, and of the bias of photons, give a more exact error than two "
+                           "halves; they change no pixel."});
     designer.add("halves", [](Configuration&) {});
     designer.add("squares", [](Configuration& configuration) { configuration.request.wants_error = true; });
 }
 
 void name_fixed(const RenderPlan& plan, Designer& designer) {
     designer.fix(
-        {"film sums", "64-bit whole numbers, 24 fraction bits",
+        {"film sums", "64-bit integers, 24 fraction bits",
          "exact whatever the order and the number of samples: there are no float or compensated sums to "
          "choose"});
-    designer.fix({"pixel filter", "box of one pixel",
-                  "a sample counts for the pixel that it falls in, and for no other one"});
+    designer.fix({"pixel filter", "box of one pixel", "a sample counts only for the pixel that contains it"});
     if (!plan.has(Effect::voxels)) return;
     designer.fix({"beams", "on",
-                  "rays of a tile share the way to the first voxel that any of them can meet; "
-                  "what they hit is the same"});
+                  "rays of a tile share the way to the first voxel that any of them can hit; "
+                  "their hits stay the same"});
 }
 
 }  // namespace
@@ -242,8 +240,8 @@ ParameterDesign design_parameters(const RenderPlan& plan, const Configuration& b
     designer.begin({.name = "samples",
                     .label = "samples",
                     .axis = plan.photons.runs() ? "iterations: samples per pixel" : "samples per pixel",
-                    .why = "A pixel is a mean over so many samples; their noise falls with the root of their "
-                           "number."});
+                    .why = "A pixel is a mean over this many samples; noise falls with the square root of "
+                           "their number."});
     design_sequence(designer);
     if (plan.has(Effect::voxels)) design_traversal(plan, designer);
     if (plan.has(Effect::ao)) design_occlusion(plan, designer);

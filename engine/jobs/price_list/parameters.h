@@ -10,11 +10,11 @@
 
 namespace voxilux {
 
-// One configuration to render a scene, whatever the samples.
+// One configuration to render a scene, with any number of samples.
 struct Configuration {
     RenderSettings settings;
     PlanRequest request;
-    std::optional<Traversal> traversal;  // when it needs a world of its own
+    std::optional<Traversal> traversal;  // set when it needs a world of its own
 
     bool operator==(const Configuration& other) const {
         return settings == other.settings && traversal == other.traversal &&
@@ -29,7 +29,7 @@ struct ParameterSetting {
     std::size_t configuration = 0;
 };
 
-// Something that is approximated, and the settings to compare, the default among them.
+// Something that is approximated, and the settings to compare, including the default.
 struct Parameter {
     std::string name;
     std::string label;
@@ -38,15 +38,15 @@ struct Parameter {
     std::vector<ParameterSetting> settings;
 };
 
-// What the issue of accuracy would name, and where there is nothing to choose.
+// A choice that affects accuracy but has only one setting here.
 struct FixedChoice {
     std::string name;
     std::string value;
     std::string why;
 };
 
-// Configuration 0 is the scene as it is planned. The parameter `samples` has no settings: the price list
-// takes every number of samples that it measures of configuration 0.
+// Configuration 0 is the scene as planned. The parameter `samples` has no settings: the price list uses every
+// number of samples measured of configuration 0.
 struct ParameterDesign {
     std::vector<Configuration> configurations;
     std::vector<Parameter> parameters;
@@ -56,8 +56,8 @@ struct ParameterDesign {
 // "gather", "scatter" or "classic".
 [[nodiscard]] std::string photon_method(const PhotonSettings& photons);
 
-// The parameters of what the plan uses, one changed at a time. `base` is what the plan was made of, with the
-// radius of photons that its pilot found.
+// The parameters of what the plan uses, one changed at a time. `base` is what the plan was made from, with
+// the radius of photons that its pilot found.
 [[nodiscard]] ParameterDesign design_parameters(const RenderPlan& plan, const Configuration& base);
 
 }  // namespace voxilux

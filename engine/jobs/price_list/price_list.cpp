@@ -33,7 +33,7 @@ std::vector<PricePoint> points_of(const MeasuredConfiguration& configuration, bo
     return points;
 }
 
-// The first run of each picture: other parameters' default settings are configuration 0 once more.
+// The first run of each image: the default settings of all parameters are the same configuration 0.
 std::vector<PricedRun> distinct(const PriceList& list, const std::vector<PricedRun>& runs) {
     std::vector<PricedRun> result;
     for (const PricedRun& run : runs) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// What was measured, and what it says.
+// What was measured, and its evaluation.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@
 
 namespace voxilux {
 
-// All that was measured.
+// All measurements.
 struct PriceList {
     std::string scene;  // as named on the command line
     std::uint64_t scene_hash = 0;
@@ -33,7 +33,7 @@ struct PriceList {
     EqualRow equal_error;
 };
 
-// One mark of the price list: a setting of a parameter at a number of samples.
+// One point of the price list: a setting of a parameter at a number of samples.
 struct PricedRun {
     std::string id;
     std::size_t parameter = 0;  // in the design
@@ -43,27 +43,28 @@ struct PricedRun {
     bool is_default = false;
 };
 
-// The runs in the order of the parameters, each parameter's cheapest first: of the parameter `samples` every
-// level of configuration 0, of other settings the level with `top` samples or the last.
+// The runs in the order of the parameters, each parameter's cheapest first: for the parameter `samples` every
+// level of configuration 0, for other settings the level with `top` samples or the last one.
 [[nodiscard]] std::vector<PricedRun> list_runs(const PriceList& list);
 
-// The exponent of error against time of all pictures of a configuration that the reference can judge.
+// The exponent of error against time over the images of a configuration that the reference is precise enough
+// for.
 [[nodiscard]] std::optional<Slope> slope_of(const MeasuredConfiguration& configuration);
 
 // The exponent of error against samples, which does not depend on the machine.
 [[nodiscard]] std::optional<Slope> slope_of_samples(const MeasuredConfiguration& configuration);
 
-// A line for each configuration and number of samples, under a line of names.
+// A header line, then a line for each configuration and number of samples.
 [[nodiscard]] std::string to_csv(const PriceList& list);
 
-// All of it as JSON, with the pictures as write_price_list names them.
+// The whole list as JSON, with images named as in write_price_list.
 [[nodiscard]] nlohmann::ordered_json to_json(const PriceList& list);
 
-// Writes tradeoff.json, tradeoff.csv and the pictures into a folder that is there, with a folder `pictures`
-// in it; each file appears whole or not at all. Throws Error(cannot_write).
+// Writes tradeoff.json, tradeoff.csv and the images into an existing folder, with a folder `pictures` in it;
+// each file appears complete or not at all. Throws Error(cannot_write).
 void write_price_list(const PriceList& list, const std::filesystem::path& folder);
 
-// A summary for people: parameters with slopes, and the front.
+// A summary for people: parameters with slopes, and the Pareto front.
 [[nodiscard]] std::string describe(const PriceList& list);
 
 // The runs that none beats in both time and error, fastest first.
@@ -71,12 +72,11 @@ void write_price_list(const PriceList& list, const std::filesystem::path& folder
 
 [[nodiscard]] const Level& level_of(const PriceList& list, const PricedRun& run);
 
-// The run that a picture of a row is a variant of; the first picture of a row is that of configuration 0.
+// The run that an image of a row varies; the first image of a row is that of configuration 0.
 [[nodiscard]] const PricedRun& run_of(const PriceList& list, const std::vector<PricedRun>& runs,
                                       const EqualPicture& picture, bool is_first);
 
-// Files of pictures below the folder of a price list: of a run, of a row's picture, and of what a picture
-// lacks.
+// Image files below the folder of a price list: of a run, of a row's image, and of a difference map.
 [[nodiscard]] std::string picture_of_run(const PricedRun& run);
 [[nodiscard]] std::string file_of_row(const char* row, const std::string& id);
 [[nodiscard]] std::string difference_of(std::string picture);

@@ -17,19 +17,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the two halves. No other render of the price list is likely to have one of them.
+// Seeds of the two halves, unlikely to be used by any other render of the price list.
 constexpr std::array<std::uint32_t, 2> kSeeds = {0x52456641, 0x52456642};
-// The radius of photons against that of the scene: their bias falls with its square. As many more photons
-// keep the noise.
+// The radius of photons relative to the scene's: their bias falls with its square. kPhotonFactor times as
+// many photons keep the noise the same.
 constexpr double kRadiusShare = 0.5;
 constexpr std::uint32_t kPhotonFactor = 4;
 
-// A half ends when it has taken so many times the time that was expected: the machine has got other work.
+// A half ends when it has taken this many times the expected time: the machine is busy with other work.
 constexpr double kPatience = 1.3;
-// That tell how long one takes.
+// Samples that predict the time of a sample.
 constexpr std::uint32_t kTimedSamples = 4;
 
-// Both halves as one film, half a of it being the first.
+// Joins both halves to one film, whose half a is the first of them.
 FilmSums joined(FilmSums a, FilmSums b) {
     const auto collapse = [](FilmSums& film, const std::string& plane) {
         std::vector<std::int64_t>& sums = film.sums.at(plane + "_a");
@@ -83,7 +83,7 @@ std::optional<Reference> from_cache(const ReferenceJob& job, const std::string& 
     }
 }
 
-// All that the picture depends on but for the number of samples.
+// Everything that the image depends on except the number of samples.
 std::string key_of(const RenderSession& session, const RenderPlan& plan) {
     return cache_key(fmt::format("{} {:016x} {}", VX_VERSION, sample_hash(session.scene()), describe(plan)));
 }
@@ -109,7 +109,7 @@ std::uint32_t max_photons(RenderSession& session, const ReferenceJob& job, Confi
 
 ReferenceNoise Reference::noise() const {
     const double square = std::pow(error.noise.value_or(error.estimate), 2.0);
-    // The interval is that of noise and bias together, and symmetric in the logarithm.
+    // The interval covers noise and bias together, and is symmetric in the logarithm.
     const double ratio = error.estimate > 0.0 ? error.low / error.estimate : 1.0;
     const double spread = std::max(ratio, 0.1);
     return {.square = square, .low = square * spread * spread, .high = square / (spread * spread)};
@@ -117,7 +117,7 @@ ReferenceNoise Reference::noise() const {
 
 RenderSettings reference_settings(const Configuration& base, const RenderPlan& plan) {
     RenderSettings settings = base.settings;
-    // Elsewhere, naming a way of finding occlusion would put occlusion in the place of paths.
+    // Without occlusion in the plan, naming a method would replace paths by occlusion.
     if (plan.has(Effect::ao)) settings.ao.method = AoMethod::brute;
     if (!plan.photons.runs()) return settings;
     PhotonSettings& photons = settings.photons;

@@ -9,21 +9,21 @@
 
 namespace voxilux {
 
-// A picture that took long, and what is known of it.
+// An expensive image, and what is known of it.
 struct CachedPicture {
     Image image;  // R G B
     nlohmann::ordered_json facts;
 };
 
-// The name of a picture's file: a hash of all that it depends on.
+// The name of an image's file: a hash of everything it depends on.
 [[nodiscard]] std::string cache_key(const std::string& what);
 
-// The picture stored in `folder` under `key`; nothing where there is none, or where the file is damaged, of
-// another size or of another picture: a hash of the colours is stored beside them.
+// The image stored in `folder` under `key`; nothing when the file is missing, damaged, or of another size or
+// image: a hash of the colours is stored beside them.
 [[nodiscard]] std::optional<CachedPicture> load_cached(const std::filesystem::path& folder,
                                                        const std::string& key, int width, int height);
 
-// Stores it whole or not at all. A picture that cannot be stored only costs time: false.
+// Stores it completely or not at all. Returns false on failure, which only costs time.
 bool store_cached(const std::filesystem::path& folder, const std::string& key, const CachedPicture& picture);
 
 }  // namespace voxilux

@@ -9,9 +9,9 @@
 namespace voxilux {
 namespace {
 
-// The table is swept whole, in one frame of so many: short beside kCellMaxAge, so a cell is given up little
-// later than it could be. In parts, the frame in which a cell is given up would depend on its slot, and that
-// on the threads.
+// The table is swept whole, once in this many frames: often compared with kCellMaxAge, so that cells are
+// released soon after they expire. If it were swept in parts, the frame in which a cell is released would
+// depend on its slot, and the slot depends on the order of threads.
 constexpr std::uint64_t kSweepFrames = 8;
 
 std::uint32_t flag(bool on) {
@@ -27,13 +27,14 @@ std::string touched_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::uint>(recording, "ao.touched", plan.ao.slots, Lifetime::persistent);
 }
 
-// The list of hits that reprojection misses, after its length.
+// The number of hits that reprojection misses, followed by their list.
 std::string missed_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<std::byte>(recording, "ao.missed",
                               sizeof(gpu::AoMissed) + plan.tile_pixels() * sizeof(gpu::uint));
 }
 
-// The slots of the pixels of this sample, and of the one before where it is reprojected: they take turns.
+// The slots of the pixels of this sample and, with reprojection, of the previous one. The two buffers
+// alternate.
 struct SlotPlanes {
     std::string now;
     std::string last;
@@ -49,7 +50,7 @@ SlotPlanes slot_planes(const RenderPlan& plan, const gpu::AoParams& params, Reco
     return planes;
 }
 
-// Of every pass that finds cells.
+// The bindings of every pass that finds cells.
 std::vector<Binding> table_bindings(const RenderPlan& plan, const Plane& hits, const std::string& slots,
                                     Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
@@ -116,7 +117,7 @@ void record_ao_search(const RenderPlan& plan, const Plane& hits, const SlotPlane
     recording.dispatch_indirect(std::move(dispatch), missed);
 }
 
-// Finds the slot of each hit, unless the pass that traces does it itself.
+// Finds the slot of each hit, unless ao.sample does so itself.
 void record_slots(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                   const SlotPlanes& planes, Recording& recording) {
     if (plan.ao.merged) return;
@@ -128,7 +129,7 @@ void record_slots(const RenderPlan& plan, const DispatchTile& tile, const Plane&
 void record_ao_sample(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                       const SlotPlanes& planes, Recording& recording) {
     const bool merged = plan.ao.merged;
-    // Who has looked the slots up reads them; the merged pass writes them itself.
+    // ao.sample reads the slots where another pass found them, else it writes them itself.
     const std::string unused = placeholder_buffer(recording);
     Dispatch dispatch{.label = "ao.sample",
                       .shader = "ao_sample",
@@ -151,7 +152,7 @@ void record_ao_sample(const RenderPlan& plan, const DispatchTile& tile, const Pl
     recording.dispatch(std::move(dispatch));
 }
 
-// Visibility and, for the filter, its variance.
+// Ambient visibility and, for the filter, its variance.
 struct Resolved {
     std::string visibility;
     std::string variance;

@@ -12,7 +12,7 @@ namespace {
 
 using Pair = std::array<std::string, 2>;  // buffers of the two halves
 
-// How far around a pixel the passes look, rows.
+// Rows above and below a pixel that the passes look at.
 constexpr int kDenoiseApron = 48;
 
 std::uint32_t blocks_of(glm::ivec2 size) {
@@ -41,14 +41,14 @@ class DenoiseRecorder {
         return buffer;
     }
 
-    // A pass over pixels.
+    // Records a pass over pixels.
     void pass(const std::string& step, std::vector<Binding> bindings, std::vector<Constant> constants = {},
               int tap_step = 1) {
         dispatch(step, {static_cast<std::uint32_t>(size_.x), static_cast<std::uint32_t>(size_.y), 1},
                  std::move(bindings), std::move(constants), tap_step);
     }
 
-    // The terms of blocks.
+    // Sums the terms over blocks.
     [[nodiscard]] std::string sums(const std::string& terms, const Pair& normal) {
         const std::string buffer =
             declare<glm::vec4>(recording_, "denoise.sums", 2 * std::uint64_t{blocks_of(room_)});
@@ -74,7 +74,7 @@ class DenoiseRecorder {
     }
 
     glm::ivec2 size_;
-    glm::ivec2 room_;  // of the buffers
+    glm::ivec2 room_;  // capacity of the buffers, pixels
     float share_;
     Recording& recording_;
 };
@@ -108,7 +108,7 @@ DenoiseInputs upload_inputs(const std::array<DenoiseHalf, 2>& halves, DenoiseRec
     return inputs;
 }
 
-// The light that surfaces receive, unfiltered first, then by level of the filter.
+// The light that surfaces receive: unfiltered first, then by level of the filter.
 constexpr std::size_t kDenoiseLevels = 3;
 using LightLevels = std::array<Pair, kDenoiseLevels + 1>;
 
@@ -132,7 +132,7 @@ LightLevels filter_levels(const DenoiseInputs& inputs, DenoiseRecorder& recorder
     return levels;
 }
 
-// Terms of the mixture of three levels, or of the plain picture and what is `fine`.
+// Terms of the mixture of three levels, or of the undenoised image and the `fine` one.
 std::string compare(const DenoiseInputs& inputs, const std::array<Pair, 3>& levels, bool is_last,
                     DenoiseRecorder& recorder) {
     const std::string terms = recorder.plane("terms");

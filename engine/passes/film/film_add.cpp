@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-// The sums of a plane, or the placeholder where the plan has none.
+// Binds the sums of a plane, or the placeholder where the plan has none.
 void bind_sums(const RenderPlan& plan, const DispatchTile& tile, const std::string& block,
                const std::string& name, Dispatch& dispatch, Recording& recording) {
     const std::vector<FilmPlane> planes = film_planes(plan);
@@ -28,7 +28,7 @@ gpu::FilmAddPush pixels_of(const RenderPlan& plan, const DispatchTile& tile) {
             .pixel_count = tile_width(plan) * tile.row_count};
 }
 
-// Of the passes that shade.
+// Constants of the passes that shade.
 std::vector<Constant> shading_constants(const RenderPlan& plan, const FilmInputs& inputs) {
     return {{"hits_stride", inputs.seen.hits.stride},
             {"weights_stride", inputs.seen.weights.stride},
@@ -38,7 +38,7 @@ std::vector<Constant> shading_constants(const RenderPlan& plan, const FilmInputs
             {"sun_stride", inputs.sun.stride},
             {"direct_stride", inputs.direct.stride},
             {"photons_stride", inputs.photons.light.stride},
-            {"sphere_count", plan.has(Effect::spheres) ? 1u : 0u},  // any, or none: not one shader for each
+            {"sphere_count", plan.has(Effect::spheres) ? 1u : 0u},  // any or none: fewer shader variants
             {"has_emission", plan.has(Effect::emission) ? 1u : 0u},
             {"has_specular", plan.has(Effect::specular) ? 1u : 0u},
             {"sums_coverage", plan.sums_coverage ? 1u : 0u},

@@ -11,14 +11,14 @@ struct FilmInputs {
     Plane first_hits;  // of camera rays, before mirrors and glass
     SpecularPlanes seen;
     Plane ao;
-    Plane sky;  // of an atmosphere: what misses see, and what hits receive over pi; else a constant
+    Plane sky;  // of an atmosphere, else a constant: radiance of misses, irradiance / pi at hits
     Plane sun;
     Plane direct;          // irradiance / pi, of emitters
     PhotonPlanes photons;  // irradiance, of photons
 };
 
 // Shades the camera rays of sample number `sample` and adds what they saw to every exact sum of the plan's
-// film. `keeps_color`: radiance in the plane "film.color", too.
+// film. With `keeps_color` the radiance also goes to the plane "film.color".
 void record_film_add(const RenderPlan& plan, const DispatchTile& tile, const FilmInputs& inputs,
                      std::uint32_t sample, bool keeps_color, Recording& recording);
 

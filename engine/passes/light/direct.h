@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// Light that each hit receives straight from emitters, irradiance / pi.
+// Light that each hit receives directly from emitters, irradiance / pi.
 [[nodiscard]] Plane record_direct_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                         Recording& recording);
 

@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// Share of the sun's irradiance that each hit receives, cosine included.
+// Fraction of the sun's irradiance that each hit receives, cosine included.
 [[nodiscard]] Plane record_sun_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                      Recording& recording);
 

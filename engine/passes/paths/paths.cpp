@@ -18,7 +18,7 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
                                    {"Hits", hits.buffer},
                                    {"Starts", starts}},
                       .constants = path_constants(plan)};
-    // Where paths aim at images of the sun from visible points in glass.
+    // Whether paths aim at images of the sun from visible points inside glass.
     const bool finds_media = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
     dispatch.constants.push_back({"finds_media", finds_media ? 1u : 0u});
     dispatch.constants.push_back({"keeps_normals", plan.paths_keep_normals() ? 1u : 0u});

@@ -37,7 +37,7 @@ void record_photon_scan(const RenderPlan& plan, const gpu::PhotonParams& params,
     record_scan_level(plan, 2, runs, recording);
 }
 
-// Of every pass over visible points.
+// Bindings of every pass over visible points.
 std::vector<Binding> point_bindings(const Plane& hits, Recording& recording) {
     return {{"Frame", frame_buffer(recording)},
             {"PhotonFrame", photon_frame_buffer(recording)},
@@ -58,7 +58,7 @@ std::string met_buffer(const RenderPlan& plan, PhotonRadii radii, Recording& rec
     return declare<gpu::uint>(recording, "photon.met", plan.tile_pixels());
 }
 
-// Adds what a pass needs that turns sums into light.
+// Adds the bindings and constants of a pass that turns sums into light.
 void let_resolve(const RenderPlan& plan, const PhotonPlanes& planes, PhotonRadii radii, Dispatch& dispatch,
                  Recording& recording) {
     const bool own = radii == PhotonRadii::own;
@@ -108,7 +108,7 @@ gpu::PhotonParams photon_params(const PhotonSetup& setup) {
     for (int c = 0; c < 3; ++c) {
         const double most = setup.max_power[c];
         const double scale = gpu::kPhotonQuanta / most;
-        // Light whose quanta a float cannot count is none.
+        // A channel with so little power that its scale overflows a float counts as having none.
         params.power_scale[c] = scale < kLargestFloat ? static_cast<float>(scale) : 0.0f;
         params.power_unit[c] = static_cast<float>(most / gpu::kPhotonQuanta);
     }

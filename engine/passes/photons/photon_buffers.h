@@ -32,7 +32,7 @@ namespace voxilux {
     return declare<gpu::uint>(recording, "photon.counts", plan.photons.buckets);
 }
 
-// Where each bucket starts, and the end of the last one.
+// Where each bucket starts, and where the last one ends.
 [[nodiscard]] inline std::string photon_starts_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::uint>(recording, "photon.starts", std::uint64_t{plan.photons.buckets} + 1);
 }

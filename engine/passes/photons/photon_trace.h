@@ -4,8 +4,8 @@
 
 namespace voxilux {
 
-// Where the photons of a sample start, and where they meet diffuse surfaces: fills the store of photons,
-// which is empty before.
+// Draws where the photons of a sample start and traces them to diffuse surfaces. Fills the store of photons,
+// which must be empty.
 void record_photon_emit(const RenderPlan& plan, Recording& recording);
 void record_photon_trace(const RenderPlan& plan, Recording& recording);
 

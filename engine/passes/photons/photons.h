@@ -4,8 +4,8 @@
 
 namespace voxilux {
 
-// The light of photons at each hit by the technique of the plan, in an iteration counted from 1; none without
-// photons. The tile is the whole picture.
+// The light of photons at each hit by the technique of the plan, in an iteration counted from 1; black
+// without photons. The tile is the whole crop window.
 [[nodiscard]] PhotonPlanes record_photons(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                           std::uint32_t iteration, Recording& recording);
 

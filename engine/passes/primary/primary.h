@@ -8,7 +8,7 @@ namespace voxilux {
 [[nodiscard]] std::string record_primary_beam(const RenderPlan& plan, const DispatchTile& tile,
                                               Recording& recording);
 
-// First voxel along each camera ray.
+// The first voxel along each camera ray.
 [[nodiscard]] Plane record_primary_march(const RenderPlan& plan, const DispatchTile& tile,
                                          const std::string& starts, Recording& recording);
 

@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// The hits with analytic spheres in front of them.
+// The hits, replaced where an analytic sphere is nearer.
 [[nodiscard]] Plane record_sphere_trace(const RenderPlan& plan, const DispatchTile& tile,
                                         const Plane& voxel_hits, Recording& recording);
 

@@ -21,7 +21,7 @@ std::string faces_buffer(Recording& recording) {
     return declare<gpu::vec3>(recording, "sky.faces", gpu::kFaceCount, Lifetime::persistent);
 }
 
-// Rounds read one buffer and write the other. The name of the last one written.
+// Rounds read one buffer and write the other. Returns the name of the last one written.
 std::string record_sky_scatter(const gpu::Air& air, Recording& recording) {
     std::string read = declare<gpu::uint>(recording, "sky.scatter", gpu::kScatterWords);
     std::string write = declare<gpu::uint>(recording, "sky.next_scatter", gpu::kScatterWords);
@@ -41,7 +41,7 @@ std::string shares_buffer(Recording& recording) {
     return declare<float>(recording, "sky.shares", gpu::kSkyShares, Lifetime::persistent);
 }
 
-// The distributions from which sky.trace draws directions.
+// Builds the distributions from which sky.trace draws directions.
 void record_sky_shares(const RenderPlan& plan, Recording& recording) {
     const std::string bins = declare<float>(recording, "sky.bins", gpu::kSkyBins * gpu::kSkyBins);
     const std::string rows = declare<float>(recording, "sky.rows", gpu::kFaceCount * gpu::kSkyBins);
@@ -62,7 +62,7 @@ void record_sky_shares(const RenderPlan& plan, Recording& recording) {
                         .bindings = {{"SkyRows", rows}, {"SkyShares", shares}}});
 }
 
-// The light of all of the sky, for occlusion that is known.
+// Integrates the light of the whole sky, for techniques that find visibility separately.
 void record_sky_faces(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "sky.faces",
                         .shader = "sky_faces",

@@ -5,29 +5,29 @@
 
 namespace voxilux {
 
-// The table of an atmosphere and its parameters, for shaders that look directions up (lib/sky.glsl); without
-// one, what such a shader leaves alone.
+// The table of an atmosphere and its parameters, for shaders that look directions up (lib/sky.glsl), or
+// placeholders where there is no atmosphere.
 [[nodiscard]] std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording);
 
-// Builds what an atmosphere looks like from the scene, for all frames under this sun: its parameters, the
-// table of its radiance, and the distributions from which rays towards it are drawn, or where no such rays
-// are, the irradiance of the six faces. Nothing where the plan has none.
+// Builds, once for all frames under this sun, what an atmosphere looks like from the scene: its parameters,
+// the table of its radiance, and the distributions from which rays towards it are drawn or, where no such
+// rays are traced, the irradiance of the six faces. Records nothing where the plan has no atmosphere.
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording);
 
-// Whether rays find the light of the atmosphere together with its occlusion. Otherwise occlusion comes first,
-// or paths find that light.
+// Whether rays find the light of the atmosphere together with its occlusion. Otherwise occlusion is found
+// first, or paths find that light.
 [[nodiscard]] bool traces_sky(const RenderPlan& plan);
 
 struct SkyPlanes {
-    Plane light;  // radiance where the hit is a miss, else irradiance over pi
-    Plane ao;     // share of the sky in sight
+    Plane light;  // radiance where the hit is a miss, else irradiance / pi
+    Plane ao;     // fraction of the sky that is visible
 };
 
 // The atmosphere at each hit by rays, where traces_sky().
 [[nodiscard]] SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                          Recording& recording);
 
-// The same by the share of the sky in sight: biased, as all of the sky counts for what is in sight.
+// The same from ambient visibility: biased, because the mean of the whole sky stands for its visible part.
 [[nodiscard]] Plane record_sky_resolve(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
                                        const Plane& ao, Recording& recording);
 

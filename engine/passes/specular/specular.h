@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// What the camera sees through mirrors and glass: the hits there, and what their radiance is multiplied by.
+// What the camera sees through mirrors and glass: the hits there, and the factor of their radiance.
 struct SpecularPlanes {
     Plane hits;
     Plane weights;
