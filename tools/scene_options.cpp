@@ -29,7 +29,7 @@ std::function<void(const T&)> checked(const char* flag, const char* key, std::fu
     return [=](const T& value) { take(in_range<RenderSettings>(flag, key, value)); };
 }
 
-// The same for one of the photons' settings, of a text or a number.
+// The same for a setting of photons, given as text or as a number.
 template <class T, class Value, class Check>
 std::function<void(const Value&)> change_photons(SettingsChanges& changes, T PhotonSettings::*member,
                                                  Check check) {

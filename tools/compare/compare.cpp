@@ -19,7 +19,7 @@ namespace {
 ImageComparison compare(const CompareOptions& options) {
     std::optional<Image> mask;
     if (!options.mask.empty()) mask = read_image(options.mask);
-    const Image reference = read_image(options.ref);  // named first where both are broken
+    const Image reference = read_image(options.ref);  // read first: where both are broken, this one is named
     return compare_images(reference, read_image(options.test),
                           {.box = options.box, .mask = mask ? &*mask : nullptr});
 }

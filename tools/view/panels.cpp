@@ -30,7 +30,7 @@ std::string technique_of(const RenderPlan& plan, Effect effect) {
     return found != plan.techniques.end() ? std::string(found->technique->name) : "";
 }
 
-// Switches an effect; what cannot be is said and undone.
+// Switches an effect. Where that is not possible, shows a message and switches back.
 void switch_effect(Effect effect, bool on, ViewState& state) {
     PlanRequest request = state.picture.request();
     request.effects.switches[effect] = on ? Switch::on : Switch::off;
@@ -68,7 +68,7 @@ void draw_prices(ViewState& state) {
         ImGui::TableSetupColumn("ms/sample");
         ImGui::TableSetupColumn("why");
         ImGui::TableHeadersRow();
-        // A copy: a switch makes another plan.
+        // A copy, because a switch replaces the plan.
         const EffectStates effects = state.picture.rest_plan().effects;
         for (const EffectState& effect : effects)
             draw_effect(effect, state);
