@@ -74,7 +74,7 @@ void FrameFixture::render_tile(std::uint32_t sample, std::uint32_t rows) {
     }
 }
 
-// A sky of radiance 1, seen through what multiplies it: the only term that is exact whatever the value.
+// A sky of radiance 1, seen through the factors that multiply it: the only term that is exact for any value.
 std::array<gpu::uint, gpu::kCounterCount> FrameFixture::add_radiance(std::uint32_t sample,
                                                                      const std::vector<glm::vec3>& radiance) {
     const RenderPlan& plan = prepared_.plan;

@@ -124,7 +124,7 @@ TEST(ErrorRounds, without_a_guess_its_own_samples_decide) {
     EXPECT_EQ(rounds.end(), 8u);
     EXPECT_EQ(rounds.decided_by(), DecidedBy::averaged);
     EXPECT_FALSE(rounds.reaches(8, claim_of(0.1)));
-    EXPECT_EQ(rounds.end(), 64u);  // eight times as many, and not what eight samples say is needed
+    EXPECT_EQ(rounds.end(), 64u);  // eight times as many, although eight samples suggest more
 }
 
 TEST(ErrorRounds, claim_that_one_bright_sample_may_have_made_doubles_at_most) {

@@ -134,7 +134,7 @@ TEST(Picture, colour_alone_is_written_when_asked_for) {
     EXPECT_EQ(read_exr(scratch / "a.exr").channels.size(), 5u) << "R, G, B, sampleCount.Y, error.Y";
 }
 
-// Its corners would lie farther away than coordinates of 32 bits reach.
+// Its corners would be farther away than 32-bit coordinates reach.
 TEST(Picture, image_too_large_for_coordinates_is_refused) {
     const ScratchFolder scratch;
     const Ending ending =
@@ -145,7 +145,7 @@ TEST(Picture, image_too_large_for_coordinates_is_refused) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
 }
 
-// Turned either way, another pair of corners lies beyond.
+// Turned either way, another pair of corners is out of reach.
 TEST(Picture, every_corner_of_an_image_is_looked_at) {
     const ScratchFolder scratch;
     for (const char* yaw : {"camera.yaw=20", "camera.yaw=-20"}) {
