@@ -185,12 +185,11 @@ void add_bench(CLI::App& app, Commands& commands) {
         "rays through each structure of a world, in millions per second of CPU and of wall time",
         add_bench_march_flags, run_bench_march);
     commands.add<BenchAoCommand>(
-        bench, "ao",
-        "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays",
+        bench, "ao", "variants of ambient occlusion: time of each pass, atomics, and error against many rays",
         add_bench_ao_flags, run_bench_ao);
     commands.add<BenchPhotonsCommand>(
         bench, "photons",
-        "ways of tracing photons: time of each pass, growth with the job, and error against a picture",
+        "variants of photon mapping: time of each pass, growth with the job, and error against a picture",
         add_bench_photons_flags, run_bench_photons);
 }
 
@@ -225,7 +224,8 @@ int run_command_line(int argc, const char* const* argv) {
     Commands commands({given.begin() + std::min(argc, 2), given.end()});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
-    commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
+    commands.add<PlanCommand>(app, "plan",
+                              "what render would do with the same flags, what it would leave out, and why",
                               add_plan_flags, run_plan);
     commands.add<TradeoffCommand>(app, "tradeoff",
                                   "the price list: error against time for each setting that approximates",

@@ -80,7 +80,7 @@ int check_limits(const ImageComparison& comparison, const std::map<std::string, 
 
 void add_compare_flags(Flags& flags, CompareOptions& options) {
     flags.add("REF", "", options.ref, "reference image").required();
-    flags.add("TEST", "", options.test, "image to judge").required();
+    flags.add("TEST", "", options.test, "image to compare with it").required();
     add_json_flag(flags, options.json, "the metrics");
     flags.add("--mask", "FILE", options.mask,
               "image of the same size; pixels that are black in it are left out");

@@ -139,7 +139,7 @@ void add_farm_flags(Flags& flags, FarmCommand& command) {
     flags.add_switch("--resume", command.resume, "go on with the job in the folder FILE.farm");
     flags.add_switch(
         "--allow-mixed-devices", command.allow_mixed_devices,
-        "use workers with other kinds of devices, too: the picture is as right, but its bytes are "
+        "use workers with other kinds of devices, too: the picture is as accurate, but its bytes are "
         "those of no single render");
 }
 

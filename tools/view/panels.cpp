@@ -111,7 +111,7 @@ void draw_status(ViewState& state) {
         text("drop a .vox, a .toml or a mesh here");
     }
     if (!state.memory.recent.empty()) draw_files(state);
-    if (state.has_newer_file) text("somebody wrote the file: it is loaded when nothing is unsaved");
+    if (state.has_newer_file) text("the file has changed: it is loaded once nothing is unsaved");
     if (!state.message.empty()) text(state.message);
     end_panel(PanelSide::left, state);
 }

@@ -102,7 +102,7 @@ void SceneFiles::open(const std::string& file) {
     try {
         if (has_ending(file, ".exr") || has_ending(file, ".png")) return take_reference(file);
         if (is_unsaved(state_.edit) && std::exchange(refused_, file) != file)
-            throw Error(ExitCode::usage, "there are unsaved edits; once more shows the file without them");
+            throw Error(ExitCode::usage, "there are unsaved edits; opening the file once more discards them");
         refused_.clear();
         if (is_mesh(file)) {
             mesh_ = file;
