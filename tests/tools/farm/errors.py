@@ -1,4 +1,4 @@
-"""Whether the farm's claims hold: with --error, the true error of the merged picture is below what was asked for in at
+"""Whether the farm keeps its error targets: with --error, the true error of the merged picture is below the target in at
 least 95 % of the jobs. The truth is a picture with many more samples and another seed.
 
     errors.py BINARY SCENES [--error 3%] [--seeds 3] [--scenes 20] [--truth 64]
