@@ -1,4 +1,4 @@
-// The share of a disc that spheres leave, against counting random points of the disc.
+// The fraction of a disc that spheres leave, against counting random points of the disc.
 
 #include <array>
 #include <cmath>

@@ -52,7 +52,7 @@ inline int axis_v(std::uint32_t face) {
     return static_cast<int>(face / 2 + 2) % 3;
 }
 
-// Level of a wanted width in voxels: the binary exponent, which is exact.
+// Level of a cell width in voxels: the binary exponent, which is exact.
 inline std::uint32_t level_of(double width) {
     if (!(width > 0.0)) return gpu::kAoLevels - 1;
     return static_cast<std::uint32_t>(

@@ -212,7 +212,7 @@ TEST(AoCells, comparison_rejects_another_seed_and_another_cell_size) {
     EXPECT_FALSE(short_flight(scene).sums == plain.sums);
 }
 
-// Cells whose open samples are not those that a march in C++ finds of the same numbers.
+// Cells whose unoccluded samples are not those that a march in C++ finds for the same sample numbers.
 int differing_cells(const AoFixture& fixture, const AoFrame& frame, std::uint64_t first_number) {
     int differing = 0;
     for (const auto& [key, sum] : test::sums_of(frame))

@@ -39,7 +39,7 @@ Scene floor_scene() {
     return scene;
 }
 
-// The share of blocked rays at a scene position on a face; negative leaves the cell out.
+// The fraction of blocked rays at a scene position on a face; negative leaves the cell out.
 using Blocked = std::function<double(glm::dvec3 position, gpu::uint face)>;
 
 // Mean of the form over a cell, by 4 x 4 midpoints.

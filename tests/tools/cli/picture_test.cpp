@@ -287,9 +287,9 @@ TEST(Picture, time_limit_ends_in_time_with_a_whole_picture) {
                          scratch / "a.exr"};
     EXPECT_EQ(run(words).code, 0);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    EXPECT_GE(seconds, 1.0)
-        << "what is kept for the last slice and the files, as a strip foretold, is less than half";
-    EXPECT_LE(seconds, 2.0 + 2.0) << "the limit, and 2 s for the last slice and the files";
+    EXPECT_GE(seconds, 1.0) << "what is reserved for the last dispatch tile and the files, as a strip "
+                               "predicted, is less than half";
+    EXPECT_LE(seconds, 2.0 + 2.0) << "the limit, and 2 s for the last dispatch tile and the files";
     const Image image = read_exr(scratch / "a.exr");
     for (const float samples : image.channels.at("sampleCount.Y").pixels)
         ASSERT_GE(samples, 1.0f);

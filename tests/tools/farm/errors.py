@@ -17,7 +17,7 @@ TRUTH_SEED = "1000003"
 
 
 def true_error(bench, truth, picture):
-    """The square root of relMSE, as the claim is."""
+    """The square root of relMSE, as in the report."""
     found = subprocess.run([bench.binary, "compare", bench.top / truth, bench.top / picture, "--json", "-"],
                            capture_output=True, text=True, check=True)
     return math.sqrt(json.loads(found.stdout)["relmse"])

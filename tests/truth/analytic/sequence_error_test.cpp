@@ -1,5 +1,6 @@
-// Which sample sequence errs least in the renderer: RMSE of mean occlusion, pixel filter included, against a
-// truth of many more rays. The first sequence of RenderSettings is the default because of these numbers.
+// Which sample sequence has the smallest error in the renderer: RMSE of mean occlusion, pixel filter
+// included, against a truth of many more rays. The first sequence of RenderSettings is the default because of
+// these numbers.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -190,7 +190,7 @@ TEST(HardCase, row24_film_is_the_same_for_any_slices_and_groups) {
     scene.spheres.push_back({glm::dvec3(-3.0, 4.0, 2.5), 2.0, 0});
     const std::vector<std::int64_t> whole = film_of(scene, 33, test_executor());
     for (const std::uint32_t rows : {1u, 2u, 7u, 8u, 17u})
-        EXPECT_EQ(film_of(scene, rows, test_executor()), whole) << rows << " rows a slice";
+        EXPECT_EQ(film_of(scene, rows, test_executor()), whole) << rows << " rows per dispatch tile";
     for (const std::array<std::uint32_t, 2> group : {std::array{16u, 16u}, {32u, 1u}, {3u, 5u}}) {
         Executor executor(test_device(), all_shaders(), {.group_size = group, .poison_transients = true});
         EXPECT_EQ(film_of(scene, 33, executor), whole) << group[0] << "x" << group[1];
