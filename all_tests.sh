@@ -1,6 +1,5 @@
 #!/bin/sh
-# Runs every test; with --nightly those that take long, and only those. Installs and builds what that needs. Safe to
-# repeat.
+# Runs every test; with --nightly, only those that take long. Installs and builds what they need. Safe to repeat.
 set -eu
 cd "$(dirname "$0")"
 . setup/steps.sh
@@ -12,7 +11,7 @@ run_tests() {
     ctest --test-dir "$folder" --no-tests=error --output-on-failure --parallel "$(nproc)" "$@"
 }
 
-# The shaders on the Mesa of backports: every test that runs them, and the rates of the march.
+# The tests that run shaders, and the rates of the march, on the Mesa of Debian's backports.
 test_newer_mesa() (
     VK_DRIVER_FILES=$(setup/newer_mesa.sh) || exit 1
     export VK_DRIVER_FILES

@@ -17,7 +17,7 @@ import tempfile
 TOP = pathlib.Path(__file__).resolve().parent.parent
 SMALL = ["--size", "64x48", "--spp", "4", "--reproducible", "--seed", "7", "-q"]
 CELLS = ["--ao", "hash"]
-# Flags beside SMALL, by what a scene has.
+# Flags besides SMALL, by what a scene has.
 VARIANTS = {
     "ao": [CELLS, [*CELLS, "-D", "ao.reproject=true"], [*CELLS, "-D", "ao.reproject=true", "-D", "ao.merged=true"],
            [*CELLS, "-D", "ao.merged=false", "-D", "ao.checkerboard=true", "-D", "ao.filter=2"],

@@ -1,4 +1,4 @@
-# What the commands of the README share. Sourced by a POSIX shell in the top folder; needs only Debian's base system.
+# What the two commands of the README share. Sourced by a POSIX shell in the top folder; needs only Debian's base system.
 
 # Space that the steps take at most, MiB.
 packages_mib=2000
@@ -6,7 +6,7 @@ build_mib=1000
 
 say() { printf '\n== %s\n' "$*"; }
 
-# What is lacking, in one line, and the end.
+# Says in one line what is lacking, and exits.
 lack() {
     printf '%s: %s\n' "$0" "$*" >&2
     exit 1
@@ -36,7 +36,7 @@ missing_packages() {
     done < setup/packages.txt
 }
 
-# What the log of a failed apt-get means. Packages are unknown, too, when their lists could not be fetched: the network first.
+# Explains the log of a failed apt-get. The network comes first: without it, lists are missing and packages are unknown.
 explain_apt() {
     if grep -qiE "no space left|don't have enough free space" "$1"; then
         lack "the disk is full: the packages take up to $packages_mib MiB; apt-get's log is $1"
@@ -49,7 +49,7 @@ explain_apt() {
     lack "apt-get failed; its log is $1"
 }
 
-# install_packages USE...: installs what is missing; nothing missing needs neither root nor network.
+# install_packages USE...: installs what is missing. Needs neither root nor network when nothing is.
 install_packages() {
     command -v dpkg-query > /dev/null && command -v apt-get > /dev/null ||
         lack "no apt-get on this machine ($(system_name)): install what setup/packages.txt names by other means, then 'cmake --preset release && cmake --build --preset release'"
@@ -61,14 +61,14 @@ install_packages() {
         lack "$(free_mib /usr) MiB free on the disk of /usr; the packages may take $packages_mib MiB"
     say "installing Debian packages (a few minutes): $missing"
     log=$PWD/build/packages.log
-    # A failed update need not matter, since the lists may be there; what matters shows when installing.
+    # A failed update is no error by itself, since the lists may be there. Installing shows whether they are.
     as_root apt-get -q update > "$log" 2>&1 || true
     # shellcheck disable=SC2086
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 \
         install --no-install-recommends $missing < /dev/null >> "$log" 2>&1 || explain_apt "$log"
 }
 
-# Says early what would fail late: a folder of another user, a full disk.
+# Refuses early what would fail late: a folder of another user, a full disk.
 prepare_build_folder() {
     mkdir -p build out 2>/dev/null && [ -w build ] && [ -w out ] && [ -z "$(find build -maxdepth 2 ! -writable)" ] ||
         lack "cannot write to $PWD/build and $PWD/out: remove them, or run as the user $(stat -c %U .)"

@@ -73,7 +73,7 @@ std::string hint(std::string_view typed, const std::vector<std::string>& names) 
     return nearest ? fmt::format("; did you mean '{}'?", *nearest) : "";
 }
 
-// The words that nobody asked for, and the flag that was probably meant.
+// An argument too many, or an unknown flag with the one that was probably meant.
 std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
     const std::vector<std::string> words = app.remaining(true);
     const auto flag =
@@ -84,7 +84,7 @@ std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
     return fmt::format("there is no flag {}{}", name, hint(name, flags_of(command)));
 }
 
-// For a subcommand such as bench, whose first word was none of its parts.
+// For a subcommand such as bench, whose next word names none of its own subcommands.
 std::string missing_part(const CLI::App& command, const std::vector<std::string>& words) {
     const std::vector<std::string> names = names_of_subcommands(command);
     if (words.empty() || words.front().starts_with("-"))
@@ -112,7 +112,7 @@ int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
     return usage_error(error.what(), name);
 }
 
-// A first word that is no subcommand, or no word at all; nothing when the rest can be parsed.
+// Ends where the first word is missing or names no subcommand; returns nothing where the rest can be parsed.
 std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* const* argv) {
     if (argc < 2) {
         print_message("{}", app.help());
@@ -124,7 +124,7 @@ std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* c
     return usage_error(fmt::format("there is no subcommand '{}'{}", word, hint(word, names)), app.get_name());
 }
 
-// --alpha takes the number of the photons' exponent; without one it asks for transparency.
+// --alpha with a number is the exponent of the photons' radius; without one it asks for transparency.
 std::vector<const char*> with_transparent(int argc, const char* const* argv) {
     std::vector<const char*> words(argv, argv + argc);
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -185,12 +185,11 @@ void add_bench(CLI::App& app, Commands& commands) {
         "rays through each structure of a world, in millions per second of CPU and of wall time",
         add_bench_march_flags, run_bench_march);
     commands.add<BenchAoCommand>(
-        bench, "ao",
-        "ways of finding ambient occlusion: time of each pass, atomics, and error against many rays",
+        bench, "ao", "variants of ambient occlusion: time of each pass, atomics, and error against many rays",
         add_bench_ao_flags, run_bench_ao);
     commands.add<BenchPhotonsCommand>(
         bench, "photons",
-        "ways of tracing photons: time of each pass, growth with the job, and error against a picture",
+        "variants of photon mapping: time of each pass, growth with the job, and error against a picture",
         add_bench_photons_flags, run_bench_photons);
 }
 
@@ -225,7 +224,8 @@ int run_command_line(int argc, const char* const* argv) {
     Commands commands({given.begin() + std::min(argc, 2), given.end()});
     commands.add<RenderCommand>(app, "render", "render a scene to EXR and PNG", add_required_render_flags,
                                 run_render);
-    commands.add<PlanCommand>(app, "plan", "what render would do with the same flags, and what not and why",
+    commands.add<PlanCommand>(app, "plan",
+                              "what render would do with the same flags, what it would leave out, and why",
                               add_plan_flags, run_plan);
     commands.add<TradeoffCommand>(app, "tradeoff",
                                   "the price list: error against time for each setting that approximates",

@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// How a command ends that threw: the code of the process, and one line for standard error.
+// How a command that threw ends: the code of the process, and one line for standard error.
 struct ExitMessage {
     ExitCode code = ExitCode::internal;
     std::string text;

@@ -1,7 +1,7 @@
 #pragma once
 
-// How subcommands declare their flags. The library that parses them is known to flags.cpp and
-// command_line.cpp alone: it takes long to compile.
+// How subcommands declare their flags. Only flags.cpp and command_line.cpp include the library that parses
+// them, because it takes long to compile.
 
 #include <algorithm>
 #include <functional>
@@ -18,13 +18,13 @@ class Option;
 
 namespace voxilux {
 
-// A flag that was declared, for more to be said of it.
+// A declared flag, for setting more of its properties.
 class Flag {
   public:
     explicit Flag(CLI::Option& option) : option_(option) {}
 
     Flag& required();
-    // It cannot be given together with another flag of the same command, which is declared already.
+    // Refuses it together with another flag of the same command, which must be declared already.
     Flag& excludes(const std::string& other);
     // Its value must not be negative.
     Flag& from_zero();
@@ -93,8 +93,8 @@ class Flags {
         return on<std::vector<std::string>>(name, value, take, help).split_at_commas();
     }
 
-    // Once the command line is parsed: the flags declared so far that were given, and their values, as words
-    // of another command line; the value of a switch is empty. Arguments without a flag are left out.
+    // After parsing: the flags declared so far that were given, with their values, as arguments of another
+    // command line. The value of a switch is empty. Arguments without a flag are left out.
     using GivenWords = std::vector<std::pair<std::string, std::string>>;
     [[nodiscard]] std::function<GivenWords()> given() const;
 

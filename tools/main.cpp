@@ -14,14 +14,14 @@ int report(const ExitMessage& message) {
     return static_cast<int>(message.code);
 }
 
-// Results that went to a full disk are no results.
+// Results that a full disk has swallowed must not count as success.
 int checked_output(int code) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return report({ExitCode::cannot_write, "cannot write to standard output"});
 }
 
-// A closed pipe and a limit on file sizes are errors of a write like others, no reason to die with a picture
-// in memory.
+// A closed pipe or a limit on file sizes is a write error like any other. It must not kill a process that
+// holds a picture.
 void let_writes_fail() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);

@@ -53,7 +53,7 @@ Camera saved_camera(const Scene& scene, const std::string& name) {
     return camera;
 }
 
-// What flags say of the camera: where it stands, or its lens, with which it frames the scene.
+// The camera that flags ask for: its place, or only the lens with which it frames the scene.
 void apply_camera_flags(const SceneOptions& options, Scene& scene) {
     if (!options.camera && !options.projection && !options.pixels_per_voxel) return;
     const bool is_saved = options.camera && !options.camera->side;

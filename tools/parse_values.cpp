@@ -64,7 +64,7 @@ std::optional<T> value_named(std::string_view typed, const Names<T, N>& table) {
     return {};
 }
 
-// For flags of two or three words: `all` are they, for the message.
+// For flags of two or three words, which `all` lists for the message.
 template <class T, std::size_t N>
 T parse_word(std::string_view flag, std::string_view typed, const Names<T, N>& table, std::string_view all) {
     if (const std::optional<T> value = value_named(typed, table)) return *value;

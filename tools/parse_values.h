@@ -59,7 +59,7 @@ struct Shard {
 [[nodiscard]] std::int64_t checked_range(std::string_view flag, std::int64_t value, std::int64_t low,
                                          std::int64_t high);
 
-// A number of stops, or "auto": none.
+// Stops, or none for "auto".
 [[nodiscard]] std::optional<float> parse_exposure(std::string_view text);
 
 // on or off; filmic or plain; auto, never or json.
@@ -73,7 +73,7 @@ struct Shard {
 
 // three-quarter, front, back, left, right, top, bottom or iso.
 [[nodiscard]] View parse_view(std::string_view name);
-// One of these, or any other word: the name of a camera in the file.
+// One of these, or else the name of a camera in the file.
 [[nodiscard]] CameraChoice parse_camera(std::string_view name);
 
 // "#rrggbb" or "sky".

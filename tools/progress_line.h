@@ -12,7 +12,7 @@ namespace voxilux {
 // object per line.
 enum class ProgressMode : std::uint8_t { automatic, never, json };
 
-// Progress on standard error. The line is gone when this ends, so that whatever follows starts on a clean
+// Progress on standard error. The destructor clears the line, so that whatever follows starts on an empty
 // one.
 class ProgressLine {
   public:
@@ -42,8 +42,7 @@ class ProgressLine {
 [[nodiscard]] std::string progress_text(const Progress& progress);
 
 // The object for programs, on one line: done, sample, elapsed_s, remaining_s, remaining_low_s,
-// remaining_high_s, of a frame range which frame of how many frames, and error and error_at_end once they
-// are known.
+// remaining_high_s; the frame and their number in a frame range; error and error_at_end once they are known.
 [[nodiscard]] std::string progress_json(const Progress& progress);
 
 }  // namespace voxilux

@@ -17,7 +17,7 @@ extern char** environ;
 namespace voxilux {
 namespace {
 
-// The one of the user's path first; that of the system is where Debian's packages go.
+// The user's own Python comes first. The system's Python sees the modules of Debian's packages.
 constexpr std::array<const char*, 2> kPythons = {"python3", "/usr/bin/python3"};
 
 struct Pipe {
@@ -75,7 +75,8 @@ std::vector<char*> arguments_of(std::vector<std::string>& words) {
     throw Error(ExitCode::temporary, fmt::format("cannot start {}: {}", python, std::strerror(errno)));
 }
 
-// Open at the beginning of a text. A file without a name, not a pipe: nobody is left to fill one.
+// A file that holds `text`, open at its beginning. It has no name, and is no pipe, because after exec nobody
+// is left to fill one.
 int file_with(std::string_view text, const std::string& python) {
     const int file = ::memfd_create("script", 0);
     if (file < 0) refuse_start(python);
@@ -124,7 +125,7 @@ void become_python(const std::string& python, std::string_view script, std::stri
     const int file = file_with(script, python);
     if (::dup2(file, STDIN_FILENO) < 0) refuse_start(python);
     ::close(file);
-    // Warnings are for those who write Python.
+    // Python's warnings are for developers, not for users.
     std::vector<std::string> words = {python,   "-I", "-W",
                                       "ignore", "-",  std::to_string(file_with(input, python))};
     const std::vector<char*> arguments = arguments_of(words);

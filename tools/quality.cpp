@@ -48,7 +48,7 @@ std::vector<std::string> overrides_of(const QualityPreset& preset) {
 
 std::string quality_help() {
     std::string text = fmt::format(
-        "samples and occlusion rays in one word; other flags win over it. Error and time are\n"
+        "sets samples and occlusion rays together; other flags override it. Error and time are\n"
         "medians of {} plain scenes and {} in which photons run, on\n{}:",
         kPlainScenes, kPhotonScenes, kPricedOn);
     for (const QualityPreset& preset : kPresets) {

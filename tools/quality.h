@@ -30,7 +30,7 @@ struct QualityPreset {
 // From the quickest to the finest.
 [[nodiscard]] std::span<const QualityPreset> quality_presets();
 
-// What the preset is for a scene in which photons run, or none do.
+// The samples and the price of the preset, in a scene with photons or without.
 [[nodiscard]] const QualityPrice& price_of(const QualityPreset& preset, bool sends_photons);
 
 // What the preset sets in a scene without photons, as "key=value" of a scene file.

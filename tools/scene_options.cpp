@@ -29,7 +29,7 @@ std::function<void(const T&)> checked(const char* flag, const char* key, std::fu
     return [=](const T& value) { take(in_range<RenderSettings>(flag, key, value)); };
 }
 
-// The same for one of the photons' settings, of a text or a number.
+// The same for a setting of photons, given as text or as a number.
 template <class T, class Value, class Check>
 std::function<void(const Value&)> change_photons(SettingsChanges& changes, T PhotonSettings::*member,
                                                  Check check) {
@@ -171,7 +171,7 @@ void add_photon_flags(Flags& flags, SettingsChanges& changes) {
                                                                 parse_photon_radius),
              "radius of photons in the first iteration, in voxels, or auto");
     flags.on("--alpha", "A", change_photons<double, double>(changes, &PhotonSettings::alpha, checked_alpha),
-             "how slowly that radius declines, above 0 and up to 1, where it stays");
+             "how slowly that radius shrinks, above 0 and up to 1, where it stays");
 }
 
 Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
@@ -189,7 +189,7 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures) {
     add_camera_flag(flags, options, pictures);
     flags
         .add_parsed("--viewpoint", "X,Y,Z,YAW,PITCH,FOV", options.viewpoint, parse_viewpoint,
-                    "stand there: voxels and degrees, as the window says them")
+                    "place and direction of the camera, in voxels and degrees, as the window prints them")
         .excludes("--camera");
     add_projection_flags(flags, options);
     add_background_flags(flags, options);

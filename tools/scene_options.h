@@ -20,7 +20,7 @@
 
 namespace voxilux {
 
-// What flags set in the settings of a scene.
+// Changes of the scene's settings that flags ask for.
 using SettingsChanges = std::vector<std::function<void(RenderSettings&)>>;
 
 struct SceneOptions {
@@ -44,11 +44,11 @@ struct SceneOptions {
     std::optional<FrameList> frames;        // a picture for each
     std::optional<std::int64_t> turntable;  // of so many pictures, without [camera.turntable]
     Turned turned = Turned::camera;
-    PlanRequest request;  // the caller knows which channels its outputs hold
+    PlanRequest request;  // the caller sets the channels that its outputs hold
 };
 
-// What a subcommand makes of a scene: one picture, or a picture for each frame, too (--frames), or also one
-// for each of several inputs and cameras.
+// What a subcommand renders of a scene: one picture, a picture for each frame (--frames), or a picture for
+// each of several inputs and cameras, too.
 enum class PicturesOf : std::uint8_t { scene, frames, inputs };
 
 // Returns the flag of INPUT.
@@ -57,20 +57,20 @@ Flag add_scene_flags(Flags& flags, SceneOptions& options, PicturesOf pictures = 
 // --photons, --radius and --alpha.
 void add_photon_flags(Flags& flags, SettingsChanges& changes);
 
-// Whether flags ask for a picture of each of several frames: a range, or a whole turntable.
+// Whether flags ask for several frames: a range, or a whole turntable.
 [[nodiscard]] bool asks_for_frames(const SceneOptions& options);
 
-// These frames; else one picture without a number.
+// The frames that flags name; else one picture without a number.
 [[nodiscard]] FrameList frames_asked_for(const SceneOptions& options);
 
 // The frames to render. Without a flag, the first frame of an animated scene. Throws Error(usage) for
 // --frames on a still scene.
 [[nodiscard]] FrameList frames_to_render(const SceneOptions& options, const Scene& scene);
 
-// Tells the plan how many frames will be rendered, and whether voxels move between them.
+// Sets in the plan's request how many frames will be rendered, and whether voxels move between them.
 void request_frames(const Scene& scene, const FrameList& frames, PlanRequest& request);
 
-// When an animated scene gives one picture only, because no flag names its frames: says so on standard error.
+// Says on standard error that an animated scene gives one picture only, because no flag names its frames.
 void print_frame_note(const SceneOptions& options, const Scene& scene);
 
 }  // namespace voxilux

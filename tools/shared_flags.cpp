@@ -89,7 +89,7 @@ void add_device_flags(Flags& flags, DeviceOptions& options, std::uint64_t& memor
             const std::int64_t checked = checked_range("--memory-budget", mib, 0, kMaxMib);
             memory_budget_bytes = static_cast<std::uint64_t>(checked) << 20;
         },
-        "most memory on the device, in MiB; 0 is no limit (default 0)");
+        "maximum device memory, in MiB; 0 is no limit (default 0)");
     flags.add_switch("--no-cache", options.no_cache, fmt::format("neither read nor write {}", caches));
     flags.add_switch("--validation", options.validation, "run under the Vulkan validation layers");
     flags.add_switch("--no-validation", options.no_validation, "run without them");

@@ -24,7 +24,7 @@ struct ReportOptions {
     [[nodiscard]] bool prints() const { return !quiet && json != "-"; }
 };
 
-// --json. `what` is written there: "the report".
+// --json, which writes `what`, such as "the report".
 void add_json_flag(Flags& flags, std::string& json, const std::string& what);
 // --json and -q.
 void add_report_flags(Flags& flags, ReportOptions& report);
@@ -32,7 +32,7 @@ void add_progress_flag(Flags& flags, ProgressMode& mode);
 
 // -o of pictures, each .exr or .png.
 Flag add_picture_flag(Flags& flags, std::vector<std::string>& files, const std::string& help);
-// --resolution and --up, of meshes and clouds of points that become voxels.
+// --resolution and --up, for meshes and point clouds that become voxels.
 void add_mesh_flags(Flags& flags, GridRequest& grid);
 // --tone and --exposure.
 void add_tone_flags(Flags& flags, ToneMapOptions& tone);
@@ -52,7 +52,7 @@ struct DeviceOptions {
 };
 
 void add_device_flag(Flags& flags, std::string& selector);
-// All of them, and --memory-budget. `caches` are what --no-cache leaves alone, in words.
+// All of them, and --memory-budget. `caches` says for --help what --no-cache neither reads nor writes.
 void add_device_flags(Flags& flags, DeviceOptions& options, std::uint64_t& memory_budget_bytes,
                       const std::string& caches);
 

@@ -21,7 +21,7 @@ struct NamedTechnique {
 // The sentence of --help: effects and the names of their techniques.
 [[nodiscard]] std::string technique_help();
 
-// Sets what chooses them. Throws Error(usage) for two that exclude each other.
+// Sets the techniques in the settings. Throws Error(usage) for two that exclude each other.
 void choose_techniques(std::span<const NamedTechnique> named, RenderSettings& settings);
 
 }  // namespace voxilux

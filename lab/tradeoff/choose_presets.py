@@ -5,9 +5,9 @@
 
 The rule. Occlusion rays stay at their default, unless another number reaches an error in at least a tenth less time:
 an error e in time t is worth e^2 t, since noise falls with the root of time, and the geometric mean over the scenes
-decides, each at the most samples that were measured of both. Photons follow the size of the picture. Then each preset
-takes the least power of two of samples per pixel, two or more, at which the median error over the scenes is at most its
-target, apart for scenes in which photons run and for plain ones. The targets of the former are larger: the same
+decides, each at the largest sample count measured for both. The number of photons follows the size of the picture. Then
+each preset takes the smallest power of two of samples per pixel, two or more, at which the median error over the scenes
+is at most its target. Scenes in which photons run are treated apart from plain ones, and have larger targets: the same
 error would take them hundreds of times as long. The price is the median error and the median time there.
 """
 
@@ -22,13 +22,13 @@ from prices import Curve, Malformed, read_prices, scenes_of
 REFUSED = 3
 TARGETS = {"draft": {"plain": 0.05, "photons": 0.20}, "normal": {"plain": 0.03, "photons": 0.07},
            "fine": {"plain": 0.01, "photons": 0.03}, "reference": {"plain": 0.003, "photons": 0.01}}
-WORTHWHILE = 0.9  # of the time for an error, below which another value than the default is taken
-FEWEST_LOG2, MOST_LOG2 = 1, 20  # of samples: one has no estimate of its error; film sums are exact up to the most
+WORTHWHILE = 0.9  # share of the default's time for an equal error; another value must need less than this
+FEWEST_LOG2, MOST_LOG2 = 1, 20  # of sample counts: one sample has no error estimate; film sums are exact up to 2^20
 KNOB, DEFAULT_RAYS = "ao_rays", 1
 
 
 def worth(rows):
-    """By number of rays: time for an error over that of the default number."""
+    """By number of rays: time to an equal error over that of the default number."""
     own = [row for row in rows if row["knob"] == KNOB and row["error"] > 0.0]
     defaults = {row["spp"]: row for row in own if row["is_default"]}
     table = {}
@@ -39,8 +39,8 @@ def worth(rows):
 
 
 def choose_rays(scenes):
-    """The number of rays, as its setting is called, that all scenes with occlusion have measured and that is worth it;
-    None for the default."""
+    """The setting of the number of rays that is measured in all scenes with occlusion and worth it; None for the
+    default."""
     tables = [table for rows in scenes.values() if (table := worth(rows))]
     if not tables:
         return None

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How often renders are right about themselves: their claimed errors and their forecasts of time.
+"""How often the error bounds and the forecasts of time that renders report are right.
 
     coverage.py --voxilux build/release/voxilux --scenes scenes
 
 renders many views with several seeds to an error target and compares each picture with two long references of its
-view. Two figures come out: the share of runs whose true error is within what they claim, and the share of long runs
-whose time is within what they forecast.
+view. Two figures come out: the share of runs whose true error is within the bound that they report, and the share of
+long runs whose time is within their forecast.
 
 The true error needs no perfect reference. With x the picture, a and b the references, all independent and with the
 same mean, relMSE(x, a) + relMSE(x, b) - relMSE(a, b) is on average twice that of x against a reference without noise.
@@ -28,7 +28,7 @@ LONG_RUN_S = 30.0
 Z_95 = 1.959964  # of a normal distribution, two-sided
 FIRST_SEED = 1
 REFERENCE_SEEDS = (1000003, 2000003)
-REFERENCE_SHARE, LONG_REFERENCE_SHARE = 0.5, 1.0  # error of a reference over the error targets of its view
+REFERENCE_SHARE, LONG_REFERENCE_SHARE = 0.5, 1.0  # error of a reference over the error target of its view
 RADIUS_SHARE = 0.5  # first radius of photons of a reference over that of a run: its blur is a quarter
 CONTINUES = (0, 4)  # exit codes of a render that has written its picture
 STOPPED_BY_ERROR = "error target reached"
@@ -36,7 +36,7 @@ QUICK_VIEWS, QUICK_SEEDS = 6, 2
 
 
 class Failure(Exception):
-    """A command that failed, or a file that cannot be read: what it says."""
+    """The message of a command that failed, or of a file that cannot be read."""
 
 
 def run(words):
@@ -123,17 +123,17 @@ class Renderer:
         return files, self.relmse(*files)
 
 
-# ---- judging ----------------------------------------------------------------------------------------------------
+# ---- verdicts ---------------------------------------------------------------------------------------------------
 
 
 def true_error(renderer, picture, references, between):
-    """Root of the picture's relMSE without the noise of the references; 0 where that noise is all there is."""
+    """Root of the picture's relMSE, less the noise of the references; 0 where that noise is all there is."""
     twice = sum(renderer.relmse(reference, picture) for reference in references) - between
     return math.sqrt(max(0.0, 0.5 * twice))
 
 
 def judged(view, target, seed, report, error):
-    """A row: what the run claimed and what is true. A run without a claim has no verdict."""
+    """A row: the error bound that the run reported, and the true error. A run without a bound has no verdict."""
     claims = report["error"]["high"]
     reached = report["stopped"] == STOPPED_BY_ERROR
     limits = [one for one in (claims, target if reached else None) if one is not None]
@@ -184,7 +184,7 @@ def figures(rows):
 
 
 def is_below(figure, wanted, is_quick):
-    """Whether too few held. A few runs decide only where their whole interval is too low."""
+    """Whether too few verdicts hold. With few runs, only where their whole interval is too low."""
     if figure["share"] is None:
         return False
     return (figure["high"] if is_quick else figure["share"]) < wanted

@@ -110,7 +110,7 @@ def how_to_read(data):
         "Every approximation that this scene uses was set to several values, one at a time, all others at their default. "
         "Each picture was compared with a reference that took far longer. Its <b>error</b> is the root of relMSE: the typical "
         "difference of a pixel from the reference, relative to the pixel's brightness. 1 % is hard to see, 10 % is plain "
-        "grain. <b>Time</b> is that of taking the samples, without loading. Down and to the left is better in every plot. "
+        "grain. <b>Time</b> is that of taking the samples, without loading. In every plot, lower and further left is better. "
         "<b>Noise</b> is the part of the error that more samples remove; <b>bias</b> is the part that stays."))
 
 
@@ -153,8 +153,8 @@ def knobs(plots, data):
             words.append(f"Every pixel is the same as with the default settings: {', '.join(same)}.")
         figures.append(f"<figure><h3>{esc(knob['label'])}</h3>{plot_knob(plots, data, index)}"
                        f"<figcaption>{esc(' '.join(words))}</figcaption></figure>")
-    return section("One knob at a time", paragraph(
-        "Coloured: the values of this knob; a line follows a value to fewer and more samples. Grey: all other runs. A ring "
+    return section("One parameter at a time", paragraph(
+        "Coloured: the values of this parameter; a line follows a value to fewer and more samples. Grey: all other runs. A ring "
         "marks the default settings, a hollow mark an error so small that the reference's own noise blurs it."),
         f'<div class="knobs">{"".join(figures)}</div>')
 
@@ -244,14 +244,14 @@ def all_runs(data):
     rows = []
     for run in data["runs"]:
         error, claimed = run["error"], run["claimed"]
-        said = "no claim"
+        said = "none"
         if claimed and claimed["estimate"] is not None:
             said = f"{percent(claimed['estimate'])} ({percent(claimed['low'])} to {percent(claimed['high'])})"
         rows.append([esc(run["words"]) + (" (default)" if run["is_default"] else ""), spread(run["time_s"]),
                      seconds(run["load_s"]), f"{run['memory_bytes'] / 2**20:.1f} MiB", percent(error["total"]),
                      percent(error["noise"]), esc(bias_words(error)), said])
     heads = ["setting", "#time: median (lowest to highest)", "#loading", "#memory", "#error", "#noise",
-             "bias (\u2264: none found)", "#error that the render claims"]
+             "bias (\u2264: none found)", "#error that the render reports"]
     return section("All runs", table(heads, rows, "All runs"))
 
 

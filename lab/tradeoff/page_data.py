@@ -10,7 +10,7 @@ import re
 
 
 class Malformed(Exception):
-    """What is wrong with the JSON file, and where in it."""
+    """What is wrong with the JSON file, and where."""
 
 
 NUMBER, TEXT, FLAG = (int, float), str, bool
@@ -136,7 +136,7 @@ def spread(time_s):
 
 
 def name_of(data, run):
-    """What a run is called: its knob and setting."""
+    """What a run is called: its parameter and setting."""
     label = next((knob["label"] for knob in data["knobs"] if knob["name"] == run["knob"]), run["knob"])
     return f"{label}: {run['setting']}"
 
@@ -160,7 +160,7 @@ def scene_words(path):
 
 
 def same_pixels(data, knob):
-    """Settings of a knob, other than the default, that change no pixel: neither one that was compared, nor the error."""
+    """Settings of a parameter, other than the default, that change neither a compared pixel nor the error."""
     runs = [data["by_id"][i] for i in knob["runs"]]
     default = next((run for run in runs if run["is_default"]), default_of(data))
     return [run["setting"] for run in runs if not run["is_default"] and run.get("differing_pixels") == 0
@@ -168,7 +168,7 @@ def same_pixels(data, knob):
 
 
 def distinct_runs(data):
-    """The runs without the default settings of other knobs than the first, which are one and the same."""
+    """The runs, with the default settings only once: they are the same run for every parameter."""
     first = default_of(data)
     return [run for run in data["runs"] if run is first or not run["is_default"]]
 

@@ -6,10 +6,10 @@ import re
 
 from page_data import default_of, distinct_runs, esc, percent, seconds, slope_words
 
-LEAST_ERROR = 1e-5  # relative; what a logarithmic axis shows of an error that is 0 or below
+LEAST_ERROR = 1e-5  # relative; stands on a logarithmic axis for an error of 0 or below
 LABEL_GAP = 12.5  # points between the middles of two labels
-LEAST_SPAN = 8.0  # ratio of the ends of a small plot's axes: less would make a small difference look large
-NEAR = 6.0  # of times: how far a small plot follows a setting to other numbers of samples
+LEAST_SPAN = 8.0  # least ratio of the ends of a small plot's axes, so that a small difference does not look large
+NEAR = 6.0  # ratio of times within which a small plot follows a setting to other sample counts
 MARKS = "osD^vP*Xdh<>"
 
 # Okabe and Ito's colours that differ for every eye (Color Universal Design, 2008), darker on white, lighter on black.
@@ -41,7 +41,7 @@ class Plots:
         return f"#04{index % len(LIGHT):02x}04"
 
     def start(self, width, height, columns=1):
-        """An empty figure of so many inches, and its axes."""
+        """An empty figure of this size in inches, and its axes."""
         figure = self.figure_of(figsize=(width, height), layout="constrained")
         axes = figure.subplots(1, columns, squeeze=False, sharey=True)[0]
         figure.patch.set_visible(False)
@@ -92,7 +92,7 @@ def shown(error):
 
 
 def draw_run(axes, run, colour, mark, label=None):
-    """A mark with the range of its times; a hollow one where the reference's own noise limits the error."""
+    """A mark with the range of its times; hollow where the reference's own noise limits the error."""
     time = run["time_s"]
     bars = [[max(0.0, time["median"] - time["low"])], [max(0.0, time["high"] - time["median"])]]
     fill = "none" if run["error"].get("is_limited") else colour
@@ -101,7 +101,7 @@ def draw_run(axes, run, colour, mark, label=None):
 
 
 def draw_curve(axes, levels, colour, **look):
-    """A line through the prices of one setting at several numbers of samples."""
+    """A line through the prices of one setting at several sample counts."""
     axes.plot([one["time_s"]["median"] for one in levels], [shown(one["error"]["total"]) for one in levels], color=colour,
               **{"lw": 1.2, "zorder": 3, **look})
 
@@ -130,7 +130,7 @@ def draw_noise_floor(axes, plots, data):
 
 
 def name_front(figure, axes, plots, front):
-    """The number of each run of the front on its empty side, pushed down until no number covers another."""
+    """Numbers the runs of the front, beside their marks; pushes numbers down until none covers another."""
     figure.draw_without_rendering()  # settles the layout
     points = 72.0 / figure.dpi
     lowest = math.inf
@@ -149,7 +149,7 @@ def cover(a, b):
 
 
 def name_runs(figure, axes, runs):
-    """The setting beside each run, on the first side where it covers neither a mark nor another name."""
+    """Writes the setting beside each run, on the first side where it covers neither a mark nor another name."""
     figure.draw_without_rendering()
     points = 72.0 / figure.dpi
     places = [(run["time_s"]["median"], shown(run["error"]["total"])) for run in runs]
@@ -170,7 +170,7 @@ def ranges(runs):
 
 
 def plot_all(plots, data):
-    """Every run, the front, the fitted slopes; thin lines follow a setting to other numbers of samples."""
+    """Every run, the front, the fitted slopes; thin lines follow a setting to other sample counts."""
     figure, (axes,) = plots.start(10.5, 6.6)
     runs = distinct_runs(data)
     times, errors = ranges(runs)
@@ -198,20 +198,20 @@ def plot_all(plots, data):
 
 
 def widened(values, factor):
-    """The values with their ends so far apart that the axis spans at least the factor."""
+    """The values, with ends added so that the axis spans at least the factor."""
     middle = math.sqrt(min(values) * max(values))
     half = math.sqrt(max(factor, max(values) / min(values)))
     return [middle / half, middle * half]
 
 
 def near(run):
-    """The run and its levels within a factor of NEAR of its time, which a small plot shows."""
+    """The run and its other sample counts within a factor of NEAR of its time, which a small plot shows."""
     time = run["time_s"]["median"]
     return [run] + [one for one in run.get("curve") or [] if time / NEAR <= one["time_s"]["median"] <= time * NEAR]
 
 
 def plot_knob(plots, data, index):
-    """The settings of one knob, each a line over numbers of samples where those were measured, all others in grey."""
+    """The settings of one parameter, each a line over the measured sample counts; all other runs in grey."""
     knob = data["knobs"][index]
     runs = [data["by_id"][i] for i in knob["runs"]]
     curves = any(run.get("curve") for run in runs)

@@ -26,11 +26,11 @@ BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
 SKY, LAMPS = ("256x192", "90s"), ("96x72", "120s")  # size of the picture, and time for all runs of a scene
 SCENES = {"first_light": SKY, "night": SKY, "overcast": SKY, "slit": SKY, "spheres": SKY, "mixed": SKY,
           "emitters": SKY, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
-MOST_SAMPLES = 256  # asked of each scene; the time decides how many are measured
+MOST_SAMPLES = 256  # asked of each scene; the time limit decides how many are measured
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
-MOST_BEYOND = 16.0  # times the most samples measured, beyond which no time is given
+MOST_BEYOND = 16.0  # sample counts beyond the largest measured one by more than this factor get no time
 COLOURS = ("#0072b2", "#c25400", "#00805e", "#b3508a", "#8a6100", "#2a8fd0", "#6a4fb3", "#5c5c5c")
-KINDS = {"plain": "black", "photons": "#8a2b2b"}  # of scenes, and the colour of their presets
+KINDS = {"plain": "black", "photons": "#8a2b2b"}  # kinds of scenes, and the colours of their presets
 MARKS = "osD^vP*Xdh<>"
 
 
@@ -38,7 +38,7 @@ MARKS = "osD^vP*Xdh<>"
 
 
 def rounded(value):
-    """Two digits that count, without an exponent."""
+    """Two significant digits, without an exponent."""
     return f"{float(f'{value:.2g}'):g}"
 
 
@@ -50,11 +50,11 @@ def time_text(value):
 
 
 def cell(curve, error):
-    """Time to an error; in parentheses where it lies beyond what was measured, a dash where it lies far beyond."""
+    """Time to an error; in parentheses beyond what was measured, a dash far beyond."""
     spp = curve.samples_for(error)
     if spp is None or spp > MOST_BEYOND * curve.rows[-1]["spp"]:
         return "-"
-    spp = max(spp, 1.0)  # no picture takes less than a sample
+    spp = max(spp, 1.0)  # no picture takes less than one sample
     text = time_text(curve.at(spp, "time_s"))
     return text if curve.is_measured(spp) else f"({text})"
 
@@ -166,7 +166,7 @@ def update_prices(options):
     else:
         with tempfile.TemporaryDirectory() as folder:
             about, rows = read_prices(measure(options, folder))
-    choose_presets.choose(rows)  # refuses what the presets cannot be chosen from, before anything is written
+    choose_presets.choose(rows)  # refuses unusable prices before anything is written
     options.prices.write_text(csv_text(about, rows), encoding="utf-8")
 
 

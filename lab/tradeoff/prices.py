@@ -1,8 +1,8 @@
 """Prices of many scenes as one small table: prices.csv, made from the tradeoff.json files of `voxilux tradeoff`.
 
-A row is a setting at a number of samples: how long the samples took, which error was left. Only the knobs of
-KEPT_KNOBS have rows. Lines that start with '#' name what all rows have in common. Times are seconds, errors roots of
-relMSE.
+A row is a setting at a sample count: the time of the samples and the error that was left. Only the parameters of
+KEPT_KNOBS have rows. Lines that start with '#' hold what all rows have in common. Times are in seconds, errors are
+roots of relMSE.
 """
 
 import csv
@@ -15,7 +15,7 @@ KEPT_KNOBS = ("samples", "ao_rays")
 TEXTS = ("scene", "knob", "setting")
 COUNTS = ("width", "height", "is_default", "spp", "ao_rays", "photons")
 NUMBERS = ("time_s", "time_low_s", "time_high_s", "error", "noise", "bias")
-PRECISION = 1e-9  # of numbers of samples, relative: far finer than the two digits that are printed
+PRECISION = 1e-9  # of sample counts, relative: far finer than the two digits that are printed
 ABOUT = ("machine", "device", "version")
 
 
@@ -34,7 +34,7 @@ def machine_of(price_list):
 
 
 def rows_of(price_list):
-    """The rows of one tradeoff.json. A number that a run does not have is 0, an unknown bias too."""
+    """The rows of one tradeoff.json. A number that a run lacks is 0, and so is an unknown bias."""
     rows = []
     for run in price_list["runs"]:
         if run["knob"] not in KEPT_KNOBS:
@@ -53,7 +53,7 @@ def rows_of(price_list):
 
 
 def gather(price_lists):
-    """What is common to the price lists, and their rows. They must be of one machine, device and version."""
+    """What the price lists have in common, and their rows. They must be of one machine, device and version."""
     about, rows = {}, []
     for price_list in price_lists:
         one = {"machine": machine_of(price_list), "version": price_list["version"],
@@ -118,8 +118,8 @@ def scenes_of(rows):
 
 
 class Curve:
-    """Error and time of a setting of a scene against samples per pixel: straight between measured points in logarithms,
-    beyond them a power law with the fitted slope. Without a setting that was measured: the default."""
+    """Error and time of a setting of a scene against samples per pixel: straight lines in logarithms between measured
+    points, and beyond them a power law with the fitted slope. A setting that was not measured counts as the default."""
 
     def __init__(self, rows, knob="samples", setting=None):
         own = [row for row in rows if row["knob"] == knob and setting in (None, row["setting"])]
@@ -130,7 +130,7 @@ class Curve:
         self.slopes = {key: fitted_slope(self.rows, key) for key in ("error", "time_s")}
 
     def at(self, spp, key):
-        """The error or the time at this many samples."""
+        """The error or the time at a sample count."""
         rows = self.rows
         upper = next((i for i, row in enumerate(rows) if row["spp"] >= spp), len(rows))
         if 0 < upper < len(rows):
@@ -144,7 +144,7 @@ class Curve:
         return self.rows[0]["spp"] <= spp <= (1.0 + PRECISION) * self.rows[-1]["spp"]
 
     def samples_for(self, error):
-        """The least number of samples, not whole, that leaves no more than the error; None where none does."""
+        """The least sample count, a fraction, that leaves at most the error; None where none does."""
         if self.slopes["error"] >= 0.0:
             return None
         low, high = 1e-3, 1e9

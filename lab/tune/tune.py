@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds first radius, alpha and photons of an iteration for a scene by Bayesian optimisation.
+"""Finds the first radius, alpha and the photons per iteration for a scene by Bayesian optimisation.
 
 Each trial renders the scene for the same time; the error that is left is what Optuna minimises (a tree-structured
 Parzen estimator: Bergstra et al. 2011, "Algorithms for Hyper-Parameter Optimization", section 4). The best trial and
@@ -23,7 +23,7 @@ ALPHAS = (0.4, 1.0)
 
 
 class Failure(Exception):
-    """A render that failed: what it says."""
+    """The message of a render that failed."""
 
 
 def run(words):
@@ -44,14 +44,14 @@ def flags_of(settings):
 
 
 class Judge:
-    """Renders with settings and says how large the error is."""
+    """Renders with settings and returns the error."""
 
     def __init__(self, options, folder):
         self.options = options
         self.picture = str(pathlib.Path(folder) / "trial.exr")
 
     def error(self, settings, seed):
-        """Root of relMSE after the time of a trial, against the reference or as the render estimates it."""
+        """Root of relMSE after the time of a trial: against the reference, or as the render estimates it."""
         options = self.options
         words = [options.voxilux, "render", options.scene, "--seed", str(seed), "--quiet", "--json", "-"]
         words += ["--iterations", str(MOST_ITERATIONS), "--time-limit", f"{options.time}s", "-o", self.picture]
@@ -76,7 +76,7 @@ class Judge:
 
 
 def overtime(wall_s, time_s):
-    """What an error is multiplied by that took longer than it should: noise falls with the root of the time."""
+    """The factor for the error of a trial that took too long: noise falls with the root of the time."""
     return math.sqrt(max(1.0, wall_s / time_s))
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Attacks voxilux as its surroundings might, and counts where it breaks a promise of docs/trust.md.
+"""Attacks voxilux as its environment might, and counts broken promises of docs/trust.md.
 
     attack.py --voxilux build/release/voxilux                     five minutes, divided among the attacks
     attack.py --voxilux build/release/voxilux --full              as many tries as docs/trust.md counts: an hour
@@ -44,7 +44,7 @@ class Ending:
 
 @dataclass
 class Attack:
-    """A kind of try, what it may end with, and how it went."""
+    """A kind of attack, the exit codes it may end with, and its results."""
 
     name: str
     promise: str
@@ -100,7 +100,7 @@ def unexpected(ending: Ending, allowed: tuple) -> str | None:
 
 
 def is_whole_exr(data: bytes) -> bool:
-    """Whether the file ends where the last block of its table of places does."""
+    """Whether the file ends where the last block of its offset table does."""
     try:
         at = 8
         while data[at]:  # name, type, size and value of an attribute
@@ -151,7 +151,7 @@ def kill_and_resume(bench: Bench, rng: random.Random) -> str | None:
 
 
 def stop_by_signal(bench: Bench, rng: random.Random) -> str | None:
-    """Once it has said that it takes samples."""
+    """Waits until the render reports that it takes samples."""
     which = rng.choice((signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1))
     since = time.monotonic()
     child = bench.start(render("a.exr", "--spp", "1000000", "--time-limit", "4s", "--progress", "json"))

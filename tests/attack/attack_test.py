@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Programs that break a promise: each attack has to notice."""
+"""Programs that break a promise. Each attack has to notice."""
 
 import pathlib
 import random

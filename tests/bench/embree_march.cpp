@@ -1,5 +1,5 @@
-// `voxilux bench march` with Embree in the contest: the same rays, one at a time on one thread, as a program
-// without a GPU would ask. Not a test: it is built where Embree is installed.
+// `voxilux bench march` with Embree in the comparison: the same rays, one at a time on one thread, as a
+// program without a GPU would trace them. Not a test: it is built where Embree is installed.
 
 #include <xmmintrin.h>
 
@@ -77,8 +77,8 @@ class EmbreeBench {
         }
     }
 
-    // A row for each query and kind of rays; says on standard error how many rays hit. They must not outlive
-    // this.
+    // A row for each query and kind of rays; reports on standard error how many rays hit. The arguments must
+    // outlive this.
     std::vector<MarchContestant> contestants() {
         std::vector<MarchContestant> all;
         for (const RayList& list : lists_)
@@ -122,7 +122,7 @@ class EmbreeBench {
     }
 
     const BenchScene& scene_;
-    Stopwatch build_watch_;  // before what it times
+    Stopwatch build_watch_;  // starts before what it times
     EmbreeScene embree_;
     double build_s_ = 0.0;
     std::vector<RayList> lists_;
@@ -133,7 +133,7 @@ bool is_embree(const BenchRow& row) {
     return row.traversal.starts_with("embree.");
 }
 
-// The rate of the row over Embree's better one for the same rays.
+// The rate of the row over the better one of Embree for the same rays.
 double rate_over_embree(const BenchRow& row, const std::vector<BenchRow>& rows) {
     double best = 0.0;
     for (const BenchRow& other : rows)

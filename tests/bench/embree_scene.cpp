@@ -11,7 +11,8 @@
 namespace voxilux {
 namespace {
 
-// How far from its start a ray counts hits, in voxels: rays that leave a face would meet that face again.
+// Rays do not count hits nearer than this, in voxels, because a ray that leaves a face would meet that face
+// again.
 constexpr float kNearest = 1.0e-3f;
 
 RTCRay to_embree(const gpu::Ray& ray) {
@@ -42,7 +43,7 @@ void fill_quads(RTCGeometry geometry, std::span<const ExposedFace> faces) {
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, kCornerBytes, 4 * faces.size()));
     auto* const indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), faces.size()));
-    if (vertices == nullptr || indices == nullptr) return;  // the device tells why
+    if (vertices == nullptr || indices == nullptr) return;  // the device reports the error
     std::iota(indices, indices + 4 * faces.size(), 0u);
     float* out = vertices;
     for (const ExposedFace& face : faces) {

@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// A face of a voxel that has nothing in front.
+// A face of a voxel whose neighbour there is empty.
 struct ExposedFace {
     glm::ivec3 cell{0};  // of the voxel, local to the world
     gpu::uint face = 0;  // -x +x -y +y -z +z

@@ -1,4 +1,4 @@
-// The list of hard cases, tests/truth/stability/README.md, against the tests that there are.
+// The list of hard cases, tests/truth/stability/README.md, against the tests that exist.
 
 #include <gtest/gtest.h>
 

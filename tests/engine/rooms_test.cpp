@@ -1,5 +1,5 @@
-// Who may include whom. The rooms and their order are the table of engine/README.md; above them stand the
-// voxelizer and the tools.
+// Which room may include which. The rooms and their order are the table of engine/README.md; above them are
+// the voxelizer and the tools.
 
 #include <gtest/gtest.h>
 
@@ -138,7 +138,7 @@ TEST(Rooms, vulkan_header_outside_vk_is_found) {
     }
 }
 
-// Of the engine, what the voxelizer may include: it knows meshes and files, and nothing that renders.
+// What the voxelizer may include of the engine: it knows meshes and files, and nothing that renders.
 const Rooms kVoxelizerRooms = {"base", "scene", "formats", "estimators"};
 
 std::vector<std::string> wrong_voxelizer_includes(const std::vector<SourceFile>& files) {
@@ -158,7 +158,7 @@ std::vector<std::string> wrong_voxelizer_includes(const std::vector<SourceFile>&
 const Rooms kSharedTools = {"render"};
 
 // A subcommand includes its own folder, what all share at the top of tools/, the engine and the voxelizer. Of
-// the files at the top only the command line, which lists the subcommands, includes their folders.
+// the files at the top, only the command line, which lists the subcommands, includes their folders.
 bool may_tool_include(const Rooms& rooms, const std::string& path, const Include& include) {
     const std::string folder = first_folder(include.target);
     if (!include.quoted || folder.empty() || folder == "voxelizer" || folder == "shared" ||

@@ -16,7 +16,7 @@ namespace {
 using test::Pattern;
 using test::SourceFile;
 
-// Blocks that shaders both read and write, and why.
+// Blocks that shaders both read and write, with the reason.
 const std::map<std::string, std::string> kReadAndWritten = {
     {"Counters", "atomic counters"},
     {"Keys", "slots are claimed by atomics in one pass and emptied in another"},
@@ -61,7 +61,7 @@ std::vector<std::string> hand_kept_copies(const SourceFile& file) {
     return faults;
 }
 
-// Calls with a form of ours that cannot fail where the library's throws, and what to write instead.
+// Library calls that throw, for which we have a form that cannot fail, and what to write instead.
 std::vector<std::string> calls_that_throw(const SourceFile& file) {
     const Pattern print(R"(\b(fmt|std)::print(ln)?\()"), dump(R"(\.dump\()");
     std::vector<std::string> faults;
@@ -73,7 +73,7 @@ std::vector<std::string> calls_that_throw(const SourceFile& file) {
     return faults;
 }
 
-// Lines that a file may have.
+// The largest number of lines of a file.
 std::size_t longest_file(const std::string& path) {
     if (path.starts_with("shaders/shared/")) return 250;
     return path.ends_with(".comp") ? 120 : 500;
@@ -89,8 +89,8 @@ std::vector<std::string> long_files(const std::vector<SourceFile>& files) {
     return faults;
 }
 
-// What the build cannot do without: names in find_package, pkg_check_modules and find_program. QUIET asks for
-// what the build does without.
+// What the build requires: names in find_package, pkg_check_modules and find_program. QUIET marks what is
+// optional.
 std::set<std::string> wanted_by(const SourceFile& file) {
     const Pattern requests[] = {Pattern(R"(^ *find_package\(([A-Za-z_0-9]+))"),
                                 Pattern(R"(^ *pkg_check_modules\(.*[ ]([A-Za-z_0-9.+-]+)\))"),
@@ -106,7 +106,7 @@ std::set<std::string> wanted_by(const SourceFile& file) {
     return names;
 }
 
-// Third and later columns of setup/packages.txt: what each package is there for.
+// The third and later columns of setup/packages.txt: the names that a package provides.
 std::set<std::string> provided_by(const std::string& packages) {
     std::set<std::string> names;
     for (const std::string& line : test::lines_of(packages)) {
@@ -132,7 +132,7 @@ std::vector<std::string> unprovided(const std::vector<SourceFile>& files, const 
     return faults;
 }
 
-// Tests that need the shared data although the name of their suite does not say so.
+// Tests that need the shared data, but do not have External in their suite name.
 std::vector<std::string> unnamed_externals(const SourceFile& file) {
     const Pattern head(R"(^TEST(_[FP])?\(([A-Za-z0-9_]+),)");
     const Pattern skip("^ *SKIP_WITHOUT_");

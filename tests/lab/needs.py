@@ -1,4 +1,4 @@
-"""What a test needs and the machine may lack."""
+"""Skips tests whose modules or programs the machine lacks."""
 
 import importlib.util
 import os
@@ -9,8 +9,8 @@ SKIPPED = 77  # ctest's SKIP_RETURN_CODE
 
 
 def need_modules(*names):
-    """Ends the test where one of Debian's modules is missing: it is skipped. Where CI=true it fails, because the
-    second command of the README has installed them, and a skip would leave nothing that guards."""
+    """Skips the test where one of Debian's modules is missing. With CI=true it fails instead, because the second command of
+    the README has installed them."""
     _skip_without([name for name in names if importlib.util.find_spec(name) is None])
 
 

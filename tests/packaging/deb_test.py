@@ -1,4 +1,4 @@
-"""The Debian package that cpack makes: what it needs, what it holds, and what lintian says where that is installed.
+"""The Debian package that cpack makes: what it needs, what it holds, and what lintian says if it is installed.
 
     deb_test.py BUILD_FOLDER
 """

@@ -1,4 +1,4 @@
-"""cmake --install into a folder that is moved afterwards: everything is there, works, and is what desktops read.
+"""cmake --install into a folder that is moved afterwards: everything is there, works, and can be read by desktops.
 
     install_test.py BUILD_FOLDER SOURCE_FOLDER
 """

@@ -78,7 +78,7 @@ std::vector<AoCell> many_cells() {
     return cells;
 }
 
-// How many keys are another cell's too.
+// The number of keys that belong to more than one cell.
 template <class Key>
 std::size_t repeats(const std::vector<AoCell>& cells, const Key& key) {
     std::vector<std::uint64_t> keys;
@@ -135,7 +135,7 @@ TEST(AoCellKey, comparison_rejects_a_neighbour) {
     EXPECT_FALSE(test::cell_of_key(test::key_of(cell) & ~std::uint64_t{0x80000000u}));
 }
 
-// Mirror images of a point about the middle of the world: the voxel of each is its floor, also below zero.
+// Points mirrored about the middle of the world: the voxel of each is its floor, also below zero.
 template <class Floor>
 std::size_t mirrored_repeats(const Floor& whole) {
     TestRandom random(5);

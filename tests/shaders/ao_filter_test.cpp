@@ -79,7 +79,7 @@ struct Tap {
     float height;
 };
 
-// The filter of one pixel over 25 taps, the 12th of which is its own, as the pass does it.
+// Filters one pixel over 25 taps, of which the 12th is its own, as the pass does.
 float filtered(const std::array<Tap, 25>& taps, float footprint) {
     const Tap& centre = taps[12];
     const float variance = gpu::visibility_variance(centre.visibility, centre.taken);
@@ -129,7 +129,7 @@ TEST(AoFilter, result_is_between_its_taps) {
     }
 }
 
-// What many samples have settled is kept; what few have hinted at is smoothed.
+// Values from many samples are kept; values from few are smoothed.
 TEST(AoFilter, smoothing_fades_with_the_number_of_samples) {
     float last = 0.0f;
     for (const float taken : {1.0f, 16.0f, 256.0f, 4096.0f}) {

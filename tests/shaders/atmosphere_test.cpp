@@ -59,8 +59,8 @@ TEST(Atmosphere, columns_agree_with_quadrature_from_the_ground_to_the_top_and_do
     }
 }
 
-// Without the part that is of second order, the horizontal column is 3/8 of a scale height in the radius too
-// small: 0.05 %.
+// Without the second-order part, the horizontal column corresponds to a radius that is 3/8 of a scale height
+// too small: 0.05 %.
 TEST(Atmosphere, first_order_of_the_chapman_function_is_caught) {
     const double expected = quadrature_up(0.0, 0.0).x;
     const double first_order = 8.0 * std::sqrt(kPiD / 2.0 * kRadius / 8.0);

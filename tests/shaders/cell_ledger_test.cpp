@@ -1,4 +1,4 @@
-// Cells over many frames: where every sample is, and when cells are given up.
+// Cells over many frames: all samples are accounted for, and cells are given up in time.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class Ledger {
         ++frame;
     }
 
-    // Samples that the slots' own counts miss or have too many, slot by slot.
+    // Samples that the counts of the slots lack or have in excess, slot by slot.
     [[nodiscard]] std::uint64_t misplaced() const {
         std::uint64_t sum = 0;
         for (std::size_t slot = 0; slot < samples_.size(); ++slot) {
@@ -66,7 +66,7 @@ class Ledger {
     int evicted = 0;
 
   private:
-    // The whole table: in every eighth frame, or in each when cells are given up sooner.
+    // Sweeps the whole table: in every eighth frame, or in each when cells are given up sooner.
     void sweep() {
         if (frame % 8 != 0 && max_age_ == gpu::kCellMaxAge) return;
         for (std::size_t slot = 0; slot < samples_.size(); ++slot) {
@@ -104,7 +104,7 @@ std::uint64_t key_number(std::uint64_t i) {
     return TestRandom(i).bits64() | 0x8000000080000000u;
 }
 
-// The keys that a camera sees which passes by: in each frame 3 new ones come, and 3 old ones go.
+// The keys in the view of a passing camera: in each frame 3 new ones come and 3 old ones go.
 std::vector<std::uint64_t> keys_in_view(std::uint64_t frame) {
     std::vector<std::uint64_t> keys;
     for (std::uint64_t i = 0; i < 60; ++i)
@@ -136,7 +136,7 @@ TEST(CellLedger, comparison_rejects_a_sample_in_another_cell) {
     EXPECT_EQ(ledger.misplaced(), 2u);
 }
 
-// How many of the keys, seen in every frame, were given up all the same.
+// How many of the keys were given up although they were seen in every frame.
 int evicted_in_sight(std::uint32_t first_frame, IsDue is_due, std::uint32_t max_age = gpu::kCellMaxAge) {
     Ledger ledger(4096, first_frame, is_due, max_age);
     std::vector<std::uint64_t> keys;
@@ -160,7 +160,7 @@ TEST(HardCase, hole16_comparison_rejects_touches_rarer_than_the_greatest_age) {
     EXPECT_GT(evicted_in_sight(0, rare), 100);
 }
 
-// How many cells were given up in sight after all had been out of it for some frames.
+// How many cells were given up in sight after all of them had been out of sight for some frames.
 int evicted_after_return(IsDue is_due, std::uint32_t max_age = gpu::kCellMaxAge) {
     std::vector<std::uint64_t> keys;
     for (std::uint64_t i = 0; i < 300; ++i)

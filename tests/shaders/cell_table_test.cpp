@@ -1,4 +1,4 @@
-// The hash table of cells: who finds which slot when many search and claim at once.
+// The hash table of cells: which search finds which slot when many search and claim at once.
 
 #include <gtest/gtest.h>
 
@@ -54,9 +54,9 @@ using Searches = std::vector<Searched>;
 struct Faults {
     int duplicates = 0;  // live slots of one key beyond the first
     int wrong = 0;       // searches that ended in a slot of another key
-    int refused = 0;     // searches without an end though a slot was free or had the key
-    int probes = 0;      // searches that looked too often
-    int claims = 0;      // entries more or less than slots filled
+    int refused = 0;     // searches that fail although a slot is free or has the key
+    int probes = 0;      // searches that probed too many slots
+    int claims = 0;      // difference between entries and filled slots
 
     [[nodiscard]] int all() const { return duplicates + wrong + refused + probes + claims; }
 };
@@ -80,7 +80,7 @@ int live_count(const CellTable& table) {
     return static_cast<int>(table.keys.size()) - static_cast<int>(std::ranges::count(table.keys, 0u));
 }
 
-// Checkers a table after a pass that began with `live_before` slots taken.
+// Checks a table after a pass that began with `live_before` slots taken.
 Faults faults_of(const CellTable& table, const Searches& searches, int live_before) {
     Faults faults;
     std::map<std::uint64_t, int> live;
@@ -131,7 +131,7 @@ Searches search_in_threads(CellTable& table, const Keys& keys, std::size_t threa
     return all;
 }
 
-// Empties about every third slot, in the middle of runs too.
+// Empties about every third slot, also in the middle of runs.
 void empty_some(CellTable& table, TestRandom& random) {
     for (std::uint64_t& key : table.keys) {
         if (random.bits64() % 3 == 0) key = 0;
@@ -227,7 +227,7 @@ TEST(CellTable, search_interrupted_at_any_access_never_doubles_or_mistakes_a_key
     }
 }
 
-// Looks and writes in two steps.
+// Negative control: looks and writes in two steps.
 FoundSlot claim_in_two_steps(CellTable& table, gpu::uvec2 key, std::uint32_t mask) {
     const std::uint32_t home = gpu::home_slot(key, mask);
     FoundSlot found{.slot = kNoSlot, .probes = 1, .claimed = false};
@@ -244,7 +244,7 @@ FoundSlot claim_in_two_steps(CellTable& table, gpu::uvec2 key, std::uint32_t mas
     return found;
 }
 
-// Takes the first free slot that it meets, though the key may be behind it.
+// Negative control: takes the first free slot, although the key may be behind it.
 FoundSlot claim_before_the_search_ends(CellTable& table, gpu::uvec2 key, std::uint32_t mask) {
     const std::uint32_t home = gpu::home_slot(key, mask);
     for (std::uint32_t i = 0; i <= std::min(mask, gpu::kCellProbes - 1); ++i) {
@@ -256,7 +256,7 @@ FoundSlot claim_before_the_search_ends(CellTable& table, gpu::uvec2 key, std::ui
     return {.slot = kNoSlot, .probes = 1, .claimed = false};
 }
 
-// Searches to the end, but then takes a half-written key for a foreign one.
+// Negative control: searches to the end, but takes a half-written key for another one.
 FoundSlot trust_half_keys(CellTable& table, gpu::uvec2 key, std::uint32_t mask) {
     const std::uint32_t home = gpu::home_slot(key, mask);
     const std::uint32_t most = std::min(mask, gpu::kCellProbes - 1) + 1;
@@ -317,7 +317,8 @@ TEST(HardCase, row19_full_table_refuses_after_a_bounded_search) {
     }
 }
 
-// Share of homes from which kCellProbes slots in a row are taken, in tables filled by random keys.
+// The fraction of home slots from which kCellProbes slots in a row are taken, in tables filled by random
+// keys.
 double share_of_full_runs(double load, int tables) {
     constexpr std::size_t kSlots = std::size_t{1} << 20;
     std::size_t full = 0;

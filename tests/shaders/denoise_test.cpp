@@ -1,4 +1,4 @@
-// The mathematics of the denoiser: fits, mixtures and the claim.
+// The mathematics of the denoiser: fits, mixtures and the error estimate.
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ double noise_of(TestRandom& random) {
     return random.uniform(0.0, 1.0) < 0.1 ? 9.0 : -1.0;  // skewed, mean 0
 }
 
-// Half means of a constant 5, filtered by shrinking them to a wrong 5.5.
+// Half means of a constant 5, filtered by shrinking towards a wrong value of 5.5.
 struct Shrunk {
     glm::vec3 a, b, filtered_a, filtered_b;
 };

@@ -16,7 +16,7 @@ using glm::vec3;
 using gpu::Dielectric;
 using test::DielectricCase;
 
-// Of 1.
+// Absolute, of a reflectance up to 1.
 constexpr double kTwoUlp = 2.0 * 0x1p-23;
 constexpr double kUnit = 4.0 * 0x1p-24;  // direction components: a few roundings
 
@@ -32,7 +32,7 @@ TEST(Dielectric, reflectance_and_exact_transmittance_sum_to_1_within_2_ulp) {
     }
 }
 
-// The same with everything in plain floats: near the critical angle the root loses half its bits.
+// The same in plain floats: near the critical angle the root loses half its bits.
 float plain_reflectance(float c, float eta) {
     const float sine2 = (1.0f - c * c) / (eta * eta);
     if (sine2 >= 1.0f) return 1.0f;

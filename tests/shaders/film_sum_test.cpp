@@ -139,7 +139,7 @@ TEST(FilmSquare, sums_stop_at_the_largest_number_in_any_order) {
     backwards = gpu::film_add_square(backwards, large);
     EXPECT_EQ(joined(forwards), INT64_MAX);
     EXPECT_EQ(joined(backwards), INT64_MAX);
-    // Without the stop it would be a negative square.
+    // Without saturation it would be a negative square.
     EXPECT_LT(joined(gpu::film_add(gpu::film_add(large, large), gpu::film_add(large, small))), 0);
 }
 
@@ -158,7 +158,7 @@ TEST(FilmSum, mean_of_a_constant_stays_constant_over_2_to_the_24_samples) {
     EXPECT_GT(std::abs(static_cast<double>(float_sum) / kCount - 0.1), 1e-3);
 }
 
-// Beyond 2^32 samples, by doubling the sum instead of drawing them.
+// Beyond 2^32 samples, the sum is doubled instead of drawing samples.
 TEST(FilmSum, mean_of_a_constant_stays_constant_over_2_to_the_36_samples) {
     uvec2 sum = gpu::film_fixed(1.7f).sum;
     for (int doubling = 0; doubling < 36; ++doubling) {

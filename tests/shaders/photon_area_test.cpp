@@ -1,4 +1,4 @@
-// The share of a disc that spheres leave, against counting random points of the disc.
+// The fraction of a disc that spheres leave, against counting random points of the disc.
 
 #include <array>
 #include <cmath>
@@ -89,8 +89,8 @@ TEST(PhotonArea, a_slanted_wall_takes_what_counting_says) {
     }
 }
 
-// Where both walls cut, the cuts overlap: independence is wrong by up to 0.04 of the disc, and right in the
-// corner itself and far from it.
+// Where both walls cut, the cuts overlap. Assuming independence is then wrong by up to 0.04 of the disc, but
+// right in the corner itself and far from it.
 TEST(PhotonArea, a_corner_of_three_walls_leaves_about_what_counting_says) {
     double worst = 0.0;
     for (double x = 0.01; x < 2.2; x += 0.3) {

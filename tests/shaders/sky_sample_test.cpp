@@ -1,4 +1,4 @@
-// Directions towards the sky: their density, and what they make of the integral that they are for.
+// Directions towards the sky: their density, and the integrals that they estimate.
 
 #include <cmath>
 #include <numbers>
@@ -42,7 +42,7 @@ vec2 random_point(gpu::uint i) {
     return {gpu::rng_float(11, 1, i, 0), gpu::rng_float(11, 1, i, 1)};
 }
 
-// Sums of shares differ from 1 by roundings only, so a share is the chance of its bin.
+// The sum of the probabilities differs from 1 only by rounding, so each is the probability of its bin.
 double chance(const std::vector<float>& shares, gpu::uint face, gpu::uint row, gpu::uint column) {
     const auto part = [&](gpu::uint first, gpu::uint number) {
         return double{shares[first + number]} - (number == 0 ? 0.0 : double{shares[first + number - 1]});
@@ -68,7 +68,7 @@ TEST(SkySample, bins_are_drawn_as_often_as_their_density_says) {
                 const auto row = std::min(static_cast<gpu::uint>(z), gpu::kSkyBins - 1);
                 const auto column = std::min(static_cast<gpu::uint>(a), gpu::kSkyBins - 1);
                 counts[row * gpu::kSkyBins + column] += 1.0;
-                // A direction at the border of two bins may be counted in the other one.
+                // A direction on the border of two bins may be counted in either.
                 const double pdf = chance(shares, face, row, column) * gpu::kSkyBins * gpu::kSkyBins /
                                    (4.0 * std::numbers::pi);
                 if (i < 1000 && std::abs(z - std::round(z)) > 1e-3 && std::abs(a - std::round(a)) > 1e-3) {

@@ -1,4 +1,4 @@
-// The tables of the sky where parameters are extreme, and that nothing jumps.
+// The tables of the sky for extreme parameters, and their continuity.
 
 #include <algorithm>
 #include <bit>

@@ -47,7 +47,7 @@ TEST(PhotonRadius, slope_is_the_published_one_and_never_rises) {
     EXPECT_NEAR(gpu::photon_radius(2.0, 1.0, 0xFFFFFFFFu), 2.0, 1e-6);
 }
 
-// (i + alpha) / (i + 1) begun one iteration late, negative control, is outside the tolerance of the first
+// Negative control: (i + alpha) / (i + 1) begun one iteration late is outside the tolerance of the first
 // test.
 TEST(PhotonRadius, index_off_by_one_is_caught) {
     const double late = gpu::photon_radius(2.0, 2.0 / 3.0, 1001) / gpu::photon_radius(2.0, 2.0 / 3.0, 1000);
@@ -80,7 +80,7 @@ TEST(Roulette, is_unbiased_down_to_the_smallest_throughput) {
         EXPECT_EQ(survivors * 0x1p-24, double(survival)) << largest;
         EXPECT_GE(double(survival), std::min(1.0, double(largest)));
     }
-    // Negative control: the throughput as it is.
+    // Negative control: the throughput itself.
     EXPECT_NE(std::ceil(double(3e-8f) * 0x1p24) * 0x1p-24, double(3e-8f));
 }
 
@@ -123,7 +123,7 @@ TEST(SphereEmission, emission_without_the_cosine_is_caught) {
 }
 
 // Irradiance at a near point, from photons that cross a small disc there: the field of a Lambertian ball, pi
-// L (r / d)^2. A wrong law of directions can keep the power and still fail here.
+// L (r / d)^2. A wrong distribution of directions can keep the power, but fails here.
 TEST(SphereEmission, near_field_is_that_of_a_lambertian_ball) {
     constexpr std::uint32_t kPhotons = 400000;
     const double distance = 1.5, disc = 0.25;  // radius of the ball 1, of the disc

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs frames of the occlusion hash on the test device and reads back all that they left behind.
+// Runs frames of the occlusion hash on the test device and reads back all their results.
 
 #include <array>
 #include <map>
@@ -32,12 +32,12 @@ struct AoFrame {
     [[nodiscard]] std::optional<std::uint32_t> slot_of(std::size_t pixel) const;
 };
 
-// Samples and open ones of the live cells by key.
+// Samples and unoccluded samples of the live cells, by key.
 using CellSums = std::map<std::uint64_t, std::pair<std::uint64_t, std::uint64_t>>;
 [[nodiscard]] CellSums sums_of(const AoFrame& frame);
 
-// A scene on a device, frame by frame, each of one sample. Persistent buffers go by name, so one fixture at a
-// time uses an executor. A frame counted a fault other than a full table fails the test.
+// A scene on a device, frame by frame, with one sample each. Persistent buffers go by name, so only one
+// fixture at a time uses an executor. The test fails when a frame counts a fault other than a full table.
 class AoFixture {
   public:
     // Uses the hash whatever method the scene asks for.
@@ -48,7 +48,8 @@ class AoFixture {
     // The next frame through the scene's own camera.
     AoFrame render(std::uint32_t sample = 0) { return render(*scene_.camera, sample); }
 
-    // Puts other sums into the table before the next frame. Not before the first, which empties the table.
+    // Puts other sums into the table before the next frame. Not before the first frame, which empties the
+    // table.
     void set_sums(const std::vector<std::uint64_t>& samples, const std::vector<std::uint64_t>& opens);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -69,12 +70,12 @@ class AoFixture {
 // A camera that flies around the scene above, a step each frame.
 [[nodiscard]] Camera flying_camera(int frame);
 
-// Empty when a hit on a voxel's face has this key: its cell is that which double precision finds. A wanted
-// width within rounding of a border between levels may be on either side.
+// Empty when a hit on a voxel's face has this key because its cell is the one that double precision finds. If
+// the cell width is within rounding of a border between levels, either level is right.
 [[nodiscard]] std::string key_disagreement(const AoFixture& fixture, const AoFrame& frame,
                                            const gpu::Hit& hit, std::uint64_t key);
 
-// How many of the samples with the numbers first <= n < end of a cell meet nothing, marched in C++.
+// The number of a cell's samples, of those numbered first <= n < end, that meet nothing when marched in C++.
 [[nodiscard]] std::uint64_t open_samples(const AoFixture& fixture, std::uint64_t key, std::uint64_t first,
                                          std::uint64_t end);
 

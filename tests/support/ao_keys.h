@@ -1,7 +1,7 @@
 #pragma once
 
 // Cells of the ambient occlusion hash as a test sees them: read back from their keys, and found from
-// positions in double precision, both by rules of their own.
+// positions in double precision, with independent code for both.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ inline std::uint64_t key_of(const gpu::AoCell& cell) {
     return key_bits(gpu::ao_cell_key(cell));
 }
 
-// The cell that a key stands for, from the list of its bits; none when they are those of no cell.
+// The cell of a key, from the list of its bits; none when no cell has these bits.
 inline std::optional<gpu::AoCell> cell_of_key(std::uint64_t key) {
     const auto field = [&](int first, int bits) {
         return static_cast<std::uint32_t>((key >> first) & ((std::uint64_t{1} << bits) - 1));
@@ -52,7 +52,7 @@ inline int axis_v(std::uint32_t face) {
     return static_cast<int>(face / 2 + 2) % 3;
 }
 
-// Level of a wanted width in voxels: the binary exponent, which is exact.
+// Level of a cell width in voxels: the binary exponent, which is exact.
 inline std::uint32_t level_of(double width) {
     if (!(width > 0.0)) return gpu::kAoLevels - 1;
     return static_cast<std::uint32_t>(

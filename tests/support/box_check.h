@@ -1,6 +1,7 @@
 #pragma once
 
-// Brute force over the cells of a structure: what each says of its voxels, and whether its box is empty.
+// Brute force over the cells of a structure: what each cell says about its voxels, and whether its box is
+// empty.
 
 #include <string>
 #include <vector>
@@ -24,8 +25,8 @@ class FilledCount {
     std::vector<int> below_;  // filled cells with smaller coordinates on every axis
 };
 
-// What is wrong with the first cell that does not tell the truth: an empty cell that is not, a box that holds
-// a voxel, a solid cell of another material, children that say otherwise. Empty when all are right.
+// What is wrong with the first wrong cell: an empty cell that is not empty, a box that holds a voxel, a solid
+// cell of another material, children that disagree. Empty when all cells are right.
 [[nodiscard]] std::string first_lie(const VoxelWorld& world, const FilledCount& filled,
                                     const MarchWorld& built);
 

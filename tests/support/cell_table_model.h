@@ -1,7 +1,7 @@
 #pragma once
 
-// A table of cells in C++ for shaders/shared/cell_table.h. Its reads may be as late as a device's, and
-// something else may happen between any two accesses.
+// A table of cells in C++ for shaders/shared/cell_table.h. Its reads may be as stale as a device's, and other
+// work may run between any two accesses.
 
 #include <atomic>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace voxilux::test {
 struct CellTable {
     explicit CellTable(std::size_t slots) : keys(slots, 0), is_settled(slots, 0) {}
 
-    // A new pass begins: all that was written before is seen by everybody.
+    // Begins a new pass: everybody sees what was written before.
     void begin_pass() {
         for (std::size_t slot = 0; slot < keys.size(); ++slot)
             is_settled[slot] = keys[slot] != 0 ? 1 : 0;
@@ -26,11 +26,11 @@ struct CellTable {
 
     std::vector<std::uint64_t> keys;  // 0: empty
     std::vector<char> is_settled;     // written in an earlier pass
-    double late_reads = 0.0;          // share of the reads that miss a half or all of a key of this pass
+    double late_reads = 0.0;          // fraction of reads that miss a half or all of a key of this pass
     std::function<void()> interrupt;  // called before every access
 };
 
-// A read that may be late: halves of the key, or what was there before.
+// A read that may be stale: it returns halves of the key, or the value before it.
 inline std::uint64_t read_late(const CellTable& table, std::uint32_t slot, std::uint64_t key) {
     thread_local TestRandom random(77);
     if (table.late_reads <= 0.0 || table.is_settled[slot] != 0) return key;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <mutex>
 
-// Asked by the leak sanitizer. Drivers and layers keep memory to the end of the process and are unloaded
-// before the check could see that it is theirs; our own Vulkan objects are checked by the validation layer.
+// Called by the leak sanitizer. Drivers and layers keep memory to the end of the process and are unloaded
+// before the check could attribute it to them. Our own Vulkan objects are checked by the validation layer.
 extern "C" int __lsan_is_turned_off() {
     return 1;
 }
@@ -36,7 +36,7 @@ SharedDevice& shared() {
     return one;
 }
 
-// Ends the device before the process's own end, and fails the binary when its layers had anything to say.
+// Destroys the device before the process ends, and fails the binary when its layers reported anything.
 class ValidationGuard : public testing::Environment {
   public:
     void TearDown() override {

@@ -9,8 +9,8 @@
 
 namespace voxilux {
 
-// The device that tests of this process share, with validation and synchronization validation on. Opened at
-// first use; a test binary fails at its end when any validation message was collected. Throws
+// The device that the tests of this process share, with validation and synchronization validation on. It is
+// opened at first use; a test binary fails at its end when any validation message was collected. Throws
 // Error(no_device), which fails the test, when the machine has none: lavapipe is always there.
 [[nodiscard]] Device& test_device();
 
@@ -20,7 +20,7 @@ namespace voxilux {
 // The pass and the probe shaders together.
 [[nodiscard]] std::span<const EmbeddedShader> all_shaders();
 
-// Messages collected so far are taken away and returned: for tests that provoke one on purpose.
+// Removes the messages collected so far and returns them, for tests that provoke one on purpose.
 [[nodiscard]] std::vector<std::string> take_validation_messages();
 
 }  // namespace voxilux

@@ -12,8 +12,8 @@ struct ExactHit {
     gpu::uint face = gpu::kFaceMiss;
 };
 
-// Direction components must be integers below 2^10 (either zero is zero), fractions of axes that move
-// multiples of 1/2, and t_max must not matter.
+// Direction components must be integers below 2^10 (of zeros, either sign), fractions along axes that move
+// must be multiples of 1/2, and t_max must be irrelevant.
 [[nodiscard]] ExactHit exact_walk(const VoxelWorld& world, const gpu::Ray& ray, AxisOrder order = kTieRule);
 
 }  // namespace voxilux::test

@@ -35,7 +35,7 @@ FrameFixture::FrameFixture(const Scene& scene, const PlanRequest& request, Execu
     : executor_(executor),
       prepared_(prepare_scene(scene, request, test_device().limits())),
       params_(frame_params(prepared_.plan, scene, prepared_.march_world)) {
-    EXPECT_EQ(prepared_.plan.film_tile_count, 1u) << "a fixture renders pictures of one band";
+    EXPECT_EQ(prepared_.plan.film_tile_count, 1u) << "a fixture renders pictures of one film tile";
     Recording recording;
     record_scene_upload(prepared_.plan, scene, prepared_.march_world, prepared_.lights, recording);
     record_film_clear(prepared_.plan, recording);
@@ -74,7 +74,7 @@ void FrameFixture::render_tile(std::uint32_t sample, std::uint32_t rows) {
     }
 }
 
-// A sky of radiance 1, seen through what multiplies it: the only term that is exact whatever the value.
+// A sky of radiance 1, seen through the factors that multiply it: the only term that is exact for any value.
 std::array<gpu::uint, gpu::kCounterCount> FrameFixture::add_radiance(std::uint32_t sample,
                                                                      const std::vector<glm::vec3>& radiance) {
     const RenderPlan& plan = prepared_.plan;

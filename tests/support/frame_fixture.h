@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs record_frame() on the test device and keeps what every pass wrote.
+// Runs record_frame() on the test device and keeps the output of every pass.
 
 #include <array>
 #include <optional>
@@ -26,7 +26,7 @@ struct FramePlanes {
     std::array<gpu::uint, gpu::kCounterCount> counters{};
 };
 
-// A scene on a device, sample by sample. Persistent buffers go by name, so one fixture at a time uses an
+// A scene on a device, sample by sample. Persistent buffers go by name, so only one fixture at a time uses an
 // executor. The plan has one film tile and every AOV.
 class FrameFixture {
   public:
@@ -41,7 +41,7 @@ class FrameFixture {
     // Renders the sample in tiles of `rows` rows into the film.
     void render_tile(std::uint32_t sample, std::uint32_t rows);
 
-    // Adds a sample of these radiances, one a pixel, to the film, and returns what was counted.
+    // Adds a sample of these radiances, one per pixel, to the film, and returns the counters.
     std::array<gpu::uint, gpu::kCounterCount> add_radiance(std::uint32_t sample,
                                                            const std::vector<glm::vec3>& radiance);
 
@@ -65,7 +65,7 @@ class FrameFixture {
 // The first sample of a scene on test_executor(). Fails the test when a fault was counted.
 [[nodiscard]] FramePlanes render_first_sample(const Scene& scene);
 
-// render_scene() under validation. Fails the test on any validation message, also those at the device's end,
+// render_scene() under validation. Fails the test on any validation message, even at the end of the device,
 // and on any fault.
 [[nodiscard]] RenderOutcome render_validated(const Scene& scene, RenderOptions options = {});
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// Writes small glTF files in memory, right or wrong ones.
+// Writes small glTF files in memory, valid or invalid.
 namespace gltf_builder {
 
 using nlohmann::json;
@@ -86,7 +86,7 @@ struct File {
         return list.back();
     }
 
-    // Its JSON with the one buffer that all views read.
+    // The JSON of the file, with the one buffer that all views read.
     [[nodiscard]] json with_buffer(bool is_embedded) const {
         json result = root;
         if (result.contains("buffers") || binary.empty()) return result;

@@ -9,7 +9,7 @@
 
 namespace voxilux::test {
 
-// How the samples of a made-up picture scatter.
+// The noise of the samples of a synthetic picture.
 enum class NoiseKind { gauss, ambient_occlusion, firefly, decay };
 
 [[nodiscard]] inline const char* name_of(NoiseKind kind) {
@@ -47,8 +47,8 @@ struct IntervalCoverage {
 
 inline void expect_honest(const IntervalCoverage& coverage) {
     EXPECT_GE(coverage.covered, static_cast<int>(kErrorConfidence * coverage.trials));
-    EXPECT_LE(coverage.above, coverage.trials / 40);  // the side that would break a promise: half of 5 %
-    EXPECT_LT(coverage.width(), 3.0);                 // a wide enough interval covers anything
+    EXPECT_LE(coverage.above, coverage.trials / 40);  // the side that matters: half of 5 %
+    EXPECT_LT(coverage.width(), 3.0);                 // an interval that is wide enough covers anything
     EXPECT_GT(coverage.ratio(), 0.97);
     EXPECT_LT(coverage.ratio(), 1.25);
     testing::Test::RecordProperty("covered", coverage.covered);

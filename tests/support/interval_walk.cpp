@@ -65,7 +65,8 @@ bool has_same_mantissa(double a, double b) {
     return std::frexp(a, &exponent) == std::frexp(b, &exponent);
 }
 
-// Whether floats may cross `other` before `first`, which comes first in real numbers or by the tie rule.
+// Whether rounding may make floats cross `other` before `first`, which comes first in real numbers or by the
+// tie rule.
 bool may_swap(const Mover& mover, const Crossing& first, const Crossing& other, int axis, int other_axis) {
     if (other.t - first.t > kUncertain * other.t) return false;
     const bool ties_in_floats =
@@ -99,7 +100,7 @@ class Walk {
         }
     }
 
-    // One crossing on; the other possible ones are left for later. False when the ray ends here for certain.
+    // Makes one crossing and keeps the other possible ones for later. False when the ray certainly ends here.
     bool cross(State& state) {
         std::array<Crossing, 3> next;
         int axis = -1;

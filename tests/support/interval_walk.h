@@ -1,8 +1,8 @@
 #pragma once
 
-// The march's contract in real numbers: the walk in double precision, which knows how far the march's floats
-// may be from the truth. Where the order of two crossings is certain there is one way on; where it is not,
-// both are followed. Knows nothing of the march's code.
+// The march's contract in real numbers: the walk in double precision, with a bound on the errors of the
+// march's floats. Where the order of two crossings is certain there is one way on; where it is not, both are
+// followed. Shares no code with the march.
 
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ struct PossibleHit {
 // inside the world.
 [[nodiscard]] std::vector<PossibleHit> interval_walk(const VoxelWorld& world, const gpu::Ray& ray);
 
-// Empty when the hit is one of those, its time within four units in the last place; else what is wrong.
+// Empty when the hit is one of those and its time is within four units in the last place; else what is wrong.
 [[nodiscard]] std::string disagreement(const std::vector<PossibleHit>& possible, const gpu::MarchHit& hit);
 
 }  // namespace voxilux::test

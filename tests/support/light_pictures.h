@@ -1,7 +1,7 @@
 #pragma once
 
-// Pictures of light with the noise that they have: by iterations of the renderer, whose variance is measured,
-// and by the tests' own path tracer, in the same terms.
+// Pictures of light with their noise: by iterations of the renderer, whose variance is measured, and by the
+// tests' own path tracer, in the same form.
 
 #include <cstdint>
 #include <span>
@@ -31,8 +31,9 @@ struct LightRequest {
 };
 
 // Renders the scene on the test device. Each iteration is a picture of its own, so the variance of a block's
-// mean holds what its pixels have in common: the photons of the iteration. Pixels draw white noise, since
-// points of a sequence are better than their variance. Fails the test when a fault was counted.
+// mean includes what its pixels have in common: the photons of the iteration. Pixels draw white noise,
+// because points of a sequence have a smaller error than their variance says. Fails the test when a fault was
+// counted.
 [[nodiscard]] std::vector<LightPicture> render_light(Scene scene, const LightRequest& request);
 
 // The truth in pixels that are `factor` times as wide and high.
@@ -41,8 +42,8 @@ struct LightRequest {
 // The path tracer's picture.
 [[nodiscard]] LightPicture truth_picture(const TruthWorld& world, const TruthRequest& request);
 
-// Where light is rare, few samples have met it, and the variance of those that have not is too small. So
-// each is the mean over the pixel and its neighbours before the pictures are compared.
+// Where light is rare, few samples have met it, and the variance of the others is too small. So each variance
+// is replaced by the mean over the pixel and its neighbours before the pictures are compared.
 [[nodiscard]] PictureZ light_z(const LightPicture& traced, const LightPicture& expected);
 
 // The most that light_z's rms may be for equal pictures.

@@ -8,7 +8,8 @@
 
 namespace voxilux::test {
 
-// `pixels` x `pixels`, light between surfaces by so many photons in each iteration, and a radius that stays.
+// `pixels` x `pixels`, with so many photons in each iteration for light between surfaces, and a constant
+// radius.
 [[nodiscard]] inline Scene dark_scene(int pixels, std::uint32_t photons, double radius) {
     Scene scene;
     scene.sun.on = false;
@@ -33,7 +34,7 @@ inline std::uint16_t add_diffuse(Scene& scene, float albedo) {
     return add_material(scene, {.name = "diffuse", .albedo = glm::vec3(albedo)});
 }
 
-// An emitter of that radiance and albedo.
+// An emitter of this radiance and albedo.
 inline std::uint16_t add_emitter(Scene& scene, float radiance, float albedo = 0.0f) {
     return add_material(scene, {.name = "lamp",
                                 .albedo = glm::vec3(albedo),

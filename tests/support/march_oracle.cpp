@@ -57,8 +57,8 @@ std::string disagreement(const OracleBounds& bounds, const gpu::Ray& ray, const 
             return fmt::format("missed a solid that stops the ray at {}", *bounds.must_by);
         return "";
     }
-    // A box shrunk by `margin` on a grazing ray is entered late without bound, so only an earlier stop is a
-    // fault.
+    // On a grazing ray, a box shrunk by `margin` may be entered arbitrarily late, so only an earlier stop is
+    // a fault.
     if (bounds.must_by && t > *bounds.must_by + 4.0 * margin)
         return fmt::format("hit at {} but a solid stops the ray at {}", t, *bounds.must_by);
     for (const auto& [cell, enter] : bounds.may) {

@@ -9,8 +9,7 @@
 
 namespace voxilux::test {
 
-// What a right answer must lie between. Boxes shrunk by `margin` voxels must stop a ray, boxes grown by it
-// may.
+// Bounds of a right answer. Boxes shrunk by `margin` voxels must stop a ray, boxes grown by it may.
 struct OracleBounds {
     std::optional<double> must_by;  // entry of the first shrunk solid box; the ray is stopped by then
     std::vector<std::pair<glm::ivec3, double>>

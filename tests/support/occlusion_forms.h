@@ -1,8 +1,8 @@
 #pragma once
 
-// Closed forms of the share of cosine-weighted rays off a plane that meet an obstacle within a radius. By the
-// Nusselt analogue such rays, seen from above, fall evenly on the unit disc: direction (x, y, sqrt(1 - x^2 -
-// y^2)), density 1 / pi. Obstacles become regions of that disc, and shares become areas.
+// Closed forms for the fraction of cosine-weighted rays off a plane that meet an obstacle within a radius. By
+// the Nusselt analogue such rays, seen from above, are uniform on the unit disc: direction (x, y, sqrt(1 -
+// x^2 - y^2)), density 1 / pi. Obstacles become regions of that disc, and fractions become areas.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ double integrate(double from, double to, const Function& f, int intervals = 2000
     return sum * step;
 }
 
-// A wall without end along y, its foot at distance `d` > 0 in +x, of `height` above the plane. A ray meets it
+// An infinite wall along y, its foot at distance `d` > 0 in +x, of `height` above the plane. A ray meets it
 // at t = d / x, so within `radius` where x > d / radius, and below its top where z t < height, that is y^2 >
 // 1 - x^2 (1 + (height / d)^2).
 inline double blocked_by_wall(double d, double height, double radius) {
@@ -37,13 +37,13 @@ inline double blocked_in_slit(double d, double width, double height, double radi
     return blocked_by_wall(d, height, radius) + blocked_by_wall(width - d, height, radius);
 }
 
-// The share of the disc with x > a: what a wall without top blocks, a = d / radius.
+// The fraction of the disc with x > a: what a wall without a top blocks, with a = d / radius.
 inline double disc_segment(double a) {
     if (a >= 1.0) return 0.0;
     return (std::acos(a) - a * std::sqrt(1.0 - a * a)) / std::numbers::pi;
 }
 
-// Two walls without top that meet at a right angle, `d1` and `d2` away: segments less what both cover.
+// Two walls without tops that meet at a right angle, `d1` and `d2` away: both segments less their overlap.
 inline double blocked_in_corner(double d1, double d2, double radius) {
     const double a = d1 / radius;
     const double b = d2 / radius;

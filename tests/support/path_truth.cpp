@@ -53,7 +53,8 @@ dvec3 emission_of(const TruthWorld& world, std::uint32_t material) {
     return world.materials[material].emission;
 }
 
-// Radiance / albedo of a diffuse point by the sphere emitters: one of them, by solid angle and brightness.
+// Radiance / albedo of a diffuse point by the sphere emitters: one of them, chosen by solid angle and r + g +
+// b.
 dvec3 light_of_spheres(const Tracer& tracer, const TruthHit& at) {
     const TruthWorld& world = tracer.world;
     const auto weight_of = [&](std::size_t i) {
@@ -83,7 +84,7 @@ dvec3 light_of_spheres(const Tracer& tracer, const TruthHit& at) {
     return emission_of(world, emitter.material) * (cosine / kPi * 2.0 * kPi * height * total / weight);
 }
 
-// The same by the faces of emitting voxels: one of them, by brightness, and a point of it.
+// The same by the faces of emitting voxels: one of them, chosen by r + g + b, and a point of it.
 dvec3 light_of_faces(const Tracer& tracer, const TruthHit& at) {
     const TruthWorld& world = tracer.world;
     if (world.faces.empty()) return dvec3(0.0);
@@ -136,7 +137,7 @@ double fresnel(double n_from, double n_to, double cos_from, double cos_to) {
     return 0.5 * (across * across + within * within);
 }
 
-// What happened to a ray at glass. Radiance over n^2 is what a lossless surface keeps, hence `scale`.
+// The outcome of a ray at glass. A lossless surface keeps radiance over n^2, hence `scale`.
 struct GlassEvent {
     dvec3 direction;
     bool crosses = true;
@@ -167,7 +168,7 @@ GlassEvent cross_glass(const Tracer& tracer, const dvec3& incoming, const TruthH
     return event;
 }
 
-// A path on its way.
+// A path and what it has gathered.
 struct Path {
     TruthRay ray;
     dvec3 total{0.0};
@@ -177,7 +178,7 @@ struct Path {
     bool is_scattered = false;    // by a diffuse surface: from then on it may find the sun
 };
 
-// Sends the path on from what it has met.
+// Sends the path on from the surface that it has met.
 void bounce(const Tracer& tracer, Path& path, const TruthHit& hit) {
     const TruthMaterial& material = tracer.world.materials[hit.material];
     const dvec3 incoming = path.ray.direction;
@@ -265,7 +266,7 @@ std::vector<TruthPixel> trace_truth(const TruthWorld& world, const TruthRequest&
 
 PictureZ picture_z(std::span<const TruthPixel> traced, std::span<const TruthPixel> expected) {
     constexpr double kRounding = 1e-6;  // of a value that was stored as a float
-    constexpr double kLeast = 1e-30;    // where all is black
+    constexpr double kLeast = 1e-30;    // for all-black pixels
     PictureZ z;
     dvec3 difference_sum(0.0), variance_sum(0.0);
     for (std::size_t i = 0; i < traced.size(); ++i) {

@@ -2,10 +2,10 @@
 
 // An independent truth for pictures of analytic spheres and voxels: a path tracer in double precision that
 // shares no code with the shaders. It is slow, plain and unbiased. Diffuse surfaces sample the sun, one
-// sphere over the solid angle of its disc, and one face of a voxel over its area; light that a path reaches
-// behind a mirror or glass counts when the path hits the emitter. So each path of light is found in exactly
-// one way. Source: Kajiya 1986, "The Rendering Equation"; solid angle of a sphere: Shirley, Wang and
-// Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting", section 3.2.
+// sphere over the solid angle of its disc, and one face of a voxel over its area. Light that a path reaches
+// behind a mirror or glass counts when the path hits the emitter. So each light path is found in exactly one
+// way. Source: Kajiya 1986, "The Rendering Equation"; solid angle of a sphere: Shirley, Wang and Zimmerman
+// 1996, "Monte Carlo Techniques for Direct Lighting", section 3.2.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct TruthRequest {
     std::uint64_t seed = 1;
     // False: emitters count only when a path hits them, another estimator of the same picture.
     bool samples_emitters = true;
-    // True: sin t = (eta sin i)^2 in place of Snell's law, which a judge has to catch.
+    // True: sin t = (eta sin i)^2 in place of Snell's law, which a test has to notice.
     bool squares_the_sine = false;
 };
 

@@ -9,7 +9,7 @@
 namespace voxilux::test {
 namespace {
 
-// What the pass that traces photons would have done.
+// Does the work of the pass that traces photons.
 void record_append(const RenderPlan& plan, const PhotonJob& job, bool sorts, Recording& recording) {
     const auto count = static_cast<std::uint32_t>(job.photons.size());
     recording.declare(

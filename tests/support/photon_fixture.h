@@ -1,7 +1,7 @@
 #pragma once
 
-// Runs the passes that turn stored photons into light on the test device, over photons and visible points of
-// the test's own making.
+// Runs the passes that turn stored photons into light on the test device, with photons and visible points
+// that a test makes.
 
 #include <array>
 #include <cstdint>
@@ -38,10 +38,10 @@ struct PhotonOutcome {
     std::vector<PassTime> times;
 };
 
-// The picture's rows of a job.
+// The rows of the picture of a job.
 [[nodiscard]] std::uint32_t rows_of(const PhotonJob& job);
 
-// A plan of what the passes of a job ask for and nothing else.
+// A plan with what the passes of a job need and nothing else.
 [[nodiscard]] RenderPlan photon_plan(const PhotonJob& job);
 
 // Appends, sorts and gathers, or appends and splats.

@@ -31,7 +31,7 @@ std::optional<Crossing> cross_box(const DoubleRay& ray, glm::dvec3 lo, glm::dvec
     return crossing;
 }
 
-// Entry of the first box that stops the ray even when every box is shrunk; infinity when none does.
+// Entry of the first box that stops the ray even when all boxes are shrunk; infinity when there is none.
 double sure_stop(const std::vector<glm::ivec3>& solids, const DoubleRay& ray, double margin) {
     double first = std::numeric_limits<double>::infinity();
     for (const glm::ivec3& cell : solids) {
@@ -75,7 +75,7 @@ std::string hit_disagreement(const std::vector<glm::ivec3>& solids, const Double
     }
     const auto grown = cross_box(ray, glm::dvec3(hit.cell) - margin, glm::dvec3(hit.cell) + (1.0 + margin));
     if (!grown) return "hit a voxel that the ray does not touch";
-    // A grazing ray crosses a sliver of the margin slowly, so only an entry behind a sure stop is wrong.
+    // A grazing ray crosses a sliver of the margin slowly, so only an entry behind a certain stop is wrong.
     if (grown->enter > stop + 4.0 * margin)
         return fmt::format("hit at {}, behind a voxel at {}", grown->enter, stop);
     const double t = static_cast<double>(hit.t);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a camera ray must hit, by testing every voxel as a box in double precision.
+// What a camera ray must hit, found by testing every voxel as a box in double precision.
 
 #include <string>
 #include <vector>
@@ -19,8 +19,9 @@ struct DoubleRay {
 
 [[nodiscard]] DoubleRay to_double(const gpu::Ray& ray);
 
-// Empty when the hit is right up to `margin` voxels, else what is wrong: the cell must be a first one, the
-// face must look at the ray, the point must lie on face and ray, and t must lead there within `t_margin`.
+// Empty when the hit is right up to `margin` voxels, else what is wrong: the cell must be one that is hit
+// first, the face must look towards the ray, the point must lie on face and ray, and t must lead there within
+// `t_margin`.
 [[nodiscard]] std::string hit_disagreement(const std::vector<glm::ivec3>& solids, const DoubleRay& ray,
                                            const gpu::Hit& hit, double margin, double t_margin);
 

@@ -11,7 +11,7 @@
 
 namespace voxilux::test {
 
-// Axes in the order in which planes are crossed that a ray meets at one time.
+// The order of axes in which planes are crossed that a ray meets at the same time.
 using AxisOrder = std::array<int, 3>;
 inline constexpr AxisOrder kTieRule = {0, 1, 2};
 

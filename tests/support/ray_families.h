@@ -1,6 +1,6 @@
 #pragma once
 
-// Rays that have broken marches before, generated from a seed, and small worlds to shoot them at.
+// Rays that have made marches fail before, generated from a seed, and small worlds for them.
 
 #include <random>
 #include <string>
@@ -19,7 +19,7 @@ struct RayFamily {
 
 // Families of `count` rays each that start in cells of a world of `size` cells: random, axis-parallel with
 // both signs of zero, in face planes, along edges, through lattice corners, near-axial, with denormal
-// components, not unit.
+// components, and not of unit length.
 [[nodiscard]] std::vector<RayFamily> ray_families(glm::ivec3 size, int count, std::uint32_t seed);
 
 struct NamedWorld {

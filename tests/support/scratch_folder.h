@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-// A fresh folder that vanishes with all that is in it.
+// A new folder that is removed with all its contents.
 class ScratchFolder {
   public:
     ScratchFolder() {

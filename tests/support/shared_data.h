@@ -3,8 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-// Path of the team's shared test data: beside the checkout, or where VOXILUX_SHARED points. Empty when
-// absent.
+// Path of the shared test data: beside the checkout, or where VOXILUX_SHARED points. Empty when absent.
 inline std::filesystem::path shared_data() {
     namespace fs = std::filesystem;
     const char* named = std::getenv("VOXILUX_SHARED");

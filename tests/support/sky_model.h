@@ -1,7 +1,7 @@
 #pragma once
 
-// The C++ side of the sky's tables: what the passes sky.scatter, sky.view and sky.faces compute, by the same
-// shared functions.
+// The C++ side of the sky's tables: what the passes sky.scatter, sky.view and sky.faces compute, with the
+// same shared functions.
 
 #include <cstdint>
 #include <vector>

@@ -64,7 +64,7 @@ inline WideHit intersect_wide(const SphereCase& c) {
     return result;
 }
 
-// Distance from a hit at t to the surface, in voxels.
+// Distance from a hit at t to the surface of the sphere, in voxels.
 inline double surface_distance(const SphereCase& c, float t) {
     const Wide3 q =
         add_scaled(add_scaled(wide(c.origin), -1.0L, wide(c.sphere.anchor)), t, wide(c.direction));
@@ -123,10 +123,10 @@ inline std::vector<SphereCase> sphere_cases(int count) {
     return cases;
 }
 
-// A few roundings of 2^-24: the bound on every error below, in the unit named there.
+// A few roundings of 2^-24: the bound of every error below, in the unit named there.
 inline constexpr double kSphereError = 5.0e-7;
 
-// What is wrong with a hit, each as a multiple of what rounding may do: at most 1 is right.
+// Errors of a hit, each as a multiple of what rounding may do: right if at most 1.
 struct SphereErrors {
     double missed = 0.0;   // distance of the discriminant from 0 where the hit flags differ
     double surface = 0.0;  // distance from the sphere

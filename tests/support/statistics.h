@@ -8,8 +8,8 @@
 // Statistics for tests of random numbers, all in double.
 namespace voxilux::test {
 
-// A test at significance 0.01 fails one run in a hundred by chance; seeds are fixed, so a test that passes
-// stays so.
+// A test at significance 0.01 fails by chance in one run of a hundred. Seeds are fixed, so a test that passes
+// keeps passing.
 inline constexpr double kNormalQuantile99 = 2.3263478740408408;
 
 // Pearson's statistic: sum of (seen - expected)^2 / expected. Both spans have one entry per bin, expected >

@@ -12,8 +12,8 @@ bool contains(const char* text, const char* part) {
     return text != nullptr && std::strstr(text, part) != nullptr;
 }
 
-// A test of External data may be skipped on a machine that lacks the data or a tool that checks it.
-// Continuous integration has both, and a skip there would leave nothing that guards: it is a failure.
+// A test of External data may be skipped on a machine without the data or a tool that checks it. Continuous
+// integration has both, so a skip there is a failure.
 class ExternalSkips : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo& test) override {
         const char* ci = std::getenv("CI");

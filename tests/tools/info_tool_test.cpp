@@ -14,7 +14,7 @@
 namespace voxilux {
 namespace {
 
-// A folder of its own, gone with the test.
+// A scratch folder that is removed with the test.
 class InfoTool : public testing::Test {
   protected:
     void SetUp() override {

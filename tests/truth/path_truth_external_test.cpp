@@ -1,4 +1,4 @@
-// The tests' own path tracer against pictures that other programs have traced.
+// The tests' own path tracer against pictures by other path tracers.
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ struct Reference {
 const Reference kCornell{"cornell", "cornell_256.exr", kCornellVariance, {40, 168}, {64, 200}};
 const Reference kSurgery{"surgery", "surgery_512x384.exr", kSurgeryVariance};
 
-// What is compared: a picture in pixels that are `block` times as wide and high, and of it a box.
+// What is compared: a box of a picture whose pixels are `block` times as wide and high.
 struct Part {
     int block = 8;
     glm::ivec2 low{0};
@@ -72,8 +72,8 @@ TruthPixel block_of(const Image& image, int block, glm::ivec2 at) {
 }
 
 // Two samples of a block may be equal and the next one differ: at the rim of an emitter, or where a bright
-// path is rare. A variance that has not seen it is too small, so each is the mean over a block and its
-// neighbours, and at least that between the reference's pixels inside the block (law of total variance).
+// path is rare. A variance that has not seen it is too small. So each variance is the mean over a block and
+// its neighbours, and at least that between the reference's pixels inside the block (law of total variance).
 void smooth_variances(Part part, std::vector<TruthPixel>& traced, const std::vector<TruthPixel>& theirs) {
     const std::vector<TruthPixel> before = traced;
     const glm::ivec2 size = part.high - part.low;

@@ -82,7 +82,7 @@ TEST(PathTruth, mirror_shows_the_sky_in_its_colour) {
     EXPECT_EQ(one_pixel(scene, 16).mean, glm::dvec3(0.5));
 }
 
-// Whatever loses nothing is invisible in a sky that is the same everywhere.
+// What loses no light is invisible in a uniform sky.
 TEST(PathTruth, white_furnace_of_glass_and_what_is_inside) {
     for (const char* ior : {"1", "1.5", "3"}) {
         const Scene scene = scene_in_white_sky(
@@ -143,8 +143,8 @@ struct ScenePixel {
     glm::ivec2 pixel;  // of 32 x 32
 };
 
-// Two estimators of one picture: emitters sampled, and emitters hit by chance. The pixels: the corner behind
-// the mirror ball, caustics, the ceiling, and diffuse surfaces seen through glass and inside it.
+// Two estimators of one picture: emitters sampled, and emitters hit by chance. The pixels show the corner
+// behind the mirror ball, caustics, the ceiling, and diffuse surfaces seen through glass and inside it.
 TEST(PathTruth, sampled_emitters_give_what_chance_gives) {
     for (const ScenePixel& at :
          {ScenePixel{"cornell", {6, 23}}, ScenePixel{"cornell", {24, 26}}, ScenePixel{"cornell", {14, 3}},

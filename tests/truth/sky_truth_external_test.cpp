@@ -1,5 +1,5 @@
 // The atmosphere against radiances that another program has traced in double precision, without tables
-// (sky_truth.cpp of the shared data): our errors beside those that tables of the literature have.
+// (sky_truth.cpp of the shared data). Our errors are compared with those of tables in the literature.
 
 #include <cmath>
 #include <map>
@@ -51,7 +51,7 @@ const test::ScatterTable& scatter() {
     return table;
 }
 
-// Root of the mean of the squares, a colour at a time, of relative errors.
+// Root mean square of relative errors, for each colour.
 class RelativeErrors {
   public:
     void add(vec3 found, dvec3 expected) {
@@ -70,8 +70,8 @@ struct Limits {
     dvec3 window;  // of the converged approximation of Hillaire 2020, percent
     dvec3 stills;
 };
-// rms over directions above the horizon, percent. What tables for windows may err by is the error of the
-// converged approximation (sky.md, section 4); what stills may err by is less.
+// rms over directions above the horizon, percent. In a window, tables may have the error of the converged
+// approximation (sky.md, section 4); in stills, less.
 const std::map<double, Limits> kLimits{
     {-5.0, {{14, 18, 24}, {8, 10, 14}}},  {-1.0, {{8, 11, 18}, {8, 10, 14}}},
     {0.5, {{4, 7, 16}, {3, 5, 9}}},       {2.0, {{3.3, 5.4, 14}, {3, 5, 9}}},
@@ -126,7 +126,7 @@ TEST(SkyTruthExternal, first_order_is_within_a_hundredth_in_every_direction) {
     });
 }
 
-// Of the tables of `rounds` as the renderer looks them up, by the sun's elevation.
+// Errors of the tables of `rounds` as the renderer looks them up, by the sun's elevation.
 std::map<double, dvec3> errors_of_all_orders(const test::ScatterTable& scattered, gpu::uint resolution) {
     std::map<double, RelativeErrors> errors;
     for (const json& row : oracle().at("cases")) {
@@ -166,7 +166,7 @@ TEST(SkyTruthExternal, all_orders_are_better_than_the_converged_approximation_an
     EXPECT_EQ(over_limits(errors), 0);
 }
 
-// The geometric series alone, and aerosol that absorbs as the misprint of the literature says.
+// The geometric series alone, and aerosol that absorbs as a misprint in the literature says.
 TEST(SkyTruthExternal, poorer_models_are_caught) {
     SKIP_WITHOUT_SHARED_DATA();
     gpu::Air misprinted = sky_at(0.0, 0.0).air;
@@ -204,7 +204,7 @@ TEST(SkyTruthExternal, ground_irradiance_is_within_2_percent) {
         const vec3 direct =
             gpu::transmittance_out(sky.air, 0.0f, sky.sun_direction.z) * std::max(sky.sun_direction.z, 0.0f);
         const dvec3 expected_direct = colour(row.at("direct"));
-        // In deep dusk the table is coarse beside how fast the light falls with the sun.
+        // In deep dusk the table is coarse compared with how fast the light falls with the sun.
         const double tolerance = sun < -4.0 ? 0.05 : 0.02;
         for (int c = 0; c < 3; ++c) {
             EXPECT_NEAR(diffuse[c], expected[c], tolerance * expected[c]) << sun << " colour " << c;

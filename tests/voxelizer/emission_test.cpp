@@ -61,7 +61,8 @@ Mesh obj_with(const std::string& fields) {
                            "newmtl m\n" + fields);
 }
 
-// Channels below a sixteenth of the brightest are a few steps of a byte, and are held to a share of that one.
+// Channels below a sixteenth of the brightest are a few steps of a byte: their bound is relative to the
+// brightest.
 bool is_radiance(glm::vec3 have, glm::vec3 wanted) {
     const float brightest = std::max({wanted.r, wanted.g, wanted.b});
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// The inputs of the shared data that lost something in silence, each against what it says.
+// Inputs of the shared data with features that voxels cannot show: each must report what is lost.
 
 #include <gtest/gtest.h>
 
@@ -50,8 +50,7 @@ TEST(FaultsExternal, emission_is_what_the_files_say) {
     expect_near(at_64("g_strength16.gltf").material.emission, {16, 16, 16});
 }
 
-// Five squares of 8 x 8 cells, 16 apart. Those before the last touch a column of cells behind their right
-// edge.
+// Five squares of 8 x 8 cells, 16 apart. All but the last touch a column of cells behind their right edge.
 TEST(FaultsExternal, five_instances_are_five_squares) {
     SKIP_WITHOUT_SHARED_DATA();
     VoxelizeRequest request{.grid = {.resolution = 72}, .coverage = Coverage::thin};

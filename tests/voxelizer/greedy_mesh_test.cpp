@@ -139,7 +139,7 @@ CellColours voxelized(const std::vector<std::byte>& glb) {
     return cells;
 }
 
-// Cells of which the colour differs, or that one of the two lacks.
+// Cells whose colour differs, or that one of the two lacks.
 std::vector<std::array<int, 3>> different(const CellColours& a, const CellColours& b) {
     std::vector<std::array<int, 3>> cells;
     for (const auto& [cell, colour] : a)
@@ -160,7 +160,7 @@ VoxFile file_of(const std::vector<IndexedCell>& cells, glm::ivec3 size) {
     return file;
 }
 
-// Cells with an exposed face, from the low corner of all.
+// Cells with an exposed face, relative to their common low corner.
 CellColours surface_of(const VoxFile& file) {
     CellColours cells;
     const std::vector<IndexedCell> all = cells_of_file(file);

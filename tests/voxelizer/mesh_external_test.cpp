@@ -15,7 +15,7 @@ struct Known {
     glm::dvec3 extent;
 };
 
-// Triangles and extents as an independent reader in Python gives them.
+// Triangles and extents, from an independent reader in Python.
 const Known kMeshes[] = {
     {"AlphaBlendModeTest.glb", 61, 6, 0, {8.60000038, 2.39953339, 1.30000001}},
     {"BoxInterleaved.glb", 12, 1, 0, {1, 1, 1}},

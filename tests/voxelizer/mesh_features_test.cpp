@@ -1,5 +1,4 @@
-// The table of what the formats of meshes can say: each row does what it promises, and no keyword of the
-// formats is missing.
+// The table of mesh format features: each row keeps its promise, and no keyword of the formats is missing.
 
 #include "voxelizer/mesh_features.h"
 
@@ -95,7 +94,7 @@ bool holds(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;
 }
 
-// Uses each extension that is read such that the mesh becomes another one.
+// Uses each supported extension in a way that changes the mesh.
 const std::map<std::string, std::function<void(File&)>> kExtensionUses = {
     {"KHR_materials_emissive_strength",
      [](File& f) {
@@ -165,7 +164,7 @@ TEST(MeshFeatures, extension_that_no_row_names_is_noted_and_refused_where_it_is_
     EXPECT_TRUE(holds(load(file).refusal, "needs the extension 'KHR_not_there'"));
 }
 
-// Lines before and after which a keyword that is read must make a difference.
+// A line whose keyword must make a difference, and the lines before it.
 struct Use {
     std::string context, line;
 };
@@ -400,7 +399,7 @@ TEST(MeshFeatures, animation_of_nodes_is_noted) {
     EXPECT_EQ(load(file).refusal, "");
 }
 
-// Every place where a word of the file reaches a message.
+// Every place where a word of the file gets into a message.
 TEST(HostileNames, of_meshes_are_escaped_and_cut) {
     const std::vector<std::string> hostile = {"\x1b]0;pwned\x07", "\xff\xfe", "\x9b[2J",
                                               std::string(100000, 'x')};

@@ -1,4 +1,4 @@
-// .stl, .ply and .xyz: read as they were written, whatever the encoding, and clouds of points as voxels.
+// .stl, .ply and .xyz: read as they were written, in every encoding, and point clouds as voxels.
 
 #include <gtest/gtest.h>
 
@@ -179,7 +179,7 @@ TEST(MeshFormats, mutated_files_are_refused_or_load_in_bounded_memory) {
     }
 }
 
-// The cells of points and the mean of their colours, the plain way.
+// The cells of points and the mean of their colours, computed the simple way.
 std::map<std::array<int, 3>, glm::dvec4> averaged(const PlainMesh& mesh, int resolution) {
     glm::dvec3 low(1e30), high(-1e30);
     for (const glm::vec3 p : mesh.positions) {

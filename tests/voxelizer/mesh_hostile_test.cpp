@@ -1,4 +1,4 @@
-// Files that lie: each is refused with a reason that names the place, within a bound on memory.
+// Untruthful files: each is refused with a reason that names the place, within a memory bound.
 
 #include <gtest/gtest.h>
 

@@ -27,7 +27,7 @@ Texture noise(const glm::ivec2& size, unsigned seed) {
     return texture;
 }
 
-// Blotches about 8 texels wide: what pictures are like more than noise.
+// Blotches about 8 texels wide, more like a picture than noise is.
 Texture blotches(int size, unsigned seed) {
     const Texture small = noise({size / 8, size / 8}, seed);
     Texture texture{.name = "blotches", .size = {size, size}, .texels = {}};
@@ -94,7 +94,7 @@ std::vector<Piece> random_pieces(double texels, const Texture& texture, int coun
     return pieces;
 }
 
-// Root mean square difference of the sampled red and the truth, which may look at another texture.
+// Root mean square difference of the sampled red from the truth, which may use another texture.
 double rms_error(const Texture& sampled, const Texture& truth, double texels) {
     const TexturePyramid pyramid = build_pyramid(sampled, TexelMeaning::color);
     constexpr int kPieces = 80;

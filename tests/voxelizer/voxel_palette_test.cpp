@@ -201,7 +201,7 @@ TEST(WholeSection, is_what_cutting_gives) {
     EXPECT_GT(mean, 1e-6);
 }
 
-// Cutting a triangle into all its cells loses nothing.
+// A triangle cut into its cells keeps its area and its moments.
 TEST(CellPiece, areas_and_moments_add_up) {
     const std::array<glm::vec3, 3> triangle = {{{0.3f, 0.2f, 0.4f}, {9.1f, 2.2f, 1.7f}, {2.6f, 7.3f, 5.9f}}};
     PieceCutter cutter(triangle);

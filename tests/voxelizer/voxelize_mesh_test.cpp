@@ -66,7 +66,7 @@ std::set<Cell> interior_of(const VoxelSet& set) {
     return cells;
 }
 
-// What a 6-connected walk from outside the grid reaches through cells that are not set.
+// The cells that a 6-connected walk from outside the grid reaches without crossing set cells.
 std::set<Cell> outside_of(const std::set<Cell>& cells, glm::ivec3 size) {
     std::set<Cell> seen;
     std::vector<glm::ivec3> open = {{-1, -1, -1}};
@@ -184,7 +184,7 @@ TEST(VoxelizeMesh, thin_surface_is_part_of_the_conservative_one_and_keeps_inside
         EXPECT_GT(winding_about(mesh, middle_of(thin, cell)), 0.5);
     }
     EXPECT_GT(inside, 200u);
-    // One voxel less that has both sides as neighbours is a hole.
+    // Removing a voxel that separates the outside from the inside leaves a hole.
     for (const auto& [x, y, z] : std::set<Cell>(cells)) {
         const bool is_wall = outside.contains(Cell{x - 1, y, z}) && !outside.contains(Cell{x + 1, y, z}) &&
                              !cells.contains(Cell{x + 1, y, z});
@@ -294,7 +294,7 @@ Mesh open_torus() {
     return mesh;
 }
 
-// The truth is the plain sum over all triangles; cells within 0.02 of the threshold may be either.
+// The truth is the plain sum over all triangles. Cells within 0.02 of the threshold may be either.
 TEST(VoxelizeMesh, open_mesh_is_filled_where_the_generalised_winding_number_is_above_a_half) {
     const Mesh mesh = open_torus();
     VoxelizeRequest request = request_at(44);

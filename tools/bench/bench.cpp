@@ -19,7 +19,7 @@ constexpr const char* kPhotonScene = "scenes/cornell.toml";
 constexpr std::uint32_t kPhotons = 65536;
 constexpr double kPhotonRadius = 2.0;  // voxels
 
-// Prints the rows of a scene as they come, unless JSON goes where they would, to which they are added.
+// Adds the rows of a scene to `json`, and prints them as they come unless the JSON goes to standard output.
 template <class Row>
 void print_rows(const std::vector<Row>& rows, const std::string& file, Json& json) {
     for (const Row& row : rows)

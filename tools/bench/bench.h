@@ -13,7 +13,7 @@
 
 namespace voxilux {
 
-// What all benchmarks take.
+// Options of all benchmarks.
 struct BenchInputs {
     std::vector<std::string> files;  // none: the benchmark's own world or scene
     glm::ivec2 size{640, 360};
@@ -24,13 +24,13 @@ struct BenchInputs {
 
 struct BenchMarchCommand {
     BenchInputs inputs;
-    std::vector<int> extents;  // of procedural worlds; 256 and 512 where there are neither these nor files
+    std::vector<int> extents;  // edges of procedural worlds; without these and files: 256 and 512
     MarchBenchOptions options;
 };
 
 struct BenchAoCommand {
     BenchInputs inputs;
-    int extent = 256;  // of the procedural world, where there are no files
+    int extent = 256;  // edge of the procedural world, used where there are no files
     AoBenchOptions options;
 };
 

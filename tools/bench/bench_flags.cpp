@@ -76,7 +76,7 @@ void add_bench_march_flags(Flags& flags, BenchMarchCommand& command) {
             "edges of procedural worlds, in voxels (default 256,512)")
         .split_at_commas();
     flags.add_list("--rays", "KIND,...", options.kinds, ray_kind_named, "primary, ao and long (default all)");
-    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the best counts");
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "number of runs; the best one counts");
     flags.add_list("--traversal", "NAME,...", options.traversals, traversal_named,
                    "structures to march through (default all)");
     flags.add_parsed("--build", "WHO", options.builder, parse_builder,
@@ -94,7 +94,7 @@ void add_bench_ao_flags(Flags& flags, BenchAoCommand& command) {
     flags.add_list("--motion", "NAME,...", options.motions, motion_named,
                    "still, pan, walk and floor (default all but walk)");
     add_count(flags, "--frames", options.frames, kMaxFrames, "of each motion but floor");
-    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the best gives the times");
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "number of runs; the best one gives the times");
     add_count(flags, "--reference", options.reference_rays, kMaxReferenceRays, "rays per pixel of the truth");
 }
 
@@ -106,7 +106,7 @@ void add_bench_photons_flags(Flags& flags, BenchPhotonsCommand& command) {
     flags.add_list("--variant", "NAME,...", options.variants, photon_variant_named,
                    "gather, no-roulette, classic and scatter (default all)");
     add_growth_flag(flags, options.growth);
-    add_count(flags, "--rounds", options.rounds, kMaxRounds, "runs of which the fastest counts");
+    add_count(flags, "--rounds", options.rounds, kMaxRounds, "number of runs; the fastest one counts");
     flags.add("--reference", "FILE", command.reference, "picture to measure errors against");
     flags.add_parsed("--box", "X0,Y0,X1,Y1", options.box, parse_pixel_box,
                      "where to measure the error of the blurred picture");

@@ -19,7 +19,7 @@ namespace {
 ImageComparison compare(const CompareOptions& options) {
     std::optional<Image> mask;
     if (!options.mask.empty()) mask = read_image(options.mask);
-    const Image reference = read_image(options.ref);  // named first where both are broken
+    const Image reference = read_image(options.ref);  // read first: where both are broken, this one is named
     return compare_images(reference, read_image(options.test),
                           {.box = options.box, .mask = mask ? &*mask : nullptr});
 }
@@ -80,7 +80,7 @@ int check_limits(const ImageComparison& comparison, const std::map<std::string, 
 
 void add_compare_flags(Flags& flags, CompareOptions& options) {
     flags.add("REF", "", options.ref, "reference image").required();
-    flags.add("TEST", "", options.test, "image to judge").required();
+    flags.add("TEST", "", options.test, "image to compare with it").required();
     add_json_flag(flags, options.json, "the metrics");
     flags.add("--mask", "FILE", options.mask,
               "image of the same size; pixels that are black in it are left out");

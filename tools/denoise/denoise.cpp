@@ -46,7 +46,7 @@ void add_denoise_flags(Flags& flags, DenoiseCommand& command) {
                      "picture to write: .png, or .exr with the plain picture, too; may repeat")
         .required();
     flags.add_switch("--reproducible", command.pictures.reproducible,
-                     "no date or times in the files: equal runs, equal bytes");
+                     "leave date and times out of the files: equal runs write equal bytes");
     add_tone_flags(flags, command.pictures.tone);
     add_report_flags(flags, command.report);
     add_device_flag(flags, command.device.selector);

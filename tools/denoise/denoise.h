@@ -16,8 +16,8 @@ struct DenoiseCommand {
 
 void add_denoise_flags(Flags& flags, DenoiseCommand& command);
 
-// Filters the picture of a part and writes it with its claim. Returns done. Throws Error(input_refused) for a
-// file that has no sums of the denoiser.
+// Filters the picture of a part and writes it with its estimated error. Returns done. Throws
+// Error(input_refused) for a file that has no sums of the denoiser.
 [[nodiscard]] int run_denoise(const DenoiseCommand& command);
 
 }  // namespace voxilux

@@ -12,7 +12,8 @@ struct DevicesCommand {
 
 void add_devices_flags(Flags& flags, DevicesCommand& command);
 
-// Lists the Vulkan devices, which would be used, and what each lacks. no_device when none is usable.
+// Lists the Vulkan devices, marks the one that would be used, and says what each lacks. Returns no_device
+// when none is usable.
 [[nodiscard]] int run_devices(const DevicesCommand& command);
 
 }  // namespace voxilux

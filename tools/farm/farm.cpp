@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Flags that say how much is rendered: the farm deals it out.
+// Flags that say how much is rendered. The farm divides that among workers, so they are not passed on.
 const std::set<std::string> kDealtOut = {"--spp", "--iterations", "--frame", "--frames"};
 
 Json words_json(const Flags::GivenWords& words) {
@@ -34,7 +34,7 @@ Json words_json(const Flags::GivenWords& words) {
     return json;
 }
 
-// Why samples of the scene cannot be dealt out, each frame as a whole can; empty when they can.
+// Why a frame cannot be divided by samples, so that each is rendered whole; empty when it can.
 std::string reason_for_whole_frames(const FarmCommand& command, const Scene& animated, std::int64_t frame) {
     FramePlayer player{Scene(animated)};
     const RenderPlan plan = prepare_scene(player.show(frame), command.scene.request, DeviceLimits{}).plan;
@@ -51,7 +51,7 @@ Json frames_json_of(const FrameList& frames) {
     return json;
 }
 
-// The words for `convert`; null where the input is rendered as it is.
+// The arguments of `convert`; null where the input is rendered as it is.
 Json mesh_words_json(const FarmCommand& command) {
     if (!is_importable(command.scene.input)) return nullptr;
     Flags::GivenWords words = command.scene_words();
@@ -139,7 +139,7 @@ void add_farm_flags(Flags& flags, FarmCommand& command) {
     flags.add_switch("--resume", command.resume, "go on with the job in the folder FILE.farm");
     flags.add_switch(
         "--allow-mixed-devices", command.allow_mixed_devices,
-        "use workers with other kinds of devices, too: the picture is as right, but its bytes are "
+        "use workers with other kinds of devices, too: the picture is as accurate, but its bytes are "
         "those of no single render");
 }
 

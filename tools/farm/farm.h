@@ -30,8 +30,8 @@ struct FarmCommand {
 
 void add_farm_flags(Flags& flags, FarmCommand& command);
 
-// Looks at the scene, and becomes the Python program that renders it on the workers of a Dask cluster. Throws
-// Error(no_device) when Python or Dask is missing.
+// Reads the scene, then replaces this process by the Python program that renders it on the workers of a Dask
+// cluster. Throws Error(no_device) when Python or Dask is missing.
 [[nodiscard]] int run_farm(const FarmCommand& command);
 
 // The Python program, which the build puts inside the binary.

@@ -13,7 +13,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def listen(farm: Farm) -> None:
-    """From now on signals end the job in order; the second one at once."""
+    """Makes the first signal end the job in order, and the second one end it at once."""
     def interrupt(*_: object) -> None:
         farm.signals += 1
         if farm.signals > 1:
@@ -24,13 +24,13 @@ def listen(farm: Farm) -> None:
 
 
 def is_of_network(cause: OSError) -> bool:
-    """Of a cluster that may be back later; else of our files, or of a pipe that nobody reads."""
+    """Whether the error is that of a cluster, which may be back later, and not of our files or of a closed pipe."""
     is_lost = isinstance(cause, (ConnectionError, TimeoutError)) and not isinstance(cause, BrokenPipeError)
     return is_lost or type(cause).__module__.startswith("distributed.")  # such as its CommClosedError
 
 
 def rest_of(farm: Farm | None) -> str:
-    """What a job lacks that stopped."""
+    """What a stopped job lacks, in words."""
     return "nothing is done" if farm is None else f"{farm.missing()}; --resume goes on"
 
 
@@ -58,13 +58,13 @@ def farm_main(options: dict) -> int:
 
 def main() -> None:
     for number in SIGNALS:
-        signal.signal(number, signal.SIG_IGN)  # so do the workers, which a terminal tells, too
-    globals().pop("__file__", None)  # "<stdin>", which new processes would look for
+        signal.signal(number, signal.SIG_IGN)  # inherited by the workers, because a terminal signals them, too
+    globals().pop("__file__", None)  # it is "<stdin>", which new processes would try to open
     with open(int(sys.argv[1]), encoding="utf-8") as job:
         code = farm_main(json.load(job))
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(code)  # whatever threads Dask still has
+    os._exit(code)  # without waiting for threads that Dask still has
 
 
 if __name__ == "__main__":

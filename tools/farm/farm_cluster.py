@@ -16,7 +16,7 @@ from farm_job import Stop, say
 from farm_worker import forget, prepare, run_task, store
 
 CORES_OF_A_WORKER = 8  # without a GPU; more threads on one picture gain little
-MAX_FAILURES = 3  # in a row, and a worker gets no more tasks
+MAX_FAILURES = 3  # in a row; then a worker gets no more tasks
 CONNECT_S = 30.0
 CLEAN_S = 5.0  # for workers to remove what they have stored
 DASK_SETTINGS = {
@@ -26,8 +26,8 @@ DASK_SETTINGS = {
     "distributed.admin.tick.interval": "1s", "distributed.admin.tick.limit": "60s",
     "distributed.admin.system-monitor.interval": "5s",
     "distributed.scheduler.work-stealing": "False"}  # each task is for one worker
-LOOK_S = 0.5  # between two looks at who is there: the scheduler tells all it knows of every worker
-LONELY_S = 60.0  # without any worker, and the job ends
+LOOK_S = 0.5  # between two queries of the scheduler, which answers with all it knows of every worker
+LONELY_S = 60.0  # without any worker; then the job ends
 
 
 @dataclasses.dataclass
@@ -45,14 +45,14 @@ class Member:
 
 
 def usable_gpus(binary: str) -> list[int]:
-    """Their indices among all devices."""
+    """The usable GPUs of this machine, as indices among all devices."""
     found = subprocess.run([binary, "devices", "--json", "-"], capture_output=True, text=True, check=False)
     devices = json.loads(found.stdout) if found.returncode == 0 else []
     return [row["index"] for row in devices if row["usable"] and row["type"] != "cpu"]
 
 
 def core_groups(workers: int) -> list[list[int]]:
-    """The cores of this process, dealt out; none where there are more workers than cores."""
+    """The cores of this process, divided among the workers; empty groups where there are more workers than cores."""
     cores = sorted(os.sched_getaffinity(0))
     if workers > len(cores):
         return [[] for _ in range(workers)]
@@ -60,8 +60,8 @@ def core_groups(workers: int) -> list[list[int]]:
 
 
 def quiet_dask() -> None:
-    """What matters of it is said in our own words; its logs in memory stay short; and it neither profiles workers that
-    wait for a render nor wakes up 50 times a second. Workers of this machine inherit that."""
+    """Silences Dask, because we report what matters ourselves. Keeps its logs in memory short, and keeps it from
+    profiling workers that wait for a render and from waking up 50 times a second. Local workers inherit that."""
     for name, value in DASK_SETTINGS.items():
         os.environ.setdefault(f"DASK_{name.replace('.', '__').replace('-', '_').upper()}", value)
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
@@ -69,21 +69,21 @@ def quiet_dask() -> None:
 
 
 def divert_errors(log: str) -> None:
-    """Processes that this one starts from now on say there what goes wrong, such as when a signal ends them while they
-    start. Our own messages stay where they are."""
+    """Sends the standard error of processes started from now on to a file: they write there when a signal ends them
+    while they start. Our own messages stay where they are."""
     with open(log, "ab") as stream:
         sys.stderr = open(os.dup(2), "w", buffering=1, errors="backslashreplace")  # noqa: SIM115
         os.dup2(stream.fileno(), 2)
 
 
 def open_local(workers: int, folder: str):
-    """A cluster of this machine that listens on the loopback alone, and keeps its own files in this folder."""
-    os.environ.setdefault("DASK_TEMPORARY_DIRECTORY", folder)  # which Dask reads when it is imported
+    """A cluster of this machine that listens on the loopback alone, and keeps its files in this folder."""
+    os.environ.setdefault("DASK_TEMPORARY_DIRECTORY", folder)  # read by Dask when it is imported
     from distributed import Client, LocalCluster
     cluster = LocalCluster(n_workers=0, threads_per_worker=1, processes=True, host="127.0.0.1", memory_limit=0,
                            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
     client = Client(cluster)
-    cluster.scale(workers)  # without waiting for them: one that dies while it starts would be waited for in vain
+    cluster.scale(workers)  # not waiting: a worker that dies while it starts would never come
     return client, cluster
 
 
@@ -99,7 +99,7 @@ class Cluster:
     """Asks new workers what they are, sends them the scene, and runs tasks on them."""
 
     def __init__(self, options: dict, setup: dict, files: dict[str, pathlib.Path], device: str):
-        """`device`: the kind that a resumed job has had; empty: that of the first worker."""
+        """`device` is the kind that a resumed job has used; empty: that of the first worker."""
         quiet_dask()
         self.options, self.setup, self.files = options, setup, files
         self.members: dict[str, Member] = {}
@@ -121,7 +121,7 @@ class Cluster:
 
     def dashboard(self) -> str:
         try:
-            import bokeh  # noqa: F401  Dask has a dashboard only with it
+            import bokeh  # noqa: F401  Dask has no dashboard without it
         except ImportError:
             return ""
         return self.client.dashboard_link
@@ -142,7 +142,7 @@ class Cluster:
             self.heard_s = now
         if now - self.heard_s > CONNECT_S:
             raise Stop(75, "the scheduler is gone")
-        there = set(self.client.scheduler_info(n_workers=-1)["workers"])  # some versions tell 5 of them otherwise
+        there = set(self.client.scheduler_info(n_workers=-1)["workers"])  # -1: else some versions name only 5
         gone = [self.members.pop(address) for address in list(self.members) if address not in there]
         for address in there - set(self.members):
             used = {member.slot for member in self.members.values()}
@@ -156,7 +156,7 @@ class Cluster:
         return gone
 
     def selector(self, member: Member) -> str:
-        """The device of a worker, as --device names it; empty: the one that a render chooses."""
+        """The --device of a worker's renders; empty: a render chooses."""
         return str(self.gpus[member.slot % len(self.gpus)]) if self.gpus else self.options["device"]
 
     def ask(self, member: Member) -> None:
@@ -164,7 +164,7 @@ class Cluster:
         self.submit(member, "asked", prepare, self.setup, self.selector(member))
 
     def answer(self, member: Member, answer: dict) -> None:
-        """What a new worker says of itself."""
+        """Takes what a new worker reports about itself."""
         if "refusal" in answer:
             return self.refuse(member, answer["refusal"])
         member.device, member.shares = answer["device"], answer["shares"]
@@ -205,7 +205,7 @@ class Cluster:
         self.submit(member, "task", run_task, self.setup, order)
 
     def collect(self, timeout_s: float) -> list[tuple[Member, str, object]]:
-        """What ended: (worker, kind, Dask's future)."""
+        """Returns what has ended: (worker, kind, Dask's future)."""
         ended = []
         try:
             ended.append(self.results.get(timeout=timeout_s))
@@ -215,7 +215,7 @@ class Cluster:
             return ended
 
     def clean(self) -> None:
-        """Workers without the job's folder remove what they have stored, also while they render."""
+        """Makes workers without the job's folder remove what they have stored, even while they render."""
         away = [member.address for member in self.members.values() if member.device and not member.shares]
         if not away:
             return

@@ -1,5 +1,5 @@
-"""The folder of a job: what it is of, and which parts of it are done by whom. Nothing in it is ever half there: files
-appear under their names when they are whole, and the journal grows by lines, of which a torn last one is cut off."""
+"""The folder of a job: what is rendered, and who has done which parts. Files appear under their names only when they
+are whole. The journal grows by lines, and a last line that is incomplete is cut off."""
 
 import dataclasses
 import fcntl
@@ -16,9 +16,9 @@ import uuid
 from farm_ranges import Ranges, difference, overlaps, union
 
 
-OF_JOB = ("build", "scene", "files", "words", "frames")  # what a job that is resumed must have in common, and
-OF_FILM = ("spp", "error", "tone_words", "outputs")  # where whole frames are dealt out, which are final when they come
-DECIDED = ("id", "by_frames", "device")  # by the job itself, and kept
+OF_JOB = ("build", "scene", "files", "words", "frames")  # equal in a resumed job, and
+OF_FILM = ("spp", "error", "tone_words", "outputs")  # where whole frames are handed out: they are final when they come
+DECIDED = ("id", "by_frames", "device")  # by the job itself, and kept when it is resumed
 
 
 class Stop(Exception):
@@ -42,7 +42,7 @@ class Part:
     samples: int = 0
     error: dict | None = None  # estimate and high
     of: list[str] = dataclasses.field(default_factory=list)  # the files that were merged into it
-    count: int = 1  # parts that workers have rendered
+    count: int = 1  # of parts that workers have rendered
 
 
 def sha256_of(file: pathlib.Path) -> str:
@@ -51,7 +51,7 @@ def sha256_of(file: pathlib.Path) -> str:
 
 
 def write_atomically(file: pathlib.Path, data: bytes) -> None:
-    """By way of a new file whose name nobody can guess."""
+    """Writes a new file whose name nobody can guess, and renames it."""
     temporary = file.with_name(f".{file.name}.{uuid.uuid4().hex}")
     try:
         with open(temporary, "xb") as stream:
@@ -65,7 +65,7 @@ def write_atomically(file: pathlib.Path, data: bytes) -> None:
 
 
 def strings_in(value: object) -> list[str]:
-    """All texts in what a scene file says."""
+    """All texts in the values of a scene file."""
     if isinstance(value, str):
         return [value]
     if isinstance(value, dict):
@@ -74,8 +74,8 @@ def strings_in(value: object) -> list[str]:
 
 
 def files_of_scene(scene: pathlib.Path, overrides: list[str]) -> dict[str, pathlib.Path]:
-    """The scene file and those that it names, by their paths in a folder of their own. Files with an absolute path stay
-    where they are: every worker needs them there."""
+    """The scene file and the files it names, by their paths in the job's copy. Files with an absolute path are not copied:
+    every worker needs them where they are."""
     named = [text.partition("=")[2].strip(' "') for text in overrides]
     if scene.suffix.lower() == ".toml":
         named += strings_in(tomllib.loads(scene.read_text("utf-8")))
@@ -94,7 +94,7 @@ class Job:
         self.mixes_devices = mixes_devices
         self.parts: dict[str, Part] = {}
         self.retries = 0
-        self.lock: int | None = None  # a file; as long as it is open, no other farm works in the folder
+        self.lock: int | None = None  # while this file is open, no other farm works in the folder
 
     def open(self, resumes: bool) -> None:
         """Makes the folder for this user alone, or takes one that is there."""
@@ -114,7 +114,7 @@ class Job:
             raise Stop(2, f"{self.folder} is there: --resume goes on with it; remove it to start anew")
 
     def start(self, files: dict[str, pathlib.Path]) -> None:
-        """In the open folder: a new job, or goes on with the same one."""
+        """Starts a new job in the open folder, or goes on with the same one."""
         self.manifest["files"] = {name: sha256_of(file) for name, file in sorted(files.items())}
         if (self.folder / "manifest.json").exists():
             self.go_on()
@@ -129,13 +129,13 @@ class Job:
         write_atomically(self.folder / "manifest.json", json.dumps(self.manifest, indent=1).encode())
 
     def remember(self, **facts: object) -> None:
-        """What was decided in this job."""
+        """Keeps decisions of this job in the manifest."""
         if any(self.manifest[key] != value for key, value in facts.items()):
             self.manifest |= facts
             self.write_manifest()
 
     def go_on(self) -> None:
-        """With what the folder has."""
+        """Takes over what the folder has of the job."""
         try:
             before = json.loads((self.folder / "manifest.json").read_text())
             self.check(before)
@@ -158,7 +158,7 @@ class Job:
         text = file.read_bytes()
         whole = text.rfind(b"\n") + 1
         if whole < len(text):
-            os.truncate(file, whole)  # else the next line would be appended to the torn one
+            os.truncate(file, whole)  # else the next line would be appended to the incomplete one
         for line in text[:whole].splitlines():
             row = json.loads(line)
             if "dropped" in row:
@@ -181,8 +181,8 @@ class Job:
             os.fsync(journal.fileno())
 
     def add(self, part: Part) -> bool:
-        """False for a part of which other files have samples already: a late one, which must be equal where it has the
-        same samples, unless devices of several kinds render."""
+        """Returns False for a late part, some of whose samples other files have already. A part that comes twice must be
+        equal, unless devices of several kinds render."""
         known = self.parts.get(part.file)
         differs = known is not None and known.sha256 and part.sha256 and known.sha256 != part.sha256
         if differs and not self.mixes_devices:

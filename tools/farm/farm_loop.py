@@ -15,9 +15,9 @@ from farm_picture import Merger, Picture, failure_of, missing_line, next_round, 
 from farm_report import Progress, facts_of, print_missed_error, print_report, report_of
 from farm_work import MAX_TRIES, Task, Work
 
-NEVER = (2, 3, 70)  # exit codes of a render that will be the same on every worker
+NEVER = (2, 3, 70)  # exit codes of a render that would be the same on every worker
 POLL_S = 0.25
-END_S = 2.0  # of a time limit, beside twice the last merge, for writing the picture
+END_S = 2.0  # of a time limit, kept for writing the picture, besides twice the last merge
 
 
 class Farm:
@@ -48,7 +48,7 @@ class Farm:
         self.last_line = ""
 
     def convert_scene(self) -> None:
-        """Workers get the voxels of a mesh, which may name files of its own, or of another program's file."""
+        """Converts a mesh or another program's file to the .vox file that workers get. A mesh may name further files."""
         voxels = self.job.folder / "imported.vox"
         words = [self.options["binary"], "convert", self.options["scene"], str(voxels), *self.options["mesh_words"],
                  "-q"]
@@ -72,7 +72,7 @@ class Farm:
         return bool(self.job.manifest["by_frames"])
 
     def plan_work(self) -> None:
-        """Whole frames where there are enough of them for all workers, else samples. A job that is resumed keeps its
+        """Hands out whole frames where there are enough of them for all workers, else samples. A resumed job keeps its
         choice, whatever workers there are now."""
         if self.job.manifest["by_frames"] is None:
             workers = max(len(self.cluster.groups), len(self.cluster.members), 1)
@@ -94,7 +94,7 @@ class Farm:
         return all(picture.is_written for picture in self.pictures)
 
     def run(self) -> int:
-        """The exit code, as render would end."""
+        """Runs the job to its end; returns the exit code that render would have."""
         self.cluster.look()
         self.plan_work()
         while not self.is_done():
@@ -126,9 +126,9 @@ class Farm:
             self.cluster.run(member, task, order_of(self.options, task, self.by_frames, patience_s))
 
     def take(self, member: Member, kind: str, future) -> None:
-        """A worker has answered, or failed to."""
+        """Takes the answer of a worker, or its failure."""
         if future is not member.future:
-            return  # of a worker that was given up
+            return  # the worker was given up before
         task, member.task = member.task, None
         if future.status != "finished":
             self.cluster.failed(member, f"Dask says {future.status}: {self.cause_of(future)}")
@@ -187,12 +187,12 @@ class Farm:
             return
         for name, output in zip(unit["files"], picture.outputs):
             shutil.move(self.job.folder / name, output)
-        (self.job.folder / part.file).touch()  # says that the frame is done
+        (self.job.folder / part.file).touch()  # marks the frame as done
         self.job.add(part)
         picture.take_frame(part)
 
     def lose(self, member: Member) -> None:
-        """A worker is gone. What Dask still says of it is not counted again."""
+        """Gives up a worker that is gone. Whatever Dask reports of it later is ignored."""
         task, future = member.task, member.future
         member.task = member.future = None
         if task is not None:
@@ -216,7 +216,7 @@ class Farm:
                 return self.merger.compact(picture)
 
     def take_picture(self, picture: Picture, partial: bool, report) -> None:
-        """A merge has ended. `report` is a list of samples where a part was damaged."""
+        """Takes the result of a merge. `report` is a list of samples to render again where a part was damaged."""
         if isinstance(report, list):
             return self.work.add(picture.frame, report)
         picture.samples = report["samples"]
@@ -238,7 +238,7 @@ class Farm:
         return limit_s is not None and time.monotonic() - self.start_s > limit_s - END_S - 2.0 * self.merger.took_s
 
     def end_early(self) -> int:
-        """Pictures of what is there."""
+        """Writes the pictures of what is there."""
         self.progress.finish()
         self.write_what_is_there()
         if self.is_done():
@@ -261,7 +261,7 @@ class Farm:
                 lacks_some = bool(self.job.missing(picture.frame, picture.end))
                 self.merger.write(picture, lacks_some or self.options["error"] is not None)
                 _, partial, report = self.merger.wait()
-                if isinstance(report, dict):  # else a part was damaged, and is dropped
+                if isinstance(report, dict):  # else a part was damaged and dropped
                     picture.samples, picture.error, picture.is_written = report["samples"], report["error"], not partial
                     break
 

@@ -1,4 +1,4 @@
-"""What a worker is told of a task: the renders that it consists of."""
+"""The order that a worker gets for a task: the renders that it consists of."""
 
 import json
 import pathlib
@@ -9,7 +9,7 @@ from farm_picture import failure_of
 from farm_ranges import text
 from farm_work import Task
 
-FIRST_ROUND = 64  # samples, where no forecast tells the number
+FIRST_ROUND = 64  # samples, where there is no forecast
 
 
 def frame_words(options: dict, frame: int) -> list[str]:
@@ -17,7 +17,7 @@ def frame_words(options: dict, frame: int) -> list[str]:
 
 
 def order_of(options: dict, task: Task, by_frames: bool, patience_s: float) -> dict:
-    """A task of a film is a run of its frames, one of a picture a range of its samples."""
+    """A task of a film is a range of its frames, a task of a picture a range of its samples."""
     if by_frames:
         units = [frame_unit(options, index) for index in range(task.first, task.end)]
     else:
@@ -38,7 +38,7 @@ def frame_unit(options: dict, index: int) -> dict:
 
 
 def first_round(options: dict, frame: int) -> int:
-    """Samples that the pilot of the renderer asks for, as for a render of its own."""
+    """The samples that the renderer's pilot would ask for in a render of its own."""
     words = [options["binary"], "plan", options["scene"], *options["words"], "--error", str(options["error"]), "--spp",
              str(options["spp"]), *frame_words(options, frame), "-q", "--json", "-"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)

@@ -10,8 +10,8 @@ import time
 from farm_job import Job, Part, Stop
 from farm_ranges import Ranges, size, text, union
 
-MAX_PARTS = 32  # of a frame, before they are merged into one
-PREVIEW_S = 120.0  # from one preview to the next, and
+MAX_PARTS = 32  # of a frame, before they are merged into one part
+PREVIEW_S = 120.0  # from one preview to the next, and at least
 PREVIEW_PAUSES = 100.0  # times as long as a merge takes
 ROUND_MARGIN = 1.05  # more samples than the error law says
 MIN_ROUND = 1.1  # times as many samples as before
@@ -39,14 +39,14 @@ def run_merge(options: dict, files: list[pathlib.Path], outputs: list[str], part
 
 
 def failure_of(command: str, done: subprocess.CompletedProcess) -> dict:
-    """The exit code and the last line of our own binary; whatever kills it may not come again."""
+    """The exit code and the last line of our binary. A binary that was killed is a temporary failure."""
     if done.returncode < 0:
         return {"code": 75, "line": f"{command} was killed by signal {-done.returncode}"}
     return {"code": done.returncode, "line": done.stderr.strip().split("\n")[-1].removeprefix("voxilux: ")}
 
 
 class Picture:
-    """A frame whose samples are dealt out."""
+    """A frame and what is known of its picture."""
 
     def __init__(self, frame: int, outputs: list[str], end: int):
         self.frame, self.outputs = frame, outputs
@@ -57,13 +57,13 @@ class Picture:
         self.samples = 0
 
     def take_frame(self, part: Part) -> None:
-        """It was rendered as a whole."""
+        """Takes a frame that was rendered as a whole."""
         self.is_written, self.samples = True, part.samples
         self.error = part.error
 
 
 class Merger:
-    """Merges in the background. `finished()` gives what came of them."""
+    """Merges in the background. `finished()` returns their results."""
 
     def __init__(self, options: dict, job: Job):
         self.options, self.job = options, job
@@ -77,11 +77,11 @@ class Merger:
         self.running = (picture, parts, outputs, partial, future)
 
     def write(self, picture: Picture, partial: bool) -> None:
-        """The picture of all that is there."""
+        """Writes the picture of all parts that are there."""
         self.start(picture, self.job.of_frame(picture.frame), picture.outputs, partial)
 
     def compact(self, picture: Picture) -> None:
-        """One part of all that are there, and a preview."""
+        """Merges all parts that are there into one, and writes a preview."""
         parts = sorted(self.job.of_frame(picture.frame), key=lambda part: part.ranges)
         name = f"parts/f{picture.frame:06d}.m{len(parts)}.{time.time_ns():x}.exr"
         outputs = [str(self.job.folder / name), str(self.job.folder / "preview.png")]
@@ -93,14 +93,14 @@ class Merger:
         return count >= MAX_PARTS or (count > 1 and time.monotonic() - self.last_s > pause_s)
 
     def wait(self) -> tuple | None:
-        """finished(), when it is."""
+        """Waits for the merge, and returns finished()."""
         if self.running is not None:
             concurrent.futures.wait([self.running[-1]])
         return self.finished()
 
     def finished(self) -> tuple | None:
-        """(picture, was partial, report), once; nothing while a merge runs. Parts that turn out to be damaged are
-        dropped: then the report is what they held."""
+        """Returns (picture, was partial, report) once after each merge, and None otherwise. Damaged parts are dropped; the
+        report is then the list of their samples."""
         if self.running is None or not self.running[-1].done():
             return None
         picture, parts, outputs, partial, future = self.running
@@ -117,7 +117,7 @@ class Merger:
         return picture, partial, result["report"]
 
     def drop_damaged(self, parts: list[Part], failure: dict) -> Ranges:
-        """A refused part names its file."""
+        """Drops the part whose file the failure names."""
         for part in parts:
             if failure["code"] == 3 and failure["line"].startswith(f"{self.job.folder / part.file}: "):
                 self.job.drop(part.file)
@@ -127,7 +127,7 @@ class Merger:
 
 
 def missing_line(job: Job, pictures: list[Picture]) -> str:
-    """Which samples a job lacks that did not come to its end."""
+    """The samples that an unfinished job lacks, in words."""
     rows = []
     for picture in pictures:
         missing = job.missing(picture.frame, picture.end)

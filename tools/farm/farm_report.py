@@ -1,4 +1,4 @@
-"""What people and scripts see of a job: a line of progress, and the report at its end."""
+"""The line of progress, and the report at the end of a job."""
 
 import json
 import math
@@ -61,7 +61,7 @@ def known_high(error: dict) -> float:
 
 
 def facts_of(job: Job, pictures: list[Picture], wall_s: float) -> dict:
-    """Of a film: the fewest samples and the largest error of a frame."""
+    """The facts of the report. For a film: the fewest samples and the largest error of a frame."""
     outputs = [output for picture in pictures if picture.samples for output in picture.outputs]
     errors = [picture.error for picture in pictures if picture.error]
     return {"samples": min((picture.samples for picture in pictures), default=0),
@@ -72,7 +72,7 @@ def facts_of(job: Job, pictures: list[Picture], wall_s: float) -> dict:
 
 
 def report_of(work: Work, facts: dict) -> dict:
-    """The keys that the command line promises, and what one worker more would have saved."""
+    """The report: the keys that the command line promises, and what one more worker would have saved."""
     rows = worker_rows(work, facts["wall_s"])
     count = len(rows)
     busy_s = sum(speed.busy_s for speed in work.speeds.values())
@@ -81,7 +81,7 @@ def report_of(work: Work, facts: dict) -> dict:
 
 
 def print_missed_error(facts: dict, target: float) -> None:
-    """As render says it."""
+    """Prints the warning that render would print."""
     high = (facts["error"] or {}).get("high")
     error = "an unknown error" if high is None else f"an error of up to {100 * high:.3g} %"
     print(f"warning: stopped after {facts['samples']} samples with {error}, over the {100 * target:g}% asked for",

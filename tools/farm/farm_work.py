@@ -1,5 +1,5 @@
-"""Who renders what next. Work lies in lanes of whole numbers: the samples of a frame, or the frames of a film. A task
-is a range of a lane. Nothing here knows of Dask, renders or clocks: times are told."""
+"""Decides who renders what next. Work lies in lanes of whole numbers: the samples of a frame, or the frames of a film.
+A task is a range of a lane. Nothing here knows of Dask, renders or clocks: times are arguments."""
 
 import dataclasses
 import itertools
@@ -8,14 +8,14 @@ import statistics
 
 from farm_ranges import Ranges, difference, size, union
 
-TASK_S = 40.0  # what a task should take: long against the start of a render, short against what a death loses
+TASK_S = 40.0  # of a task: long against the start of a render, short against what the death of a worker loses
 MIN_TASK_S = 10.0
-LAST_SHARE = 0.75  # of what is left for each worker, its next task near the end: those after it are smaller
-FIRST_SHARE = 32  # of the work of each worker, its first task, which measures its speed
-STRAGGLER = 1.5  # times as long as expected, and
-STRAGGLER_S = 2.0  # so much longer: another worker gets the same task
-HUNG = 8.0  # times as long as expected, and
-HUNG_S = 120.0  # so much longer: the render is ended
+LAST_SHARE = 0.75  # near the end, a task is this share of what is left for each worker, so that tasks get smaller
+FIRST_SHARE = 32  # a worker's first task is one part in so many of its work, and measures its speed
+STRAGGLER = 1.5  # times as long as expected, and at least
+STRAGGLER_S = 2.0  # longer: another worker gets the same task
+HUNG = 8.0  # times as long as expected, and at least
+HUNG_S = 120.0  # longer: the render is ended
 MAX_TRIES = 5
 
 
@@ -26,8 +26,8 @@ class Task:
     end: int
     number: int = 0
     tries: int = 0
-    failed: set[str] = dataclasses.field(default_factory=set)  # workers that did not do it
-    runs: dict[str, float] = dataclasses.field(default_factory=dict)  # when it began, by worker
+    failed: set[str] = dataclasses.field(default_factory=set)  # workers that failed it
+    runs: dict[str, float] = dataclasses.field(default_factory=dict)  # start time, by worker
 
     def units(self) -> int:
         return self.end - self.first
@@ -70,13 +70,13 @@ class Work:
         return lane not in self.lanes and all(task.lane != lane for task in [*self.again, *self.running.values()])
 
     def speed(self, worker: str) -> float:
-        """What was measured, or the median of the others, or 0."""
+        """The measured speed of a worker, or the median of the others, or 0."""
         own = self.speeds.get(worker, Speed()).units_per_s
         known = [speed.units_per_s for speed in self.speeds.values() if speed.units_per_s > 0.0]
         return own or (statistics.median(known) if known else 0.0)
 
     def size_for(self, worker: str, workers: int) -> int:
-        """Units of the next task: TASK_S of them, fewer at the end, so that all workers end together."""
+        """Units of the next task: work for TASK_S, and less near the end, so that all workers end together."""
         left = self.left()
         speed = self.speed(worker)
         if speed == 0.0:
@@ -85,7 +85,7 @@ class Work:
         return max(1, min(fair, int(speed * TASK_S)))
 
     def next_task(self, worker: str, workers: int, now_s: float) -> Task | None:
-        """A task that failed elsewhere, a new one, or one that another worker is late with."""
+        """A task that failed elsewhere, a new one, or one with which another worker is late."""
         task = (self.failed_elsewhere(worker, workers) or self.new_task(worker, workers)
                 or self.straggler(worker, now_s))
         if task is None:
@@ -95,7 +95,7 @@ class Work:
         return task
 
     def failed_elsewhere(self, worker: str, workers: int) -> Task | None:
-        """One that this worker has not failed, or that as many have failed as there are."""
+        """A task that this worker has not failed yet, or that all workers have failed."""
         for task in self.again:
             if worker not in task.failed or len(task.failed) >= workers:
                 self.again.remove(task)
@@ -130,17 +130,17 @@ class Work:
         return max(late, key=lambda row: row[0])[1] if late else None
 
     def patience_s(self, task: Task, worker: str) -> float:
-        """After which a render that does not end is taken for hung."""
+        """Seconds after which a render counts as hung."""
         expected_s = self.expected_s(task, worker)
         return HUNG_S + HUNG * expected_s if expected_s is not None else 24 * 3600.0
 
     def end(self, task: Task, worker: str, units: int, seconds: float) -> bool:
-        """It is done by this worker; False when another was faster."""
+        """Notes that this worker has done the task; False when another was faster."""
         self.speeds.setdefault(worker, Speed()).add(units, seconds)
         return self.running.pop(task.number, None) is not None
 
     def fail(self, task: Task, worker: str) -> None:
-        """This worker will not do it: another one does, or works on it already."""
+        """Notes that this worker has failed the task, which another one will do or is doing already."""
         task.runs.pop(worker, None)
         task.failed.add(worker)
         if task.number not in self.running or task.runs:
@@ -150,7 +150,7 @@ class Work:
         self.again.append(task)
 
     def remaining_s(self, workers: list[str]) -> float | None:
-        """At the speeds so far, what is running counted as half done."""
+        """Time to the end at the speeds so far; running tasks count as half done."""
         speed = sum(self.speed(worker) for worker in workers)
         if speed == 0.0:
             return None

@@ -1,5 +1,5 @@
-"""What runs on the workers of the cluster. Dask sends these functions there, so they import what they need themselves
-and nothing of ours."""
+"""The functions that run on the workers of the cluster. Dask sends them there, so they import what they need
+themselves, and no module of ours."""
 
 import ctypes
 import hashlib
@@ -21,7 +21,7 @@ def file_hash(file: pathlib.Path) -> str:
 
 
 def own_folder(setup: dict) -> pathlib.Path:
-    """Of this machine, for what its workers cannot find in the job's folder. The id is random, so nobody else can have
+    """The folder of this machine for workers that do not see the job's folder. The id is random, so nobody else can have
     made a folder of that name."""
     folder = pathlib.Path(tempfile.gettempdir()) / f"voxilux-farm-{setup['id']}"
     folder.mkdir(mode=0o700, exist_ok=True)
@@ -33,7 +33,7 @@ def program_of(setup: dict) -> str:
 
 
 def scene_folder(setup: dict) -> pathlib.Path:
-    """The job's folder where this machine sees it, else one that store() fills."""
+    """The job's folder if this machine sees it, else the one that store() fills."""
     return (pathlib.Path(setup["folder"]) if sees_job(setup) else own_folder(setup)) / "scene"
 
 
@@ -45,7 +45,7 @@ def sees_job(setup: dict) -> bool:
 
 
 def selected(devices: list[dict], selector: str) -> dict | None:
-    """The one of these devices that --device names, or that a render chooses."""
+    """The device that --device names, or that a render would choose."""
     if not selector:
         fits = [row for row in devices if row["would_use"]]
     elif selector.isdigit():
@@ -56,7 +56,7 @@ def selected(devices: list[dict], selector: str) -> dict | None:
 
 
 def prepare(setup: dict, selector: str) -> dict:
-    """What the worker is, and which files of the scene it lacks."""
+    """Returns what the worker is, and which files of the scene it lacks."""
     program = program_of(setup)
     if not program:
         return {"refusal": f"there is no {setup['binary']}, nor a voxilux in PATH"}
@@ -77,7 +77,7 @@ def prepare(setup: dict, selector: str) -> dict:
 
 
 def store(setup: dict, files: dict[str, bytes]) -> dict:
-    """Files of the scene, from the scheduler."""
+    """Stores files of the scene that come from the scheduler."""
     for name, data in files.items():
         file = scene_folder(setup) / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -93,7 +93,7 @@ def forget(setup: dict) -> None:
 
 
 def start_render(words: list[str], cores: list[int]) -> subprocess.Popen:
-    """Dies with the worker, however that ends. Its threads stay on these cores; none: on any."""
+    """Makes the render die with the worker, however that ends, and keeps its threads on these cores; empty: on any."""
     libc = ctypes.CDLL(None, use_errno=True)
 
     def in_child() -> None:
@@ -109,7 +109,7 @@ def start_render(words: list[str], cores: list[int]) -> subprocess.Popen:
 
 
 def run_one(setup: dict, task: dict, unit: dict) -> dict:
-    """One render: its exit code, last line, times, and the file."""
+    """Runs one render; returns its exit code, last line, times and file."""
     folder = pathlib.Path(setup["folder"]) if task["shares"] else own_folder(setup)
     (folder / "parts").mkdir(parents=True, exist_ok=True)
     files = [folder / name for name in unit["files"]]
@@ -130,7 +130,7 @@ def run_one(setup: dict, task: dict, unit: dict) -> dict:
     if child.returncode not in (0, 4):
         return result
     report = json.loads(out)
-    # A part that was there already, of a worker that was given up, has no times.
+    # A part that was there already, left by a worker that was given up, has no times.
     result |= {"cpu_s": report.get("cpu_s", 0.0), "samples": report["samples"], "error": {name: report["error"][name] for name in ("estimate", "high")},
                "sha256": [file_hash(file) for file in files]}
     if not task["shares"]:
@@ -141,7 +141,7 @@ def run_one(setup: dict, task: dict, unit: dict) -> dict:
 
 
 def run_task(setup: dict, task: dict) -> list[dict]:
-    """The renders of a task, up to the first one that fails."""
+    """Runs the renders of a task, up to the first one that fails."""
     results = []
     for unit in task["units"]:
         results.append(run_one(setup, task, unit))

@@ -1,6 +1,6 @@
 #pragma once
 
-// The commands and their flags as plain data: what manual page and completions are made from.
+// The commands and their flags as plain data, from which manual page and completions are made.
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// Completion of words on the command line: subcommands, flags, words that a value may be, and file names.
+// Shell completion of subcommands, flags, the words that a value may be, and file names.
 
 #include <functional>
 #include <map>
@@ -38,7 +38,7 @@ std::string first_line(const std::string& help) {
 
 // ---- bash ----
 
-// What follows a flag that takes a value: flags with the same answer share a line.
+// What may follow a flag that takes a value. Flags with the same answer share a line.
 std::string bash_values(const ManualCommand& command) {
     std::map<std::string, std::vector<std::string>> names_of;
     for (const ManualFlag& flag : command.flags) {

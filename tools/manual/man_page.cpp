@@ -46,7 +46,7 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-// Lines that belong together stay apart: a list of presets is one.
+// A text of several lines, such as a list of presets, keeps its line breaks.
 std::string paragraph(const std::string& text) {
     const std::string plain = escaped(text);
     return text.find('\n') == text.npos ? plain + "\n" : ".nf\n" + plain + "\n.fi\n";

@@ -68,9 +68,10 @@ void add_merge_flags(Flags& flags, MergeCommand& command) {
     flags.add_switch(
         "--partial", command.partial,
         "write the mean of what is there when samples are missing; its EXR keeps the sums for another merge");
-    flags.add_switch("--allow-mixed-devices", command.allow_mixed_devices,
-                     "parts of other kinds of devices, too: the picture is as right, but its bytes are those "
-                     "of no single render");
+    flags.add_switch(
+        "--allow-mixed-devices", command.allow_mixed_devices,
+        "accept parts of other kinds of devices: the picture is as accurate, but its bytes are those "
+        "of no single render");
     flags.add_switch("--reproducible", command.pictures.reproducible,
                      "no date or times in the files: the bytes of an uninterrupted render");
     add_tone_flags(flags, command.pictures.tone);

@@ -38,7 +38,7 @@ nlohmann::ordered_json frames_json(const FrameList& frames) {
     return {{"count", frames.count()}, {"first", frames.first}, {"last", frames.last}, {"step", frames.step}};
 }
 
-// Prints plan and JSON; `frames` is of the animated scene.
+// Prints plan and JSON; `frames` are those of the animated scene.
 int print_plan(const RenderCommand& command, const FrameList& frames, const RenderPlan& plan,
                nlohmann::ordered_json json, const std::string& more) {
     if (frames.is_sequence) json["frames"] = frames_json(frames);

@@ -13,8 +13,8 @@ struct PlanCommand {
 // Without --history INPUT is needed, too.
 void add_plan_flags(Flags& flags, PlanCommand& command);
 
-// Prints what render would do with the same flags, and what not and why. Needs a device for --error alone,
-// whose time, memory and samples a pilot tells.
+// Prints what render would do with the same flags, what it would leave out, and why. Only --error needs a
+// device: a pilot predicts samples, time and memory.
 [[nodiscard]] int run_plan(const PlanCommand& command);
 
 }  // namespace voxilux

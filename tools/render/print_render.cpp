@@ -25,7 +25,7 @@ void print_faults(const RenderOutcome& outcome) {
         if (count != 0) print_message("warning: fault {} counted {} times\n", name, count);
     }
     if (lacks_light(outcome.statistics.faults))
-        print_message("warning: light is missing where paths or sums were cut; how much, no error tells\n");
+        print_message("warning: paths or sums were cut: light is missing, and not counted in the error\n");
 }
 
 void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said) {

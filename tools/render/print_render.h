@@ -16,11 +16,12 @@ namespace voxilux {
 // The error asked for, as people write it: "1%".
 [[nodiscard]] std::string target_text(const RenderCommand& command);
 
-// Messages of the validation layers and faults, on standard error: said whatever the user asked for.
+// Prints messages of the validation layers and faults on standard error, even when --quiet is given.
 void print_validation(const RenderOutcome& outcome);
 void print_faults(const RenderOutcome& outcome);
 
-// What may surprise, on standard error, but for what is in `said` already.
+// Prints warnings and notes on standard error, except those that `said` holds because they were printed
+// before.
 void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, std::set<std::string>& said);
 void print_missed_error(const RenderCommand& command, const RenderOutcome& outcome);
 

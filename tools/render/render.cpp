@@ -39,7 +39,7 @@ std::vector<std::string> files_to_write(const RenderCommand& command,
 
 namespace {
 
-// A part that is there already, whole and sound: a command that is run again has nothing left to do.
+// A part that is there already, whole and undamaged: nothing is left to do.
 bool is_finished(const RenderCommand& command, RenderSession& session, const RenderJob& job) {
     const PictureFiles& pictures = job.checkpoint.pictures;
     if (!pictures.is_part || pictures.files.size() != 1) return false;

@@ -6,7 +6,7 @@
 
 namespace voxilux {
 
-// The flags of render, which plan takes too: it shows what the same command line would do.
+// The flags of render. plan takes them, too, to show what the same command line would do.
 struct RenderCommand {
     SceneOptions scene;
     PictureFiles pictures;
@@ -35,8 +35,8 @@ Flag add_render_flags(Flags& flags, RenderCommand& command);
 // input. {name} stands for that name, {camera} for the camera's.
 [[nodiscard]] PictureFiles pictures_of(const RenderCommand& command);
 
-// `outputs`, numbered where flags ask for frames. Throws Error(usage) for one that nobody named and that is
-// there already.
+// `outputs`, numbered where flags ask for frames. Throws Error(usage) where the default name is taken by a
+// file.
 [[nodiscard]] std::vector<std::string> files_to_write(const RenderCommand& command,
                                                       const std::vector<std::string>& outputs);
 
@@ -44,16 +44,17 @@ Flag add_render_flags(Flags& flags, RenderCommand& command);
 // go with the other flags.
 [[nodiscard]] Checkpoint checkpoint_of(const RenderCommand& command);
 
-// The scene as a render takes it. --error without --spp takes samples until the error is reached.
+// The scene with the sample count of the flags: --error without --spp takes samples until the error is
+// reached.
 [[nodiscard]] Scene scene_to_render(const RenderCommand& command);
 
-// Whether they are some of the samples, and its EXR has their sums.
+// Whether only some of the samples are rendered, so that the EXR holds their sums.
 [[nodiscard]] bool is_part(const RenderCommand& command);
 
 // Tells the plan which samples of the scene the flags ask for. Throws Error(usage) when there are none.
 void request_samples(const RenderCommand& command, const Scene& scene, PlanRequest& request);
 
-// What the flags ask of a session, but for checkpoints (use_checkpoint).
+// The render options of the flags, except for checkpoints (use_checkpoint).
 [[nodiscard]] RenderOptions render_options(const RenderCommand& command);
 
 // Renders and writes the pictures. Returns done, time_limit (before the error target) or interrupted.

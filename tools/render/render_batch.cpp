@@ -19,7 +19,7 @@
 namespace voxilux {
 namespace {
 
-// What all pictures of a batch share, and what they left behind.
+// What the pictures of a batch share, and the results so far.
 struct Batch {
     std::optional<RenderSession> session;
     ProgressLine progress;
@@ -128,7 +128,7 @@ ExitCode render_one(const RenderCommand& command, Batch& batch) {
     return rendered.code;
 }
 
-// Ends that all later pictures would have, too.
+// Exit codes that every later picture would have, too.
 bool ends_batch(ExitCode code) {
     return code == ExitCode::no_device || code == ExitCode::device_lost || code == ExitCode::interrupted;
 }

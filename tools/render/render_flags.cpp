@@ -23,10 +23,10 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
     flags.add_parsed("--denoise", "on|off", command.denoises, parse_denoise,
-                     "filter the noise of the picture, and tell how far it is off then; an EXR has both "
+                     "filter the noise of the picture, and estimate the error that is left; an EXR has both "
                      "pictures (default off)");
     flags.add_switch("--reproducible", command.pictures.reproducible,
-                     "no date or times in the files: equal runs, equal bytes");
+                     "leave date and times out of the files: equal runs write equal bytes");
     add_progress_flag(flags, command.progress);
     flags.add_switch("-v,--verbose", command.verbose,
                      "print the plan too (render), the first frame too (plan)");
@@ -41,7 +41,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 void add_stop_flags(Flags& flags, RenderCommand& command) {
     flags.begin_group("When to stop");
     flags.add_parsed("--error", "E", command.error_target, parse_error_target,
-                     "stop when the estimated error is below, such as 1%; --spp is the most");
+                     "stop when the estimated error is below this, such as 1%; --spp is the maximum");
     flags.add_parsed("--time-limit", "T", command.time_limit_s, parse_duration,
                      "stop in time, such as 90s, 2m or 1h30m; the picture is whole");
 }
@@ -64,7 +64,7 @@ void add_part_flags(Flags& flags, RenderCommand& command) {
     flags.on<double>(
         "--checkpoint", "SECONDS",
         [&command](double seconds) { command.checkpoint_s = checked_interval(seconds); },
-        "write FILE.exr.part as often while FILE.exr is rendered, but for a tenth of the time at most; 0 is "
+        "interval between writes of FILE.exr.part, which take a tenth of the time at most; 0 is "
         "never (default 60)");
     flags.add_switch("--resume", command.resume,
                      "go on from FILE.exr.part, which a killed, interrupted or timed out render left");

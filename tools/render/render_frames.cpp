@@ -35,7 +35,7 @@ void print_rest(const FrameList& frames, std::int64_t index, const char* what_ha
                   frames.step == 1 ? "" : fmt::format("x{}", frames.step));
 }
 
-// What the frames so far left behind.
+// The results of the frames so far.
 struct Rendered {
     SequenceReport report;
     std::set<std::string> said;

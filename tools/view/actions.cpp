@@ -23,7 +23,7 @@ void look_from(View side, glm::ivec2 window, ViewState& state) {
     state.view = view_of(framing_camera(state.box, looking, glm::dvec2(glm::max(window, 1))), state.box);
 }
 
-// Turning may bring anything before the camera.
+// Turning may bring any part of the scene in front of a camera of parallel rays, so it steps back first.
 void orbit(glm::dvec2 way, glm::ivec2 window, ViewState& state) {
     state.view = orbited(stepped_back(state.view, state.box), way, glm::dvec2(window));
 }
@@ -41,7 +41,7 @@ void open_other(ViewState& state) {
         state.file_to_open = files.front();
 }
 
-// The first frame comes after the last one, and the other way round.
+// The frames make a ring: the first one follows the last.
 void show_frame(std::int64_t frame, ViewState& state) {
     if (!state.frames) return;
     const auto& [first, last] = *state.frames;

@@ -10,7 +10,7 @@ namespace voxilux {
 // What an event does to the view, when no panel wants it.
 void take_event(const InputEvent& event, glm::ivec2 window, ViewState& state);
 
-// What held keys do in so many seconds.
+// Moves the camera as the held keys say, for so many seconds.
 void fly(double seconds, ViewState& state);
 
 // The key sheet: keys and what they do.

@@ -10,8 +10,8 @@
 namespace voxilux {
 namespace {
 
-// A cube of the brush about a cell. On the axis of the face it lies on the far side of it: in front of the
-// face where it is placed, else behind.
+// A cube of the brush around a cell. Along the normal of the face it grows outwards where voxels are placed,
+// and inwards otherwise.
 Box brush_box(glm::ivec3 cell, glm::ivec3 normal, int brush, bool is_placed) {
     Box box;
     box.lo = cell - (brush - 1) / 2;
@@ -47,7 +47,8 @@ void use_tool(ViewState& state) {
     make_edits({&edit, 1}, state);
 }
 
-// What was saved is no longer among the steps that can be made again; no number of steps leads to it.
+// An edit after an undo past the saved state makes that state unreachable: no number of undos or redos leads
+// back.
 constexpr std::int64_t kUnreachable = std::int64_t{1} << 62;
 
 void remember(std::vector<BoxEdit> made, std::vector<BoxEdit> back, EditState& edit) {

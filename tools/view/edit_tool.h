@@ -36,21 +36,22 @@ struct EditState {
     std::optional<glm::ivec3> fill_begin;  // the cell where a box begins
     std::optional<Stroke> stroke;          // while the brush paints
     EditHistory history;
-    std::int64_t unsaved = 0;  // steps of the history from what the file holds; below 0 they are taken back
-    std::uint64_t edits = 0;   // that were made, taken back or made again
+    std::int64_t unsaved = 0;  // steps since the file was saved; below 0: steps undone since then
+    std::uint64_t edits = 0;   // edits made, undone and redone so far
 };
 
 // The cells that the tool would change at its target.
 [[nodiscard]] std::optional<Box> tool_box(const EditState& edit);
 
-// The left button goes down, the pointer moves while it is down, it goes up. With the tool `view`: nothing.
+// Called when the left button goes down, when the pointer moves while it is down, and when it goes up. The
+// tool `view` does nothing.
 void begin_stroke(ViewState& state);
 void move_stroke(ViewState& state);
 void end_stroke(ViewState& state);
 
-// Whether the file holds other voxels.
+// Whether the voxels differ from those of the file.
 [[nodiscard]] bool is_unsaved(const EditState& edit);
-// Other voxels are shown: there is nothing to undo, redo or save.
+// Called when other voxels are shown: there is nothing to undo, redo or save any more.
 void forget_edits(EditState& edit);
 
 // Makes edits that can be taken back. What cannot be done becomes the state's message.
@@ -58,7 +59,7 @@ void make_edits(std::span<const BoxEdit> edits, ViewState& state);
 void undo_edit(ViewState& state);
 void redo_edit(ViewState& state);
 
-// Finds what is under the pointer, in a window of so many pixels.
+// Finds the voxel under the pointer, in a window of `window` pixels.
 void aim(glm::ivec2 window, ViewState& state);
 
 // Writes the scene's .vox file with the edits.

@@ -34,7 +34,7 @@ struct Plot {
     }
 };
 
-// Whole decades around what there is, and around the target with its time.
+// The axes span whole decades around all points, and around the target with the time it will take.
 Plot plot_of(const LiveErrors& errors, double target) {
     const LiveError& first = errors.points().front();
     const double ahead_s = errors.seconds_until(target).value_or(9.0 * errors.seconds());

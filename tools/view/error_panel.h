@@ -4,7 +4,7 @@
 
 namespace voxilux {
 
-// What is known of an error: "error 3 % after 16 samples; 1 % in about 40 s".
+// The error in words: "error 3 % after 16 samples; 1 % in about 40 s".
 [[nodiscard]] std::string forecast_line(const LiveErrors& errors, double target);
 
 // How the error falls with time, when it will be low enough, and what ends the samples.

@@ -15,19 +15,20 @@ class FileWatch {
     FileWatch() = default;
     explicit FileWatch(std::filesystem::path file) : file_(std::move(file)), time_(time_of(file_)) {}
 
-    // Whether it was written since the last call that said so, or the start. Looks a few times a second.
+    // Whether it was written since the start, or since the last call that returned true. Looks a few times a
+    // second.
     [[nodiscard]] bool has_changed() {
         if (file_.empty() || seconds_since(looked_) < kLookEvery_s) return false;
         looked_ = std::chrono::steady_clock::now();
         return std::exchange(time_, time_of(file_)) != time_;
     }
-    // What was written until now is known.
+    // Ignores what was written until now.
     void forgive() { time_ = time_of(file_); }
 
   private:
     static constexpr double kLookEvery_s = 0.25;
 
-    // The least time for a file that is absent: one that is being replaced.
+    // The smallest time for a file that is absent, as while it is being replaced.
     static std::filesystem::file_time_type time_of(const std::filesystem::path& file) {
         std::error_code ignored;
         return std::filesystem::last_write_time(file, ignored);

@@ -11,10 +11,10 @@ namespace {
 
 // Frames without a change after which the picture counts as at rest.
 constexpr int kRestFrames = 5;
-// Frames of a motion, as far as the plan is concerned: as many as make sharing worth while.
+// Frames of a motion that the plan is told of: enough to make shared occlusion worth while.
 constexpr std::uint32_t kMotionFrames = 1000;
 
-// The channels of an image that hold one of the display.
+// The channels of an image file that correspond to a display channel.
 std::array<std::string, 3> channel_names(DisplayChannel channel) {
     switch (channel) {
         case DisplayChannel::albedo:
@@ -39,7 +39,7 @@ RenderSettings moving(RenderSettings settings, const Resolution& resolution) {
     return settings;
 }
 
-// What the image of size `rest` shows, in one of another size.
+// The camera that shows in an image of size `size` what it shows in one of size `rest`.
 Camera resized(Camera camera, glm::ivec2 rest, glm::ivec2 size) {
     camera.pixels_per_voxel *= static_cast<double>(size.y) / rest.y;
     return camera;
@@ -77,7 +77,7 @@ void LivePicture::set_camera(const Camera& camera) {
     camera_ = camera;
 }
 
-// Where the size of the image says what it shows, a camera is of one size.
+// An orthographic camera depends on the size of the image, so it follows the size of the plan.
 void LivePicture::fit_camera() {
     if (camera_.projection == Projection::orthographic)
         renderer_.set_camera(resized(camera_, settings_.size, renderer_.plan().image_size));
@@ -97,7 +97,7 @@ void LivePicture::set_size(glm::ivec2 size) {
 }
 
 void LivePicture::change(const RenderSettings& settings, const PlanRequest& request) {
-    renderer_.change(settings, request);  // throws where the picture at rest cannot be
+    renderer_.change(settings, request);  // throws where the picture at rest cannot be rendered
     rest_plan_ = renderer_.plan();
     settings_ = settings;
     request_ = request;
@@ -126,7 +126,7 @@ bool LivePicture::is_reference_of(glm::ivec2 size) const {
     return !reference_.empty() && reference_size_ == size;
 }
 
-// Of the picture at rest, while somebody looks at it.
+// Computes FLIP of the picture at rest while somebody looks at it.
 void LivePicture::compute_flip() {
     if (flip_.collect(waits_)) {
         sent_ = DisplayComparison::none;
@@ -179,7 +179,7 @@ void LivePicture::apply_motion() {
     moving_frames_ = kRestFrames;
 }
 
-// The same scene, coarser, and with what frames can share.
+// Plans the same scene coarser, and with techniques that share samples between frames.
 void LivePicture::replan_motion() {
     renderer_.change(moving(settings_, resolution_), moving(request_));
     fit_camera();
@@ -216,7 +216,7 @@ LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
 
 void LivePicture::take_samples(double budget_s, std::uint32_t end_samples) {
     const auto start = std::chrono::steady_clock::now();
-    // A film that is looked at has whole samples.
+    // Steps end at whole samples where the error is looked at.
     const std::uint32_t look = std::max(errors_.next_look(), samples() + 1);
     const StepResult step = renderer_.step(budget_s, std::min(end_samples, look));
     errors_.add_time(seconds_since(start));
@@ -229,7 +229,7 @@ void LivePicture::take_samples(double budget_s, std::uint32_t end_samples) {
 
 // One whole sample, however long it takes.
 LiveFrame LivePicture::advance_motion(double budget_s) {
-    // Not before the frame that it was learnt from is shown.
+    // Not in the frame that the new size was learnt from: that one is shown first.
     if (std::exchange(has_other_size_, false)) replan_motion();
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t before = samples();
@@ -243,7 +243,7 @@ LiveFrame LivePicture::advance_motion(double budget_s) {
 
 DisplayBuffer LivePicture::display(const DisplayLook& look) {
     const bool is_new = std::exchange(has_news_, false) || look != shown_look_;
-    // A film that is empty again cannot be shown otherwise; a coarse one soon can.
+    // An empty film cannot show the new look. A coarse one soon can.
     if (samples() == 0 && look != shown_look_) begin_motion();
     if (samples() > 0 && is_new) {
         shown_look_ = look;

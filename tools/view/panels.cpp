@@ -30,7 +30,7 @@ std::string technique_of(const RenderPlan& plan, Effect effect) {
     return found != plan.techniques.end() ? std::string(found->technique->name) : "";
 }
 
-// Switches an effect; what cannot be is said and undone.
+// Switches an effect. Where that is not possible, shows a message and switches back.
 void switch_effect(Effect effect, bool on, ViewState& state) {
     PlanRequest request = state.picture.request();
     request.effects.switches[effect] = on ? Switch::on : Switch::off;
@@ -68,7 +68,7 @@ void draw_prices(ViewState& state) {
         ImGui::TableSetupColumn("ms/sample");
         ImGui::TableSetupColumn("why");
         ImGui::TableHeadersRow();
-        // A copy: a switch makes another plan.
+        // A copy, because a switch replaces the plan.
         const EffectStates effects = state.picture.rest_plan().effects;
         for (const EffectState& effect : effects)
             draw_effect(effect, state);
@@ -111,7 +111,7 @@ void draw_status(ViewState& state) {
         text("drop a .vox, a .toml or a mesh here");
     }
     if (!state.memory.recent.empty()) draw_files(state);
-    if (state.has_newer_file) text("somebody wrote the file: it is loaded when nothing is unsaved");
+    if (state.has_newer_file) text("the file has changed: it is loaded once nothing is unsaved");
     if (!state.message.empty()) text(state.message);
     end_panel(PanelSide::left, state);
 }

@@ -7,7 +7,7 @@
 
 namespace voxilux {
 
-// What a film knows of one pixel.
+// Values of a film at one pixel.
 struct PixelReading {
     glm::ivec2 pixel{0};
     glm::vec3 radiance{0.0f};  // the mean

@@ -11,13 +11,14 @@ namespace voxilux {
 // Shows the frames of an animated scene.
 class Playback {
   public:
-    // Another scene; returns what it shows at `frame`, until the next call. A still one has no frames.
+    // Loads another scene and returns it as it is at `frame`; the result is valid until the next call. A
+    // still scene has no frames.
     const Scene& load(const Scene& scene, std::int64_t frame);
 
-    // Tells the state of the frames; the one of load() is shown.
+    // Sets the frames in the state. The frame of load() is the one shown.
     void start(ViewState& state) const;
 
-    // Goes on by so many seconds while the state says that it plays, and shows the state's frame.
+    // Moves on by so many seconds while the state says that it plays, and shows the state's frame.
     void advance(double seconds, ViewState& state);
 
   private:

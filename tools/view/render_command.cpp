@@ -10,7 +10,7 @@
 namespace voxilux {
 namespace {
 
-// Flags that only a window has, or that the line says anew; those with a value.
+// Flags that only a window has, and flags that the line writes anew. All of them take a value.
 constexpr std::array<std::string_view, 20> kDropped{
     "--script",           "--frames",     "--screenshot", "--report",     "--frame-time", "--error",
     "--time-limit",       "--size",       "--spp",        "--iterations", "--camera",     "--projection",
@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 20> kDropped{
     "--quality",          "--ao-rays"};
 constexpr std::string_view kTransparent = "--transparent";  // which --background undoes
 
-// A word as a shell reads it back.
+// A word quoted for a shell.
 std::string quoted(const std::string& word) {
     const auto is_plain = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
@@ -38,7 +38,7 @@ void check(const ViewState& state) {
         throw Error(ExitCode::usage, "no line: the picture is not at rest");
 }
 
-// The switches of effects that were thrown in the window.
+// Effects that were switched in the window.
 void add_switches(const ViewState& state, std::vector<std::string>& line) {
     for (const auto& [effect, choice] : state.picture.request().effects.switches)
         if (choice != Switch::automatic)
@@ -56,7 +56,7 @@ void add_camera(const Camera& camera, std::vector<std::string>& line) {
             fmt::format("--projection {}", kProjectionNames[static_cast<std::size_t>(camera.projection)]));
 }
 
-// The frame, and what a window shows otherwise than the file says.
+// The frame, and what a window shows differently from the file.
 void add_frame(const ViewState& state, std::vector<std::string>& line) {
     if (state.frames) line.push_back(fmt::format("--frame {}", state.frame));
     const auto azimuth_deg = static_cast<double>(state.picture.renderer().scene().sun.azimuth_deg);

@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-// Another size costs the occlusion cells that earlier frames filled, so it has to be worth it.
+// A change of size loses the occlusion cells that earlier frames filled, so it has to be worth it.
 constexpr double kTooSlow = 1.2;
 constexpr double kTooFast = 0.45;
 constexpr int kColdFrames = 2;

@@ -16,13 +16,13 @@ namespace voxilux {
 namespace {
 
 constexpr glm::ivec2 kFirstSize{1280, 720};
-constexpr int kFramesToSay = 2;  // a panel grows for a new line in the frame after it
+constexpr int kFramesToSay = 2;  // a panel grows for a new line only in the frame after it
 
 bool is_same_camera(const std::optional<Camera>& a, const std::optional<Camera>& b) {
     return a && b ? is_same_view(*a, *b) : a.has_value() == b.has_value();
 }
 
-// Of the inputs only scene files name a size; flags may, too.
+// Among inputs, only scene files name a size; flags may, too.
 bool names_size(const SceneOptions& options) {
     const auto is_size = [](const std::string& text) { return text.starts_with("render.size="); };
     return has_ending(options.input, ".toml") || options.names_size || options.pixels_per_voxel ||
@@ -76,11 +76,11 @@ void SceneFiles::show(Scene scene, const std::string& input, const FileWatch& wa
 void SceneFiles::load(const std::string& file) {
     SceneOptions options = command_.scene;
     options.input = file;
-    const FileWatch watch(file);  // from before it is read
+    const FileWatch watch(file);  // begins before the file is read
     show(load_scene_with(options), file, watch);
 }
 
-// The camera stays unless the file has another one, or had.
+// Keeps the view, unless the camera that the file names has changed.
 void SceneFiles::reload() {
     state_.has_newer_file = false;
     try {
@@ -102,7 +102,7 @@ void SceneFiles::open(const std::string& file) {
     try {
         if (has_ending(file, ".exr") || has_ending(file, ".png")) return take_reference(file);
         if (is_unsaved(state_.edit) && std::exchange(refused_, file) != file)
-            throw Error(ExitCode::usage, "there are unsaved edits; once more shows the file without them");
+            throw Error(ExitCode::usage, "there are unsaved edits; opening the file once more discards them");
         refused_.clear();
         if (is_mesh(file)) {
             mesh_ = file;

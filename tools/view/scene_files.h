@@ -12,34 +12,35 @@
 
 namespace voxilux {
 
-// Where the window of this command remembers: scripts do the same again, so they remember only what they are
-// told to.
+// The file in which the window of this command remembers. Scripts must give the same pictures each time, so
+// they remember only where --state says so.
 [[nodiscard]] std::filesystem::path memory_file_of(const ViewCommand& command);
 
 // The scene of the command, whose settings have the size of the window.
 [[nodiscard]] Scene first_scene(const ViewCommand& command, const WindowMemory& memory);
 
-// The files that the window shows, one after the other. All but show() turn errors into messages; the picture
-// stays as it was then.
+// The files that the window shows, one after the other. All but show() turn errors into messages, and the
+// picture stays as it was.
 class SceneFiles {
   public:
-    // All of them outlive this.
+    // All arguments must outlive this.
     SceneFiles(const ViewCommand& command, std::filesystem::path memory_file, Window& window,
                ViewState& state)
         : command_(command), memory_file_(std::move(memory_file)), window_(window), state_(state) {}
 
-    // `watch` began before the input was read. Standard input is neither watched nor remembered. Throws as
-    // LivePicture::load.
+    // `watch` must have begun before the input was read. Standard input is neither watched nor remembered.
+    // Throws as LivePicture::load.
     void show(Scene scene, const std::string& input, const FileWatch& watch);
 
-    // What somebody drops or chooses: a scene is shown, a mesh a little later, and an image is compared
-    // with.
+    // Opens a file that was dropped or chosen: a scene is shown, a mesh is voxelized a little later, and an
+    // image is compared with.
     void open(const std::string& file);
-    // A frame was shown: two of them say of a mesh that it will be voxelized.
+    // Called after each frame that was shown. A mesh is voxelized once two frames have shown the message
+    // about it.
     void finish_open();
     [[nodiscard]] bool is_busy() const { return !mesh_.empty(); }
 
-    // Follows the file: loads it again when somebody writes it, and no edit is unsaved.
+    // Loads the file again when somebody has written it, unless there are unsaved edits.
     void follow();
     void play(double seconds);
     void remember();
@@ -53,10 +54,10 @@ class SceneFiles {
     std::filesystem::path memory_file_;
     Window& window_;
     ViewState& state_;
-    std::optional<Camera> own_camera_;  // that the file names
+    std::optional<Camera> own_camera_;  // the camera that the file names
     FileWatch watch_;
     Playback playback_;
-    std::string refused_;  // a file that unsaved edits kept away
+    std::string refused_;  // a file that was refused because of unsaved edits
     std::string mesh_;     // to be voxelized
     int frames_to_say_ = 0;
 };

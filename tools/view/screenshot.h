@@ -5,7 +5,7 @@
 
 namespace voxilux {
 
-// Writes what is to be taken of this frame: the window as it was shown, or the film (.exr).
+// Writes the screenshots of this frame: the window as it was shown, or the film (.exr).
 void write_screenshots(const WindowCapture& capture, ViewState& state);
 
 }  // namespace voxilux

@@ -19,7 +19,7 @@ struct ResizeAction {
 struct ScreenshotAction {
     std::string file;
 };
-// The boxes' cells get a material, or air.
+// Fills a box of cells with a material, or with air.
 struct EditAction {
     Box box;
     std::optional<std::uint32_t> material;
@@ -32,14 +32,15 @@ struct SaveAction {
 
 using ScriptAction = std::variant<InputEvent, ResizeAction, ScreenshotAction, EditAction, SaveAction>;
 
-// What happens when the window has shown so many frames, or the picture at rest has so many samples.
+// An action, and when it is due: after so many frames were shown, or when the picture at rest has so many
+// samples.
 struct ScriptStep {
     std::int64_t frame = -1;
-    std::optional<std::uint32_t> samples;  // in the first frame with as many, from `frame` on
+    std::optional<std::uint32_t> samples;  // due in the first frame with as many, from `frame` on
     ScriptAction action;
 };
 
-// A person's input on paper: what happens in which frame. Steps wait for those before.
+// The input of a person, written down. Each step waits for those before it.
 struct ViewScript {
     std::vector<ScriptStep> steps;
 };

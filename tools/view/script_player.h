@@ -5,7 +5,7 @@
 
 namespace voxilux {
 
-// Where a script stands.
+// A script and how far it has been played.
 class ScriptPlayer {
   public:
     explicit ScriptPlayer(ViewScript script) : script_(std::move(script)) {}
@@ -13,12 +13,12 @@ class ScriptPlayer {
     [[nodiscard]] bool is_empty() const { return script_.steps.empty(); }
     [[nodiscard]] bool has_ended() const { return next_ == script_.steps.size(); }
 
-    // The next action that is due when so many frames were shown; null where there is none. While a
-    // screenshot of this frame is to be taken, what is no other one waits.
+    // The next action that is due after so many shown frames; null where there is none. While a screenshot of
+    // this frame is still to be taken, only further screenshots are due.
     [[nodiscard]] const ScriptAction* next(std::int64_t shown_frames, const LivePicture& picture,
                                            bool takes_screenshot);
 
-    // The film that the script waits for is not to grow beyond.
+    // The number of samples that the script waits for: the film must not grow beyond it.
     [[nodiscard]] std::uint32_t awaited_samples() const {
         return has_ended() ? kNoEnd : script_.steps[next_].samples.value_or(kNoEnd);
     }

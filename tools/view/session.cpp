@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kIdleWait_s = 0.1;
-constexpr double kMinStepShare = 0.3;  // of a frame, for samples, however long showing them takes
+constexpr double kMinStepShare = 0.3;  // share of a frame left for samples, however long showing takes
 
 // One run of the window: events in, frames out.
 class Session {
@@ -141,7 +141,7 @@ class Session {
         show(size);
     }
 
-    // Whether somebody waits for a frame, or there is something new to see.
+    // Whether somebody waits for a frame, or there is something new to show.
     [[nodiscard]] bool is_frame_due(const std::vector<InputEvent>& events, glm::ivec2 size) const {
         if (!events.empty() || files_.is_busy() || !picture_.is_loaded() || picture_.is_moving()) return true;
         if (shown_frames_ == 0 || size != shown_size_ || !state_.screenshots.empty()) return true;
@@ -207,7 +207,7 @@ class Session {
     const ViewCommand& command_;
     ScriptPlayer script_;
     std::filesystem::path memory_file_;
-    WindowMemory memory_;  // of the last run, until there is a state
+    WindowMemory memory_;  // of the last run, until there is a view state
     FileWatch watch_;      // of the first input
     Scene scene_;
     Window window_;

@@ -7,15 +7,16 @@
 
 namespace voxilux {
 
-// When the picture at rest is shown again: so rarely that showing it takes one part in twenty of the time.
+// Decides when the picture at rest is shown again: so rarely that showing takes one part in twenty of the
+// time.
 class ShowPace {
   public:
-    // A picture was shown, which took so long.
+    // Called after a picture was shown, which took `show_s`.
     void add(double show_s) {
         mean_s_ += (show_s - mean_s_) * (mean_s_ > 0.0 ? kNew : 1.0);
         last_ = std::chrono::steady_clock::now();
     }
-    // What showing a picture takes.
+    // The mean time to show a picture, with more weight on recent ones.
     [[nodiscard]] double show_s() const { return mean_s_; }
     [[nodiscard]] bool is_due() const { return seconds_since(last_) >= interval_s(); }
     [[nodiscard]] double interval_s() const {

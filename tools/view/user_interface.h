@@ -11,9 +11,9 @@
 
 namespace voxilux {
 
-// Dear ImGui between events and triangles. Debian's backends are not used: the Vulkan one calls the loader's
-// functions by names that are the pointers of ours, and that for GLFW asks the desktop, where scripts want a
-// say.
+// Dear ImGui between input events and triangles. Debian's ImGui backends are not used: the Vulkan one calls
+// the loader under names that our own function pointers have, and the GLFW one reads the desktop's input,
+// which scripts have to replace.
 class UserInterface {
   public:
     UserInterface(Presenter& presenter, float scale);
@@ -21,11 +21,11 @@ class UserInterface {
     UserInterface& operator=(const UserInterface&) = delete;
     ~UserInterface();
 
-    // Feeds the events and begins a frame: ImGui may be called until end().
+    // Takes the events and begins a frame. ImGui may be called until end().
     void begin(std::span<const InputEvent> events, glm::ivec2 window, double seconds);
     [[nodiscard]] const Overlay& end();
 
-    // Whether the event belongs to the panels now. Releases never do, so that nothing stays held.
+    // Whether the event goes to the panels now. Releases never do, so that no key stays held.
     [[nodiscard]] bool wants(const InputEvent& event) const;
 
   private:

@@ -21,7 +21,7 @@ void add_view_flags(Flags& flags, ViewCommand& command) {
     flags.add_parsed("--time-limit", "T", command.time_limit_s, parse_duration,
                      "take samples for so long: 90s, 5m");
     flags.add("--script", "FILE", command.script, "a person's input as a .toml file; then exit");
-    flags.add("--frames", "N", command.frames, "exit when so many frames are shown").from_zero();
+    flags.add("--frames", "N", command.frames, "exit after showing so many frames").from_zero();
     flags.add("--screenshot", "FILE", command.screenshot,
               "write the last frame: the window (.png) or the film (.exr)");
     flags.add("--state", "FILE", command.state,

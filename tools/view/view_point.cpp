@@ -9,13 +9,13 @@
 namespace voxilux {
 namespace {
 
-constexpr double kDegreesPerWindow = 360.0;  // of a drag across the height of the window
+constexpr double kDegreesPerWindow = 360.0;  // for a drag across the height of the window
 constexpr double kMaxPitchDeg = 90.0;
 constexpr double kZoomPerStep = 0.85;
 constexpr double kMinDistance = 0.5;  // voxels, from the centre
-constexpr double kMinScale = 1e-3;    // pixels of a voxel
+constexpr double kMinScale = 1e-3;    // pixels per voxel
 
-// Pixels of the height per unit of the picture plane at distance 1.
+// Pixels of the image height per unit of the image plane at distance 1.
 double pixels_per_tangent(const Camera& camera, glm::dvec2 size) {
     return size.y / (2.0 * std::tan(camera.fov_y_deg * std::numbers::pi / 360.0));
 }
@@ -34,7 +34,7 @@ bool is_orthographic(const Camera& camera) {
     return camera.projection == Projection::orthographic;
 }
 
-// From the middle of a picture to a place in it, in the scene, if its pixels are one voxel wide.
+// The vector in the scene from the middle of a picture to a place in it, for pixels one voxel wide.
 glm::dvec3 offset_in(const Camera& camera, glm::dvec2 place, glm::dvec2 size) {
     const glm::dmat3 basis = camera_basis(camera);
     const glm::dvec2 pixels = place - 0.5 * size;
@@ -45,7 +45,7 @@ double depth_of_centre(const ViewPoint& view) {
     return std::max(glm::dot(view.centre - view.camera.position, forward_of(view.camera)), kMinDistance);
 }
 
-// Pixels of the plane through the centre that a voxel there takes.
+// Size in pixels of a voxel in the plane through the centre.
 double scale_at_centre(const ViewPoint& view, glm::dvec2 size) {
     if (is_orthographic(view.camera)) return view.camera.pixels_per_voxel;
     return pixels_per_tangent(view.camera, size) / depth_of_centre(view);
@@ -61,7 +61,7 @@ ViewPoint shifted(ViewPoint view, glm::dvec3 shift) {
     return view;
 }
 
-// Larger by steps of the wheel; what is under the pointer stays there.
+// Scales by steps of the wheel. What is under the pointer stays there.
 ViewPoint magnified(ViewPoint view, double steps, glm::dvec2 place, glm::dvec2 size) {
     const double before = view.camera.pixels_per_voxel;
     view.camera.pixels_per_voxel = in_scale_range(before * std::pow(kZoomPerStep, -steps));
@@ -128,7 +128,7 @@ ViewPoint zoomed(const ViewPoint& view, double steps, glm::dvec2 place, glm::dve
     const glm::dvec3 way = ray_through(view.camera, place, size).direction * (distance - wanted);
     ViewPoint next = view;
     next.camera.position += way;
-    // The centre stays as far ahead as it is now.
+    // The centre stays at its distance, ahead of the camera.
     next.centre = next.camera.position + glm::normalize(view.centre - view.camera.position) * wanted;
     return next;
 }

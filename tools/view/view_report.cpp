@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What the film claimed after how many samples and seconds of taking them.
+// The estimated errors of the film, with the samples and seconds that each took.
 Json errors_json(const LiveErrors& errors) {
     Json json = Json::array();
     for (const LiveError& point : errors.points())
@@ -33,7 +33,7 @@ double resident_mib() {
     return static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// What the readout says; null where there is none.
+// The readout of the pixel under the pointer; null where there is none.
 Json json_of(const ViewState& state) {
     Json json;
     if (const auto& target = state.edit.target)

@@ -7,24 +7,24 @@
 
 namespace voxilux {
 
-// What --report tells: a row for each frame that was shown, and what was shown last.
+// The contents of --report: a row for each frame that was shown, and what was shown last.
 class ViewReport {
   public:
-    // A turn of the loop took samples and is not over.
+    // Called when samples were taken and the turn of the loop goes on.
     void add_step(const LiveFrame& frame) {
         last_ = frame;
         step_s_ += frame.step_s;
     }
-    // The first frame was shown so long after the start.
+    // Sets the seconds from the start to the first shown frame.
     void set_first(double seconds) { first_s_ = seconds; }
-    // A frame was shown, `seconds` after the one before; showing it took `show_s`.
+    // Called when a frame was shown, `seconds` after the one before; showing it took `show_s`.
     void add_frame(double seconds, double show_s);
     void write(const std::string& file, const ViewState& state, glm::ivec2 window,
                const std::vector<std::string>& messages) const;
 
   private:
-    // Of a frame that was shown; times in milliseconds. As JSON, thousands of them would take the memory that
-    // they are to watch.
+    // Times of a shown frame are in milliseconds. Kept as JSON, thousands of frames would use the memory that
+    // they are meant to watch.
     struct Frame {
         double ms = 0.0;
         double step_ms = 0.0;

@@ -39,19 +39,19 @@ struct ViewState {
     std::int64_t frame = 0;
     bool is_playing = false;
     bool turns_sun = false;
-    bool had_shadow_only = false;  // the ground, which a window shows whole
+    bool had_shadow_only = false;  // of the ground, which a window always shows
     bool has_saved = false;        // the edits to the scene's file
-    bool has_newer_file = false;   // somebody wrote it, and there are edits that it would replace
-    bool wants_command = false;    // the line that renders this view
+    bool has_newer_file = false;   // somebody wrote it, and loading it would lose edits
+    bool wants_command = false;    // the render command of this view
     SampleEnds ends;
     const QualityPreset* quality = nullptr;  // that was chosen
     WindowMemory memory;
-    std::string file_to_open;  // that somebody chose
+    std::string file_to_open;  // chosen in a panel
     bool shows_panels = true;
     bool shows_keys = false;
     std::array<float, 2> panel_ends{};  // pixels from the top, by side
-    double frame_s = 0.0;               // of the last frame
-    std::string message;                // of what went wrong last; empty: nothing
+    double frame_s = 0.0;               // duration of the last frame
+    std::string message;                // shown in a panel; empty: none
     bool wants_close = false;
     std::vector<std::string> screenshots;  // to be taken of this frame
 };

@@ -24,11 +24,11 @@ class Window {
 
     [[nodiscard]] const SurfaceSource& surface() const;
 
-    // Events since the last call; waits for one for at most so long.
+    // Events since the last call. Waits at most `wait_s` for the first one.
     [[nodiscard]] std::vector<InputEvent> poll(double wait_s);
 
     [[nodiscard]] glm::ivec2 size() const;  // pixels; 0 while it is minimised
-    [[nodiscard]] float scale() const;      // of the monitor: 2 where letters are to be twice as large
+    [[nodiscard]] float scale() const;      // of the monitor: 2 where letters should be twice as large
     void resize(glm::ivec2 size);
     void minimise(bool is_minimised);
     void set_title(const std::string& title);

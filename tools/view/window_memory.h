@@ -19,17 +19,17 @@ struct WindowMemory {
 // either.
 [[nodiscard]] std::filesystem::path window_memory_file();
 
-// Nothing for an empty name or an absent file. A damaged one is ignored, which one line on standard error
-// says.
+// Returns defaults for an empty name or an absent file. A damaged file is ignored with one line on standard
+// error.
 [[nodiscard]] WindowMemory read_memory(const std::filesystem::path& file);
 
-// Under a temporary name first; nothing for an empty name. What cannot be written is said likewise.
+// Replaces the file as a whole; does nothing for an empty name. An error becomes one line on standard error.
 void write_memory(const std::filesystem::path& file, const WindowMemory& memory);
 
-// A file that was shown becomes the newest.
+// Makes a file that was shown the newest.
 void add_recent(const std::filesystem::path& input, WindowMemory& memory);
 
-// What could be shown next: the recent files but the newest, and the other scenes in the folder of that.
+// Files to offer next: the recent ones except the newest, and the other scenes in the folder of the newest.
 [[nodiscard]] std::vector<std::string> files_to_open(const WindowMemory& memory);
 
 }  // namespace voxilux

@@ -90,10 +90,10 @@ void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
     flags.add_switch("--parity", command.parity, "with --solid: by parity, so that what overlaps is hollow");
     flags.add_switch("--floor", request.grid.is_on_floor,
                      "put the lowest voxels at z = 0; default: the middle is at the origin");
-    flags.add_switch("--dither", command.dither, "mix palette colours by place");
+    flags.add_switch("--dither", command.dither, "dither between palette colours");
     flags.add_switch("--ignore-mask", command.ignore_mask, "keep what alpha masks cut away");
     flags.add("--scene", "N", command.scene, "which scene of a glTF file, from 0; default: the file's own");
-    flags.add_switch("--strict", command.strict, "what would be a warning is an error");
+    flags.add_switch("--strict", command.strict, "treat warnings as errors");
     flags.add("--threads", "N", request.threads, "default: all; the file is the same for any number");
     add_report_flags(flags, command.report);
     add_progress_flag(flags, command.progress);

@@ -19,7 +19,7 @@ class StepTimes {
         Seconds time;
     };
 
-    // The step that began where the last one ended.
+    // Ends the step that began where the last one ended.
     void end_step(const std::string& label) {
         steps_.push_back({label, step_.elapsed()});
         step_ = Stopwatch();
@@ -32,7 +32,7 @@ class StepTimes {
     std::vector<Step> steps_;
 };
 
-// All that a report is made from. Refers to what must outlive it.
+// All that a report is made from, by reference.
 struct VoxelizeFacts {
     const VoxelizeCommand& command;
     const Mesh& mesh;

@@ -63,7 +63,7 @@ double mean_flip_of(const FlipResult& result, const Image& image) {
     return mean_flip(result, selected_pixels(image.width, image.height, {}));
 }
 
-// The picture and its difference beside the test's binary, for people.
+// Writes the picture and its difference beside the test's binary, for people.
 void write_failure(const std::string& name, const Image& got, const FlipResult& result) {
     const fs::path folder = VX_OUTPUT_DIR;
     Image difference{.width = got.width, .height = got.height};
@@ -113,7 +113,7 @@ double flip_of(const GoldenCase& golden, const Perturbation& perturbation) {
     return mean_flip_of(flip(read_png(golden_file(golden.name)), got).value(), got);
 }
 
-// Each is small, and each must be seen.
+// Each change is small, and each must be noticed.
 TEST_P(Golden, perturbed_camera_albedo_and_seed_are_caught) {
     const std::vector<Perturbation> perturbations = {
         {"camera turned by a degree", [](Scene& scene) { scene.camera->yaw_deg += 1.0; }},

@@ -1,5 +1,5 @@
-// The table of occlusion cells on the device: where every sample is, whose slot a pixel has, and what a
-// cell's sums are made of.
+// The table of occlusion cells on the device: all samples are accounted for, each pixel has the slot of its
+// cell, and the sums of a cell are those of its samples.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ std::uint64_t samples_in(const CellSums& sums) {
     return total;
 }
 
-// What is wrong with the books after a frame, or nothing.
+// What is wrong with the sums after a frame, or an empty text.
 std::string imbalance(const Ledger& ledger, const AoFrame& frame) {
     const CellSums sums = test::sums_of(frame);
     if (samples_in(sums) + ledger.dropped + ledger.own != ledger.traced) return "samples";
@@ -56,7 +56,7 @@ std::string imbalance(const Ledger& ledger, const AoFrame& frame) {
     return "";
 }
 
-// Pixels on faces whose slot is not that of their cell, and how many have none.
+// Counts pixels on faces whose slot is not that of their cell, and pixels without a slot.
 struct Slots {
     std::string wrong;
     std::uint64_t none = 0;
@@ -212,7 +212,7 @@ TEST(AoCells, comparison_rejects_another_seed_and_another_cell_size) {
     EXPECT_FALSE(short_flight(scene).sums == plain.sums);
 }
 
-// Cells whose open samples are not those that a march in C++ finds of the same numbers.
+// Cells whose unoccluded samples are not those that a march in C++ finds for the same sample numbers.
 int differing_cells(const AoFixture& fixture, const AoFrame& frame, std::uint64_t first_number) {
     int differing = 0;
     for (const auto& [key, sum] : test::sums_of(frame))

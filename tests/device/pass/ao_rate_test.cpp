@@ -1,4 +1,4 @@
-// What the occlusion hash saves: searches by reprojection, rays by the checkerboard and by a limit of
+// What the occlusion hash saves: searches by reprojection, and rays by the checkerboard and by a limit of
 // samples.
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 using test::AoFixture;
 using test::AoFrame;
 
-constexpr double kStillShare = 0.05;  // of the hits that may need a search: what a still camera is asked for
-constexpr double kPanShare = 0.20;    // and a slow pan
+constexpr double kStillShare = 0.05;  // of the hits that may need a search, for a still camera
+constexpr double kPanShare = 0.20;    // the same for a slow pan
 
 double searched_share(const AoFrame& frame) {
     const double searches = frame.counters[gpu::kWorkAoSearches];
@@ -40,7 +40,7 @@ Camera turned(const Scene& scene, double pixels) {
     return camera;
 }
 
-// The largest share of hits searched in a frame after the first.
+// The largest fraction of hits searched in a frame after the first.
 double worst_share(AoFixture& fixture, double pixels_a_frame, bool same_points) {
     double worst = 0.0;
     for (int i = 0; i < 30; ++i) {
@@ -128,7 +128,7 @@ TEST(AoRate, cells_with_enough_samples_take_no_more_and_are_kept) {
     }
 }
 
-// A pixel that takes no samples keeps its cell all the same.
+// A pixel that takes no samples still keeps its cell.
 TEST(AoRate, no_key_is_swapped_when_cells_are_found_by_reprojection) {
     AoFixture fixture(rate_scene(true));
     (void)fixture.render();

@@ -40,7 +40,8 @@ struct Stray {
     int pixels = 0;  // compared
 };
 
-// `blocked` gives the share for a hit, at a scene position on a face; negative leaves the pixel out.
+// `blocked` gives the blocked fraction for a hit at a scene position on a face; negative leaves the pixel
+// out.
 using Expected = std::function<double(glm::dvec3 position, gpu::uint face)>;
 
 Stray compare(const Scene& scene, const Expected& blocked) {
@@ -93,7 +94,7 @@ TEST(AoTrace, plane_is_exactly_one_everywhere) {
     }
 }
 
-// 3 voxels in front of the wall are in the picture; the shade of its height and of the radius both matter.
+// The picture shows 3 voxels in front of the wall, where the height of the wall and the radius both matter.
 Scene wall_scene(int height) {
     Scene scene = floor_scene();
     test::add_box(scene, {4, -26, 0}, {5, 26, height});
@@ -127,8 +128,8 @@ TEST(AoTrace, every_sequence_agrees_with_the_closed_form) {
     }
 }
 
-// Without the share of the wall that the radius cuts off, or with the wall a tenth of a voxel away, the
-// counts stray.
+// Without the part of the wall that the radius cuts off, or with the wall a tenth of a voxel away, the counts
+// deviate.
 TEST(AoTrace, comparison_rejects_a_wall_moved_by_a_tenth_of_a_voxel) {
     const Stray stray = compare(wall_scene(3), [](glm::dvec3 p, gpu::uint) {
         return blocked_at_wall(p - glm::dvec3(0.1, 0, 0), 3.0);

@@ -39,7 +39,7 @@ Scene floor_scene() {
     return scene;
 }
 
-// The share of blocked rays at a scene position on a face; negative leaves the cell out.
+// The fraction of blocked rays at a scene position on a face; negative leaves the cell out.
 using Blocked = std::function<double(glm::dvec3 position, gpu::uint face)>;
 
 // Mean of the form over a cell, by 4 x 4 midpoints.
@@ -177,7 +177,7 @@ TEST(HardCase, row18_plane_of_cells_is_exactly_open) {
     }
 }
 
-// The eye a thousandth of a voxel above the floor: every ray of it grazes.
+// The camera is a thousandth of a voxel above the floor, so every ray grazes.
 TEST(HardCase, row18_plane_of_cells_seen_at_a_grazing_angle_is_exactly_open) {
     Scene scene = test::white_scene();
     test::add_box(scene, {-200, -200, -1}, {200, 200, 0});
@@ -233,8 +233,8 @@ TEST(HardCase, hole06_last_voxel_inside_the_radius_counts_for_cells) {
         << "as if the wall were beyond the radius";
 }
 
-// Two rooms with one floor and a wall of one voxel between: one closed, the other without a roof and other
-// walls.
+// Two rooms with one floor and a wall of one voxel between them. One is closed; the other has no roof and no
+// other walls.
 Scene two_rooms() {
     Scene scene = floor_scene();
     test::add_box(scene, {0, -9, 0}, {1, 9, 10});     // between

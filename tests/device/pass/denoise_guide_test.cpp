@@ -1,4 +1,4 @@
-// What the film sums for the denoiser.
+// The guides that the film sums for the denoiser.
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ bool sees_one_surface(glm::dvec4 normal) {
     return glm::length(glm::dvec3(normal)) > 0.97;
 }
 
-// One half on its way through the filter.
+// One half of the film in the filter.
 struct OracleHalf {
     std::vector<glm::dvec3> plain, sharp, albedo;
     std::vector<glm::dvec4> normal, guide;
@@ -128,7 +128,7 @@ class Oracle {
         return sees_one_surface(0.5 * (halves_[0].normal[i] + halves_[1].normal[i]));
     }
 
-    // The best share of y in x + share (y - x) around each pixel, from the blocks around it.
+    // The best weight of y in x + share (y - x) around each pixel, from the blocks around it.
     template <class Light>
     std::vector<double> shares(Light x, Light y, Light guide) const {
         std::vector<glm::dvec2> terms(halves_[0].plain.size());
@@ -151,7 +151,7 @@ class Oracle {
     [[nodiscard]] double share_around(int px, int py, std::size_t i,
                                       const std::vector<glm::dvec2>& terms) const {
         glm::dvec2 sum(0.0);
-        // Every pixel of a block weighs what the bilinear interpolation between block centres gives its
+        // Every pixel of a block has the weight that bilinear interpolation between block centres gives its
         // block.
         for (int y = std::max(0, py - 2 * kBlock); y < std::min(size_.y, py + 2 * kBlock + 1); ++y) {
             for (int x = std::max(0, px - 2 * kBlock); x < std::min(size_.x, px + 2 * kBlock + 1); ++x) {

@@ -9,16 +9,16 @@
 
 namespace voxilux::test {
 
-// What the denoiser should find, in double precision and pixel by pixel.
+// The results of the denoiser in double precision, computed pixel by pixel.
 struct OracleDenoised {
     std::vector<glm::dvec3> picture;
-    std::vector<double> relmse;    // of the picture, as it claims
-    std::vector<double> variance;  // part of it
+    std::vector<double> relmse;    // of the picture, as estimated
+    std::vector<double> variance;  // the part of it that is variance
     std::vector<double> plain;     // of the plain picture
     std::vector<double> luminance;
 };
 
-// Ways to be wrong, as negative controls.
+// Faults to switch on, as negative controls.
 enum class OracleFault { none, keeps_own_terms, ignores_planes, claims_without_variance };
 
 [[nodiscard]] OracleDenoised oracle_denoised(glm::ivec2 size, double share,

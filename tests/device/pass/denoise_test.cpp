@@ -24,7 +24,7 @@ struct PlanesOfLight {
     std::array<DenoiseHalf, 2> halves;
 };
 
-// A floor and a wall with an edge in between that pixels share, a black strip, and noise.
+// A floor and a wall whose edge lies inside pixels, a black strip, and noise.
 PlanesOfLight noisy_planes(glm::ivec2 size, std::uint64_t seed) {
     TestRandom random(seed);
     PlanesOfLight all{.size = size};
@@ -175,7 +175,7 @@ TEST(Denoise, survives_a_firefly) {
     film.sums.at("beauty_a")[3 * (48 * 20 + 20)] = fixed(1e6, 8);
     const Denoised denoised = denoise_film(film, test_executor());
     ASSERT_TRUE(is_finite_picture(denoised) || !denoised.is_filtered());
-    // The plain picture is off by 1e6 in a pixel: whatever is written, its claim must not be small.
+    // The plain picture is off by 1e6 in a pixel: whatever is written, its estimated error must not be small.
     EXPECT_TRUE(!denoised.is_filtered() || denoised.claim.high > 100.0) << denoised.claim.high;
 }
 

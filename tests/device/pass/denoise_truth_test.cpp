@@ -1,4 +1,5 @@
-// Denoised pictures against converged ones: what they gain, and whether they err by as much as they claim.
+// Denoised pictures against converged ones: how much better they are, and whether their estimated errors are
+// right.
 
 #include <gtest/gtest.h>
 
@@ -34,13 +35,13 @@ double denoised_relmse(const Image& truth, const RenderOutcome& outcome) {
     return relmse_of(truth, shown_picture(outcome.denoised.value(), outcome.image));
 }
 
-// How often claims held.
+// How often the estimates held.
 struct Claims {
     int made = 0, broken = 0, broken_by_halves = 0;
 
     // `own`: relMSE that the truth itself has.
     void add(const Denoised& denoised, double relmse, double own) {
-        if (!denoised.is_filtered()) return;  // then the claim is that of the plain picture
+        if (!denoised.is_filtered()) return;  // otherwise the estimate is that of the plain picture
         const double error = std::sqrt(std::max(relmse - own, 0.0));
         ++made;
         broken += error > denoised.claim.high ? 1 : 0;
@@ -172,7 +173,8 @@ INSTANTIATE_TEST_SUITE_P(Nightly, DenoiseTruthExternal,
                                          GainCase{"corner", 12.0, 3.0, 2.7e-6}),
                          testing::PrintToStringParamName());
 
-// A guide that is the same everywhere hides planes: light is blurred over edges, and less is gained.
+// Negative control: a guide that is the same everywhere hides planes, so light is blurred over edges and less
+// is gained.
 TEST(DenoiseGuidesExternal, gain_what_they_should) {
     SKIP_WITHOUT_SHARED_DATA();
     const auto folder = shared_data() / "data" / "gi";

@@ -1,4 +1,4 @@
-// What a display shows of a film, against the film on the host.
+// What a display shows of a film, against the same film on the host.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Renders to an error: what decides how many samples they take, and what the pilot says of them.
+// Renders to an error target: what decides their sample counts, and what the pilot predicts.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace voxilux::test {
 namespace {
 
-// A floor and a wall, seen from above so that no edge of a voxel crosses the picture but the wall's.
+// A floor and a wall, seen from above so that the only voxel edge in the picture is that of the wall.
 Scene yard() {
     Scene scene = white_scene();
     scene.settings = {.size = {40, 24}, .spp = 4096};
@@ -33,7 +33,7 @@ RenderOutcome render_to(double error, const Scene& scene) {
     return render_validated(scene, options);
 }
 
-// A scene on the tests' device, as a pilot finds it.
+// A scene on the test device, in the state in which a pilot begins.
 struct Stage {
     Scene scene;
     PreparedScene prepared;
@@ -136,7 +136,7 @@ TEST(ErrorPilotOnDevice, has_random_numbers_of_its_own) {
     const FilmSums render = render_validated(scene, options).film.value();
     EXPECT_NE(stage.film(4).sums.at("beauty_a"), render.sums.at("beauty_a"));
     scene.settings.seed =
-        pilot_seed(scene.settings.seed);  // negative control: a render that takes the pilot's
+        pilot_seed(scene.settings.seed);  // negative control: a render with the pilot's seed
     EXPECT_EQ(stage.film(4).sums.at("beauty_a"),
               render_validated(scene, options).film.value().sums.at("beauty_a"));
 }

@@ -1,4 +1,4 @@
-// Frames one after the other on one device against each frame alone.
+// Frames rendered one after the other on one device, against each frame alone.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ RenderOptions validated() {
     return options;
 }
 
-// A corner of two boxes on 40 x 24 pixels, without what frames learn from each other.
+// A corner of two boxes on 40 x 24 pixels, without anything that frames share.
 Scene small_scene() {
     Scene scene = white_scene();
     scene.settings = {.size = {40, 24}, .spp = 2};
@@ -88,7 +88,7 @@ void PrintTo(const Sequenced& sequenced, std::ostream* out) {
 
 class FrameSequence : public testing::TestWithParam<Sequenced> {};
 
-// In no order, with a frame twice: nothing of a frame may be left in the next.
+// Frames out of order and one of them twice: nothing of a frame may be left in the next.
 TEST_P(FrameSequence, frame_is_the_picture_of_its_scene_alone) {
     const Scene scene = GetParam().scene();
     RenderSession session(scene, validated());

@@ -57,7 +57,7 @@ PhotonJob random_job(std::uint64_t seed, glm::vec3 centre, double spread, std::u
 }
 
 // What the gather has to find at a point: exact sums of quanta over all photons. `is_close` when a photon is
-// so near to the rim that a float may decide either way.
+// so near to the rim that rounding may decide either way.
 struct Truth {
     glm::dvec3 light{0.0};
     bool is_close = false;
@@ -165,7 +165,7 @@ TEST(PhotonGather, sums_are_whole_or_a_fault_is_counted) {
 
 TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
     PhotonJob job = random_job(9, {0, 0, 0}, 5.0, 2);
-    job.setup.radius = 20.0;  // so that points want all photons
+    job.setup.radius = 20.0;  // so that points accept all photons
     for (gpu::PhotonIn& photon : job.photons)
         photon.is_stored = 1;
     const auto count = static_cast<std::uint32_t>(job.photons.size());
@@ -185,7 +185,7 @@ TEST(PhotonGather, a_full_store_loses_what_came_too_late_and_counts_it) {
     }
 }
 
-// What is stored lies in cells that discs touch, and light is that of all photons.
+// What is stored lies in cells that discs touch, and the light is that of all photons.
 TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
     PhotonJob job = random_job(11, {0, 0, 0}, 5.0, 1);
     job.setup.extent = 60.0;
@@ -201,7 +201,7 @@ TEST(PhotonGather, photons_that_no_point_could_take_are_not_stored) {
     EXPECT_EQ(outcome.head.count, outcome.counters[gpu::kWorkPhotonsStored]);
     EXPECT_LE(outcome.head.count, near);
     EXPECT_GT(outcome.head.count, near / 2);
-    // Negative control: a photon that a point takes and that is left out is missed.
+    // Negative control: leaving out a photon that a point accepts is noticed.
     const auto taken = std::ranges::find_if(job.photons, [&](const gpu::PhotonIn& photon) {
         return std::ranges::any_of(job.points, [&](const gpu::Hit& point) {
             return glm::distance(photon.position, gpu::photon_position(point)) < 0.6 * job.setup.radius;
@@ -227,7 +227,7 @@ TEST(PhotonGather, places_that_hold_no_photon_change_nothing) {
     EXPECT_TRUE(same_light(want, test::run_splat(job)));
 }
 
-// Subgroups of a size that the host knows, and of one that only the device knows.
+// Subgroups whose size the host knows, and subgroups whose size only the device knows.
 TEST(PhotonGather, light_does_not_depend_on_who_knows_the_size_of_subgroups) {
     PhotonJob job = random_job(13, {0, 0, 0}, 5.0, 2);
     const PhotonOutcome known = test::run_photons(job);

@@ -33,7 +33,7 @@ Scene small_scene() {
     return scene;
 }
 
-// The same for a camera inside: a closed room of 8^3 with a pillar.
+// The same for a camera inside: a closed room of 8^3 cells with a pillar.
 Scene room() {
     Scene scene = test::white_scene();
     for (int axis = 0; axis < 3; ++axis) {
@@ -128,8 +128,8 @@ TEST(PrimaryMarch, axial_view_from_an_integer_position_agrees_with_the_oracle) {
     }
 }
 
-// So narrow that every ray is exactly axial, along lattice lines of the scene: a ray in a face plane belongs
-// to the cell above it.
+// The view is so narrow that every ray is exactly axial, along lattice lines of the scene. A ray in a face
+// plane belongs to the cell above it.
 TEST(PrimaryMarch, rays_exactly_along_lattice_lines_hit_the_cell_that_owns_the_line) {
     Scene scene = small_scene();
     scene.camera = Camera{.position = glm::dvec3(-5, -20, 0), .yaw_deg = 90.0, .fov_y_deg = 1e-20};
@@ -182,7 +182,7 @@ TEST(PrimaryMarch, parallel_rays_along_an_axis_hit_whole_blocks_of_pixels) {
     }
 }
 
-// Sines of a device are no sines of C++, so rays agree up to their rounding only.
+// The device's sine is not that of C++, so rays agree only up to rounding.
 TEST(PrimaryMarch, panoramas_see_what_the_oracle_does) {
     for (const Projection projection : {Projection::equirectangular, Projection::fisheye}) {
         Scene scene = small_scene();

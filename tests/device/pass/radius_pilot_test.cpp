@@ -9,7 +9,7 @@
 namespace voxilux::test {
 namespace {
 
-// A few hundred photons for so many balls: no disc meets the photons that the pilot looks for, however wide.
+// A few hundred photons for so many balls: no disc, however wide, holds as many photons as the pilot wants.
 TEST(RadiusPilot, stops_where_discs_cover_the_surfaces) {
     constexpr double kBall = 0.5;
     Scene scene = dark_scene(32, 1024, 0.0);

@@ -31,14 +31,14 @@ ExecutorOptions poisoned() {
     return {.poison_transients = true};
 }
 
-// In steps that are as small as they can be.
+// Renders in the smallest possible steps.
 FilmSums film_after(Renderer& renderer, std::uint32_t samples) {
     while (renderer.film().position().samples < samples)
         (void)renderer.step(0.0);
     return renderer.read_film();
 }
 
-// The film of a renderer that knows nothing else, in steps as large as the device should take.
+// The film of a fresh renderer, in steps of the size that suits the device.
 FilmSums fresh_film(const Scene& scene, std::uint32_t samples = kSamples,
                     const PlanRequest& request = with_aov()) {
     Renderer renderer(test_device(), poisoned());
@@ -217,7 +217,7 @@ TEST(Renderer, step_without_time_takes_one_slice_and_more_time_takes_more) {
     Renderer renderer(test_device(), {});
     Scene scene = yard();
     scene.settings.size = {320, 200};
-    (void)film_after(prepared(renderer, scene), 1);  // pipelines are made
+    (void)film_after(prepared(renderer, scene), 1);  // makes the pipelines
     renderer.restart();
     const StepResult least = renderer.step(0.0);
     EXPECT_EQ(least.tiles, 1u);

@@ -22,7 +22,8 @@ namespace {
 
 using glm::vec3;
 
-// Of the device's exp, atan, sin and pow (up to 1e-4 of arguments), through the exponents of long columns.
+// Rounding of the device's exp, atan, sin and pow (up to 1e-4 of arguments), through the exponents of long
+// columns.
 constexpr float kDeviceError = 5e-3f;
 // Standard errors of a mean: 1 in 16,000 by chance, and the seeds are fixed.
 constexpr double kSigmas = 4.0;
@@ -41,7 +42,7 @@ test::ScatterTable scatter_of(const Scene& scene) {
     return test::scatter_table(sky_params(scene).air);
 }
 
-// Values differ by a share of themselves, or of the largest of all where they are almost nothing.
+// Values may differ by a fraction of themselves, or of the largest of all where they are almost zero.
 void expect_near(std::span<const vec3> found, std::span<const vec3> expected) {
     ASSERT_EQ(found.size(), expected.size());
     float largest = 0.0f;
@@ -135,7 +136,7 @@ TEST(SkyTrace, open_floor_receives_the_integral_of_the_sky) {
     }
 }
 
-// A convex floor sends no light to itself: what its paths find is the light of the sky and no more.
+// A convex floor sends no light to itself, so its paths find the light of the sky and nothing else.
 TEST(SkyPaths, open_floor_receives_the_integral_of_the_sky) {
     Scene scene = open_floor(10.0f);
     scene.settings.sequence = Sequence::white;
@@ -233,7 +234,7 @@ TEST(SkyBuild, tables_take_less_than_2_MiB) {
 TEST(Sunlight, surfaces_receive_what_the_air_lets_through) {
     Scene scene = open_floor(10.0f);
     const vec3 light = sunlight(scene);
-    EXPECT_NEAR(light.x * scene.sun.direction().z, 0.1238f, 0.002f);  // of sky_truth's tables, at the ground
+    EXPECT_NEAR(light.x * scene.sun.direction().z, 0.1238f, 0.002f);  // of sky_truth on the ground
     EXPECT_LT(light.z, 0.5f * light.x);
     scene.sun.elevation_deg = -0.1f;  // the planet hides more than half of the disc
     EXPECT_GT(sunlight(scene).x, 0.0f);

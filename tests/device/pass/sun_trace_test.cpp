@@ -1,5 +1,5 @@
-// The pass sun.trace against closed forms: cosines, hard shadows, and the share of the sun's disc over an
-// edge.
+// The pass sun.trace against closed forms: cosines, hard shadows, and the visible fraction of the sun's disc
+// over an edge.
 
 #include <gtest/gtest.h>
 
@@ -119,9 +119,9 @@ struct Penumbra {
     int wrong = 0;        // lit samples where no sun is in sight, dark ones where all of it is
 };
 
-// The edge of the wall's top spans, with a point of the floor, a plane; the sun's disc is visible as far as
-// it is above. Its centre is over the plane by elevation minus the angle to the edge. `shift` perturbs the
-// point.
+// The edge of the wall's top and a point of the floor span a plane; the part of the sun's disc above it is
+// visible. The disc's centre is above the plane by elevation minus the angle to the edge. `shift` perturbs
+// the point.
 Penumbra measure_penumbra(Sequence sequence, double shift) {
     constexpr double kSunRadius = 4.0;  // degrees
     Scene scene = walled_floor(static_cast<float>(2.0 * kSunRadius));

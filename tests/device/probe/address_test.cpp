@@ -50,7 +50,7 @@ Words values_at(const Words& indices) {
 
 class Addresses : public testing::Test {
   protected:
-    Executor executor_{test_device(), all_shaders()};  // no poison: large buffers take long to fill
+    Executor executor_{test_device(), all_shaders()};  // no poison, because filling large buffers takes long
 };
 
 std::uint32_t count_of(const Words& indices) {
@@ -115,7 +115,7 @@ TEST_F(Addresses, one_changed_word_in_a_large_buffer_is_seen) {
     EXPECT_NE(seen, expected);
 }
 
-// The words from `first` on as they are after a scatter over a cleared buffer.
+// The words from `first` on after a scatter over a cleared buffer.
 Words expected_window(const Words& indices, std::uint32_t first, std::uint32_t count) {
     Words window(count, kBackground);
     for (const std::uint32_t index : indices)

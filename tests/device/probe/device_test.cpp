@@ -11,7 +11,7 @@
 namespace voxilux {
 namespace {
 
-// Sets a variable of the environment for as long as it lives.
+// Sets an environment variable for as long as it lives.
 class ScopedVariable {
   public:
     ScopedVariable(const char* name, const char* value) : name_(name) {
@@ -36,7 +36,7 @@ class ScopedVariable {
     bool had_value_ = false;
 };
 
-// The line of the Error(no_device) that opening ends in.
+// The text of the Error(no_device) with which opening ends.
 std::string no_device_line(const DeviceRequest& request) {
     try {
         (void)open_device(request);

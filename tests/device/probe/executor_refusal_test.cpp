@@ -1,4 +1,4 @@
-// What the executor refuses, and what it forgives.
+// What the executor refuses, and what it accepts.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ Recording record(const Dispatch& dispatch) {
     return recording;
 }
 
-// The message of the InternalError that running the dispatch ends in, "" when it ends well.
+// The message of the InternalError with which the dispatch ends; "" when it succeeds.
 std::string refusal(const Dispatch& dispatch) {
     try {
         test_executor().run(record(dispatch));

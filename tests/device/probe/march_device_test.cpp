@@ -22,7 +22,7 @@ std::vector<gpu::Ray> all_rays(glm::ivec3 size, int count) {
     return rays;
 }
 
-// Rays from outside: start cells far along each ray's own way back.
+// Rays from outside: each start cell is moved far back along its ray.
 std::vector<gpu::Ray> moved_back(std::vector<gpu::Ray> rays, float distance) {
     for (gpu::Ray& ray : rays)
         ray.cell -= glm::ivec3(glm::floor(ray.direction * distance));

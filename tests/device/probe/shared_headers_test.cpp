@@ -141,8 +141,8 @@ TEST(SharedHeaders, two_float_keeps_its_relative_error_on_the_device) {
     }
 }
 
-// The same sum without precise: llvmpipe re-associates it and the error term is gone. Where a driver leaves
-// it alone the outputs agree and there is nothing to see.
+// The same sum without `precise`: llvmpipe re-associates it, and the error term is gone. Where a driver does
+// not, the outputs agree and there is nothing to check.
 TEST(SharedHeaders, two_float_sum_without_precise_is_caught_where_the_driver_reassociates) {
     const std::vector<gpu::TwoFloatIn> inputs = two_float_inputs();
     const auto outputs = run_probe<gpu::TwoFloatIn, gpu::TwoFloat>("plain_two_sum", inputs);

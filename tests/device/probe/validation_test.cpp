@@ -1,4 +1,4 @@
-// The validation layers are the judge of every test that runs a shader: here they must speak.
+// The validation layers check every test that runs a shader. Here they must report an error.
 
 #include <gtest/gtest.h>
 

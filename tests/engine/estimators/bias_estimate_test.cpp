@@ -33,7 +33,7 @@ std::int64_t sum_of(double mean) {
     return std::llround(mean * static_cast<double>(kSamples) * kUnit);
 }
 
-// Grey pixels of one radiance, whose samples tell of `bias` with a noise of the mean of +-`noise`.
+// Grey pixels of one radiance; each half shows `bias`, and its mean has a noise of +-`noise`.
 Film film_with(double bias, double noise, std::uint64_t seed) {
     test::TestRandom random(seed);
     Film film;
@@ -65,7 +65,7 @@ TEST(BiasEstimate, noise_alone_is_no_bias) {
     }
 }
 
-// Negative control: halves that share their noise take it for bias.
+// Negative control: halves that share their noise mistake it for bias.
 TEST(BiasEstimate, halves_that_are_one_are_caught) {
     Film film = film_with(0.0, 0.2, 1);
     film.bias_b = film.bias_a;

@@ -1,4 +1,4 @@
-// The claim of a denoised picture from estimates of its pixels.
+// The estimated error of a denoised picture, from estimates of its pixels.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-// Estimates of relMSE around `mean`, as the product of the noises of two halves scatters.
+// Estimates of relMSE around `mean`, distributed like the product of the noises of two halves.
 std::vector<float> noisy_estimates(double mean, double noise, std::uint64_t seed) {
     test::TestRandom random(seed);
     std::vector<float> values(kWidth * kHeight);

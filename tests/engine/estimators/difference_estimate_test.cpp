@@ -19,7 +19,7 @@ Image flat(float value) {
     return test::constant_image(kEdge, kEdge, value);
 }
 
-// Noise that discs of photons make: the same for the pixels of an 8 x 8 tile.
+// Noise as the discs of photons make it: the same for the pixels of an 8 x 8 tile.
 void add_coarse_noise(Image& image, double deviation, std::mt19937& random) {
     std::normal_distribution<double> noise(0.0, deviation);
     std::array<double, 64> tiles;
@@ -90,7 +90,7 @@ TEST(DifferenceEstimate, interval_holds_a_bias_below_the_noise_in_nineteen_of_tw
     EXPECT_EQ(beyond, 100);
 }
 
-// Negative control: a wrong truth is outside.
+// Negative control: a wrong truth lies outside.
 TEST(DifferenceEstimate, interval_rejects_another_bias) {
     int held = 0;
     for (std::uint32_t seed = 0; seed < 50; ++seed) {
@@ -130,7 +130,7 @@ TEST(DifferenceEstimate, small_bright_spot_is_beyond_noise) {
     EXPECT_NEAR(estimate.squared, truth, 0.2 * truth);
 }
 
-// A picture whose noise is some very bright pixels, with a dark corner: against everything black.
+// A picture whose noise is a few very bright pixels, with a dark corner, against an all-black one.
 TEST(DifferenceEstimate, large_difference_among_fireflies_is_beyond_noise) {
     std::mt19937 random(11);
     std::uniform_int_distribution<std::size_t> place(0, kEdge * kEdge - 1);
@@ -145,7 +145,7 @@ TEST(DifferenceEstimate, large_difference_among_fireflies_is_beyond_noise) {
     EXPECT_TRUE(pictures.estimate().is_beyond_noise());
 }
 
-// Negative control: the same fireflies on both sides of no difference.
+// Negative control: the same fireflies on both sides, and no difference.
 TEST(DifferenceEstimate, fireflies_alone_are_hardly_ever_beyond_noise) {
     int beyond = 0;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {

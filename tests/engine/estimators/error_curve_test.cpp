@@ -17,8 +17,8 @@ constexpr double kSpread = 1.2;  // noise_high over noise
 
 using Noise = std::function<double(double samples)>;
 
-// Claims of a film whose noise is known, at 4, 8, ... `most` samples, each off by a factor exp(normal *
-// scatter).
+// Estimated errors of a film whose noise is known, at 4, 8, ... `most` samples, each off by a factor
+// exp(normal * scatter).
 std::vector<ErrorPoint> points_of(const Noise& noise, double most, double scatter = 0.0,
                                   std::uint32_t seed = 1) {
     std::mt19937 random(seed);
@@ -89,7 +89,7 @@ TEST(ErrorCurve, sequence_taken_for_independent_samples_is_far_off) {
     EXPECT_GT(found / sequence_noise(1000.0), 2.0);
 }
 
-// Of many sets of claims that each scatter by 6 %, the interval meant for 80 % holds the truth about as
+// Over many sets of estimates that each scatter by 6 %, the interval meant for 80 % holds the truth about as
 // often; one of half the width does not.
 double share_held(double deviations) {
     int held = 0;
@@ -137,7 +137,8 @@ TEST(ErrorCurve, bias_of_a_radius_that_stays_puts_small_errors_out_of_reach) {
     EXPECT_TRUE(samples_for(curve, 0.02));
 }
 
-// What renders of scenes/cornell.toml on 128 x 128 pixels claimed with two seeds: means of the noise.
+// Errors that renders of scenes/cornell.toml on 128 x 128 pixels estimated with two seeds: means of the
+// noise.
 TEST(ErrorCurve, cornell_box_is_foretold_from_a_tenth_of_its_samples) {
     const std::vector<ErrorPoint> points = {
         {.samples = 8, .noise = 0.02923, .noise_high = 0.0566},

@@ -85,8 +85,7 @@ struct Trial {
     [[nodiscard]] FilmHalf half_b() const { return {b, n}; }
 };
 
-// Brightness rises from left to right over a factor of 20; the upper half is quiet where the noise is
-// Gaussian.
+// Radiance rises from left to right by a factor of 20; the upper half is quiet where the noise is Gaussian.
 Trial make_trial(const NoisyFilm& noise, Random& random) {
     Trial trial{.n = {noise.n}};
     for (int y = 0; y < noise.height; ++y) {
@@ -141,7 +140,7 @@ TEST(FilmVariance, is_unbiased) {
             estimated += mean_variance(trial.half_a(), trial.half_b(), trial.squares, i)[0];
             actual += squared_error(trial, 3 * i);
         }
-        // 40 000 squares of a Gaussian weighted by brightness^2: about 1.2 % at one sigma.
+        // 40 000 squares of a Gaussian weighted by radiance^2: about 1.2 % at one sigma.
         EXPECT_NEAR(estimated / actual, 1.0, 0.05) << static_cast<int>(kind);
     }
 }
@@ -151,7 +150,7 @@ TEST(FilmVariance, where_squares_are_full_the_halves_tell) {
     const std::vector<std::uint64_t> four = {4};
     // (2 - 1)^2 / 4
     EXPECT_DOUBLE_EQ(mean_variance({a, four}, {b, four}, full, 0)[0], 0.25);
-    // Equal halves: an emitter too bright for its squares has no noise.
+    // Equal halves: an emitter too bright for its sums of squares has no noise.
     EXPECT_EQ(mean_variance({a, four}, {a, four}, full, 0)[0], 0.0);
 }
 
@@ -160,7 +159,7 @@ TEST(FilmVariance, rounding_never_makes_it_negative) {
     const std::vector<std::uint64_t> one = {1};
     EXPECT_EQ(mean_variance({sum, one}, {sum, one}, std::vector<std::int64_t>(3, fixed(32.0) - 3), 0)[0],
               0.0);
-    // One sample tells nothing: its own square.
+    // One sample gives no variance, only its own square.
     EXPECT_EQ(mean_variance({sum, one}, {std::vector<std::int64_t>(3, 0), std::vector<std::uint64_t>{0}},
                             squares, 0)[0],
               16.0);
@@ -211,7 +210,7 @@ TEST(SquaresError, estimate_scatters_less_than_that_of_the_halves) {
     EXPECT_LT(squares.width(), halves.width());
 }
 
-// Negative control: samples of which each is taken four times have half the error by their squares.
+// Negative control: taking each sample four times halves the error according to the squares.
 TEST(SquaresError, interval_of_dependent_samples_misses) {
     Random random(8);
     const NoisyFilm noise;

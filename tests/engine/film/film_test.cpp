@@ -65,8 +65,7 @@ double sum_of_samples(NoiseKind kind, std::uint64_t n, double sigma, Random& ran
     return 0.0;
 }
 
-// Brightness rises from left to right over a factor of 20; the upper half is quiet where the noise is
-// Gaussian.
+// Radiance rises from left to right by a factor of 20; the upper half is quiet where the noise is Gaussian.
 Trial make_trial(const Noise& noise, Random& random) {
     Trial trial{.na = {noise.na}, .nb = {noise.nb}};
     for (int y = 0; y < noise.height; ++y) {
@@ -186,8 +185,8 @@ TEST(FilmError, squared_error_plane_is_unbiased_for_unequal_halves) {
         actual += d * d;
         estimated += e * e;
     }
-    // Both are means of 40 000 squares of one Gaussian each, weighted by brightness^4: about 1.2 % each at
-    // one sigma.
+    // Both are means of 40 000 squares of one Gaussian each, weighted by radiance^4: about 1.2 % each at one
+    // sigma.
     EXPECT_NEAR(estimated / actual, 1.0, 0.07);
 }
 

@@ -226,7 +226,7 @@ class FileSizeLimit {
 TEST(ExrWrite, full_disk_is_reported_and_the_old_file_stays) {
     const ScratchFolder folder;
     std::ofstream(folder / "a.exr") << "old";
-    for (const int edge : {1, 64, 512}) {  // small ones fail at closing only
+    for (const int edge : {1, 64, 512}) {  // small ones fail only when they are closed
         const FileSizeLimit limit(100);
         const Error error = error_of([&] { write_exr(folder / "a.exr", sample_image(edge, edge)); });
         EXPECT_EQ(error.code(), ExitCode::cannot_write);
@@ -236,8 +236,7 @@ TEST(ExrWrite, full_disk_is_reported_and_the_old_file_stays) {
     }
 }
 
-// Root passes every permission check, so for the time of the write the thread looks at files as somebody
-// else.
+// Root passes every permission check, so for the time of the write the thread accesses files as another user.
 TEST(ExrWrite, read_only_folder_is_reported) {
     const ScratchFolder folder;
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_exec |

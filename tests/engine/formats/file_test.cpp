@@ -127,7 +127,7 @@ TEST(CheckOutputs, no_file_is_written_twice) {
     EXPECT_EQ(refusal_of_outputs({"/dev/null", "/dev/null", "-", "-"}, {}), ExitCode::done);
 }
 
-// Process 4194304 cannot be: it is the kernel's upper limit.
+// There cannot be a process 4194304: it is the kernel's upper limit.
 TEST(CheckOutputs, temporary_files_of_the_dead_are_removed_after_an_hour) {
     const ScratchFolder folder;
     const auto leave = [&](const std::string& name, std::chrono::minutes age) {

@@ -45,7 +45,7 @@ Surface surface_of(const ListedSphere& listed) {
     return listed.radiance == glm::dvec3(0.0) ? Surface::diffuse : Surface::emit;
 }
 
-// Spheres that differ, numbers compared to the bit.
+// The number of spheres that differ; numbers are compared to the bit.
 int differing_spheres(const Scene& scene, const std::vector<ListedSphere>& listed) {
     int differing = 0;
     for (std::size_t i = 0; i < listed.size(); ++i) {

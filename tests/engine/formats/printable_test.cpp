@@ -1,4 +1,4 @@
-// Words of a file on their way to a terminal: the function, and every reader fed with hostile names.
+// Text of a file on its way to a terminal: the function, and every reader with hostile names.
 
 #include "base/printable.h"
 
@@ -28,8 +28,8 @@
 namespace voxilux {
 namespace {
 
-// What a terminal, JSON and a person stand, told apart by other means than the code under test: ASCII that is
-// printed, or well-formed UTF-8 outside the C1 and bidirectional controls.
+// What a terminal, JSON and a reader can take, decided by other means than the code under test: printable
+// ASCII, or well-formed UTF-8 outside the C1 and bidirectional controls.
 bool is_harmless(const std::string& text, bool has_lines = false) {
     if (text.size() > 4 * 1000) return false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -159,7 +159,7 @@ std::string exr_file(const std::filesystem::path& path, const std::string& name,
 TEST(HostileNames, of_channels_of_an_exr) {
     const ScratchFolder folder;
     for (const std::string& hostile : kHostile) {
-        const std::string name = hostile.substr(0, 200);  // the format ends at 255
+        const std::string name = hostile.substr(0, 200);  // the format allows up to 255
         const Image image = read_exr(exr_file(folder / "a.exr", name, 1));
         ASSERT_EQ(image.channels.size(), 1u);
         EXPECT_TRUE(is_harmless(image.channels.begin()->first)) << image.channels.begin()->first;

@@ -79,7 +79,7 @@ const std::string kTables[] = {
     table_of<Turntable>("[camera.turntable]"),
 };
 
-// The page with the table in the place of the one with the same first line.
+// The page with the table in place of the one that has the same first line.
 std::string with_table(std::string page, const std::string& table) {
     const std::size_t from = page.find(table.substr(0, table.find('\n')));
     if (from == std::string::npos) return page + "\n" + table;
@@ -107,7 +107,7 @@ TEST(SettingsTable, page_that_differs_is_found_out) {
     EXPECT_NE(with_table(page, kTables[0]).find(kTables[0]), std::string::npos);
 }
 
-// A default is a value that the file may have, and every row says in a short line what it means.
+// Every default is a value that a file may have, and every row has a short sentence.
 TEST(SettingsTable, rows_are_sound) {
     Scene scene;
     visit_sections(scene, [](std::string_view section, auto& settings) {

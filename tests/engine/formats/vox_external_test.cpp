@@ -25,13 +25,13 @@ namespace {
 
 using nlohmann::json;
 
-// What the engine promises for any file: see read_vox.
+// What read_vox promises for any file.
 constexpr std::size_t kFreeFileBytes = std::size_t{64} << 20;
 constexpr std::size_t kHeapPerByte = 64;
 // Seconds to read any of the malformed files, all under 3 MB, with sanitizers on a loaded machine.
 constexpr double kSecondsToRefuse = 10.0;
 
-// Fields of the oracle that voxilux info does not print: chunk counts (ours are by meaning), the digest
+// Fields of the oracle that voxilux info does not print: chunk counts (ours are by meaning), and the digest
 // (tested below).
 const std::set<std::string> kNotPrinted = {"chunks", "palette_sha", "warn"};
 
@@ -88,7 +88,7 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
     return word;
 }
 
-// A dictionary, read here and not by the engine.
+// Parses a dictionary independently of the engine.
 json dict_at(const std::string& bytes, std::size_t at) {
     json dict = json::object();
     const auto text = [&] {
@@ -224,8 +224,8 @@ struct MalformedRow {
     std::size_t scene_voxels;  // of the loaded scene's models
 };
 
-// SOURCES.md lets some files be either refused or repaired: this table is the choice. Refused is what cannot
-// be shown as its maker meant it; repaired is what can, less a part that is named.
+// SOURCES.md lets some files be either refused or repaired; this table is the choice. A file is refused if it
+// cannot be shown as its author meant it, and repaired if only a part is lost, which is named.
 const MalformedRow kMalformed[] = {
     {"chunk_size_negative.vox", Decision::load, "at byte 72: 32 bytes after MAIN are ignored", 3},
     {"dict_count_huge.vox", Decision::refuse,

@@ -1,5 +1,5 @@
 // Files that are cut, damaged, or made to explode: each is read in bounded memory and time, and a refusal
-// always says where. Run under the sanitizers these are the proof that nothing reads or writes outside its
+// always names the place. Under the sanitizers, these tests show that nothing is read or written outside its
 // bounds.
 
 #include <gtest/gtest.h>
@@ -23,11 +23,11 @@ using namespace vox_builder;
 constexpr std::uint32_t kSeed = 20240607;
 constexpr std::size_t kFreeBytes = std::size_t{64} << 20;  // of read_vox's promise
 constexpr std::size_t kBytesPerByte = 64;
-// The fixed part that a small file truly needs: tables of the palette. A stricter bound shows the cost per
-// byte.
+// The fixed memory that a small file needs: tables of the palette. With this stricter bound the cost per byte
+// shows.
 constexpr std::size_t kFixedBytes = std::size_t{1} << 18;
 
-// Everything that is done with a file, as far as it goes; the reason when it is refused.
+// Reads a file and does everything with it that is possible; returns the reason when it is refused.
 std::string use(std::span<const std::byte> bytes) {
     const auto file = read_vox(bytes);
     if (!file) return file.reason();
@@ -50,7 +50,7 @@ TEST(VoxHostile, every_truncation_is_refused_with_an_offset_inside_the_file) {
     }
 }
 
-// The sizes in MAIN follow the cut, so that the chunks themselves are met half way.
+// The sizes in MAIN are cut, too, so that parsing ends inside a chunk.
 TEST(VoxHostile, every_truncation_inside_an_honest_main_is_refused_or_loads) {
     const std::string text = rich_file_text();
     constexpr std::size_t kFirstChunk = 20;
@@ -190,7 +190,8 @@ struct Amplifier {
     std::string head;
 };
 
-// The smallest chunk or item of each kind, by the hundred thousand: whatever a byte of the file can cost.
+// The smallest chunk or item of each kind, a hundred thousand times: the greatest cost that a byte of a file
+// can have.
 TEST(VoxHostile, densest_chunks_stay_within_the_memory_bound) {
     const std::string model = size_chunk(1, 1, 1);
     const Amplifier amplifiers[] = {
@@ -242,7 +243,7 @@ TEST(VoxHostile, densest_items_stay_within_the_memory_bound) {
     }
 }
 
-// The meter of the bounds above must be able to show a breach.
+// The meter of the bounds above can show a breach.
 TEST(VoxHostile, allocation_counter_sees_what_is_held_at_once) {
     const PeakAllocation peak;
     { const std::vector<std::byte> block(kFreeBytes + 1); }

@@ -88,7 +88,7 @@ TEST(VoxReader, last_duplicate_wins_and_index_0_erases) {
     EXPECT_EQ(file.models[0].index0, 1u);
     EXPECT_EQ(file.models[0].out_of_size, 1u);
     VoxCells cells;
-    for (int again = 0; again < 2; ++again) {  // the set forgets what it has seen
+    for (int again = 0; again < 2; ++again) {  // the set must not keep what it has seen
         EXPECT_EQ(filled_voxels(file.models[0], cells), (std::vector<VoxVoxel>{{0, 0, 0, 7}, {1, 1, 1, 8}}));
     }
 }

@@ -31,7 +31,7 @@ TEST(VoxWrite, rich_file_reads_back_equal) {
     EXPECT_EQ(write_vox(again), write_vox(file));
 }
 
-// The equality above is one that can fail, in any of the file's parts.
+// Negative control: the equality above fails for a change in any part of the file.
 TEST(VoxWrite, comparison_sees_a_change_in_each_part) {
     const VoxFile file = read_written(bytes_of(rich_file_text()));
     void (*const changes[])(VoxFile&) = {
@@ -62,7 +62,7 @@ TEST(VoxWrite, comparison_sees_a_change_in_each_part) {
     }
 }
 
-// What the builder writes by hand from the published format, in MagicaVoxel's order.
+// The builder writes by hand what the published format says, in MagicaVoxel's order.
 TEST(VoxWrite, bytes_equal_the_published_layout) {
     VoxFile file;
     file.version = 200;

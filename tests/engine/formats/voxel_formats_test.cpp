@@ -1,4 +1,4 @@
-// Readers of other voxel formats against files whose cells are known, and against files that lie.
+// Readers of other voxel formats, with files whose cells are known, and with damaged files.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(VoxelFormats, ten_files_of_each_format_hold_the_cells_that_were_written) {
     }
 }
 
-// The comparison above is one that can fail.
+// Negative control of the comparison above.
 TEST(VoxelFormats, comparison_sees_a_mirrored_file_and_a_changed_colour) {
     const Sample sample = qb_sample(6);
     std::string mirrored = sample.bytes, coloured = sample.bytes;
@@ -56,7 +56,7 @@ TEST(VoxelFormats, comparison_sees_a_mirrored_file_and_a_changed_colour) {
         EXPECT_FALSE(cells_of(read_voxel_cells(format_of(".qb"), as_bytes_of(bytes))) == sample.expected);
 }
 
-// Handedness by hand: three voxels along the axes of a right handed and of a left handed program, seen from
+// Handedness, by hand: three voxels along the axes of a right-handed and of a left-handed program, seen from
 // the same side, lie on the same side.
 TEST(VoxelFormats, qb_orientations_show_the_same_from_the_side_that_each_program_looks_from) {
     const auto y_of_near = [&](bool is_right_handed) {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::uint32_t kSamples = 11;
 
-// A scene and its plan: what a part says it is of.
+// A scene and its plan, which a part refers to.
 struct Job {
     Scene scene;
     RenderPlan plan;
@@ -48,7 +48,7 @@ Job job_of(const SampleSet& part, std::uint32_t seed = 0, std::uint32_t spp = kS
     return job;
 }
 
-// The value of a sample: any number that depends on what it is of.
+// The value of a sample: any number that depends on all of its coordinates.
 std::int64_t value_of(std::uint32_t sample, std::size_t at) {
     return static_cast<std::int64_t>(hash32(sample * 1000u + static_cast<std::uint32_t>(at))) - (1 << 30);
 }
@@ -104,7 +104,7 @@ std::string refusal_of(PartSum& sum, FilmPart part) {
 
 TEST(FilmPart, file_gives_back_every_bit) {
     FilmPart part = part_of_samples(shard_of(2, 3));
-    // Sums that no float and no double holds.
+    // Sums that neither float nor double can hold.
     part.film.sums["albedo"] = std::vector<std::int64_t>(45, 0x123456789ABCDEF1);
     part.film.sums["albedo"][7] = std::numeric_limits<std::int64_t>::min();
     part.film.sums["albedo"][8] = -1;
@@ -116,7 +116,7 @@ TEST(FilmPart, file_gives_back_every_bit) {
     EXPECT_EQ(back.spp, kSamples);
     EXPECT_EQ(back.file.world_to_camera, part.file.world_to_camera);
     EXPECT_EQ(back.file.comments, "s.toml");
-    // One bit of one sum is seen.
+    // A change of one bit of one sum is noticed.
     part.film.sums["albedo"][8] ^= 1;
     EXPECT_NE(back.film, part.film);
 }
@@ -194,7 +194,7 @@ TEST(FilmPart, damaged_description_is_refused) {
     EXPECT_NE(refusal("{", "["), "");
 }
 
-// An image with planes that no film has is refused, and not read past its end.
+// An image with planes that no film has is refused, and not read beyond its end.
 TEST(FilmPart, planes_of_other_forms_are_refused) {
     const ScratchFolder scratch;
     const Image sound = image_of(part_of_samples(shard_of(2, 3)));
@@ -353,7 +353,7 @@ TEST(MergeParts, missing_samples_are_named) {
     EXPECT_EQ(missing_samples(sum.total).text(), "1,3,5-7");
 }
 
-// Samples that were added later: of another number of samples, and past it.
+// Samples that were added later: with another total number of samples, and beyond it.
 TEST(MergeParts, number_of_samples_is_no_part_of_what_they_are_of) {
     PartSum sum;
     add_part(sum, part_of_samples(SampleSet::leading(4)), "first");

@@ -86,12 +86,12 @@ TEST(Forecast, pilot_that_saw_nothing_says_nothing) {
 }
 
 TEST(ErrorPilot, ends_with_a_share_of_the_render_or_a_second_of_work) {
-    EXPECT_TRUE(doubles_pilot(4, 1e9, 0.0));     // the fewest
+    EXPECT_TRUE(doubles_pilot(4, 1e9, 0.0));     // the minimum
     EXPECT_FALSE(doubles_pilot(8, 1e6, 200.0));  // work is done, 16 are more than 2 %
     EXPECT_TRUE(doubles_pilot(8, 1e6, 1000.0));  // 16 of 1000
     EXPECT_TRUE(doubles_pilot(8, 1e4, 200.0));   // little work
     EXPECT_FALSE(doubles_pilot(8, 1e2, 10.0));   // the render itself is no larger
-    EXPECT_FALSE(doubles_pilot(256, 1.0, 1e6));  // the most
+    EXPECT_FALSE(doubles_pilot(256, 1.0, 1e6));  // the maximum
 }
 
 ErrorEstimate claim_of(double high) {
@@ -124,7 +124,7 @@ TEST(ErrorRounds, without_a_guess_its_own_samples_decide) {
     EXPECT_EQ(rounds.end(), 8u);
     EXPECT_EQ(rounds.decided_by(), DecidedBy::averaged);
     EXPECT_FALSE(rounds.reaches(8, claim_of(0.1)));
-    EXPECT_EQ(rounds.end(), 64u);  // eight times as many, and not what eight samples say is needed
+    EXPECT_EQ(rounds.end(), 64u);  // eight times as many, although eight samples suggest more
 }
 
 TEST(ErrorRounds, claim_that_one_bright_sample_may_have_made_doubles_at_most) {

@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-// A claim of noise alone that falls as one over the root of the samples, 40 % after one.
+// An error of noise alone that falls with the root of the samples, from 40 % after one.
 ErrorEstimate claim_after(std::uint32_t samples) {
     const double error = 0.4 / std::sqrt(samples);
     return {.estimate = error, .low = 0.95 * error, .high = 1.05 * error};
@@ -38,7 +38,8 @@ TEST(LiveErrors, looks_when_samples_have_doubled) {
 TEST(LiveErrors, forecast_is_that_of_the_law) {
     LiveErrors errors;
     watch(errors, 64);
-    // The claimed error is the upper end of the interval: 1.05 * 0.4 / sqrt(n) <= 0.01 from n = 1764 on.
+    // The target is compared with the upper end of the interval: 1.05 * 0.4 / sqrt(n) <= 0.01 from n = 1764
+    // on.
     EXPECT_NEAR(*errors.samples_until(0.01), 1764, 2);
     EXPECT_NEAR(*errors.seconds_until(0.01), 176.4 - 6.4, 0.3);
     EXPECT_NEAR(*errors.expected(1600), 0.01, 1e-6);

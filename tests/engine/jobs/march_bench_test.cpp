@@ -1,4 +1,4 @@
-// The worlds, the rays and the judge of the benchmarks.
+// The worlds, the rays and the checker of the benchmarks.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(BenchScene, world_has_many_materials_an_empty_border_and_mostly_air) {
     }
 }
 
-// Skins grow with the square of the extent, not with its cube.
+// Surfaces grow with the square of the extent, not with its cube.
 TEST(BenchScene, voxels_grow_as_a_surface) {
     const auto voxels = [](int extent) {
         return static_cast<double>(procedural_scene(extent, 0).world.voxel_count());

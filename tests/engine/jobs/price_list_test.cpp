@@ -85,7 +85,7 @@ TEST(Parameters, change_one_setting_and_share_the_default) {
               1u + 2u + 5u + 1u + 4u + 3u);  // base, sequences, worlds, hash, cells, rays
 }
 
-// Whoever names a way of finding occlusion asks for it in the place of paths.
+// Naming a technique of occlusion asks for it in place of paths.
 TEST(Reference, names_a_way_of_occlusion_only_where_the_plan_has_occlusion) {
     const RenderPlan by_paths = plan_with({Effect::voxels, Effect::sky, Effect::indirect});
     EXPECT_EQ(reference_settings({}, by_paths), RenderSettings{});

@@ -49,7 +49,7 @@ TEST(SlopeFit, interval_holds_the_exponent_in_nineteen_of_twenty_fits) {
     EXPECT_NEAR(held, 380, 13);  // three deviations of 400 draws
 }
 
-// Negative control: the interval of another exponent does not.
+// Negative control: the interval of another exponent does not hold it.
 TEST(SlopeFit, interval_rejects_another_exponent) {
     int held = 0;
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
@@ -118,7 +118,7 @@ TEST(ErrorSplit, finds_no_bias_where_there_is_none) {
     EXPECT_LE(found, 3);
 }
 
-// Negative control: the reference's noise is taken for bias when nobody tells of it.
+// Negative control: when the reference's noise is not given, it counts as bias.
 TEST(ErrorSplit, takes_unknown_noise_of_the_reference_for_bias) {
     std::mt19937 random(5);
     Image reference = flat(0.5f);

@@ -49,7 +49,7 @@ void expect_cover(const std::vector<DispatchTile>& tiles, const RenderPlan& plan
         EXPECT_EQ(tile.film_tile_first_row, tile.film_tile * plan.film_tile_rows);
         EXPECT_GE(tile.first_row, tile.film_tile_first_row);
         EXPECT_LE(tile.first_row + tile.row_count, tile.film_tile_first_row + plan.film_tile_rows)
-            << "crosses a band";
+            << "crosses a film tile";
         next = tile.first_row + tile.row_count;
     }
     EXPECT_EQ(next, static_cast<std::uint32_t>(plan.settings.size.y));
@@ -101,7 +101,7 @@ TEST(TileGovernor, tiles_grow_on_a_fast_device_and_shrink_on_a_slow_one) {
     run_pass(fast, plan, [](std::uint32_t) { return 0.01; });
     run_pass(slow, plan, [](std::uint32_t) { return 60.0; });
     EXPECT_GT(fast.rows(), first);
-    EXPECT_EQ(fast.rows(), plan.tile_rows) << "8 ms for the whole picture: one slice";
+    EXPECT_EQ(fast.rows(), plan.tile_rows) << "8 ms for the whole picture: one dispatch tile";
     EXPECT_LT(slow.rows(), first);
     EXPECT_EQ(slow.rows(), 2u) << "two rows of 60 ms are the most that 125 ms hold";
 }
@@ -132,7 +132,7 @@ TEST(TileGovernor, more_rays_give_smaller_first_slices) {
 
 TEST(TileGovernor, fewer_rows_may_be_asked_for) {
     const TileGovernor governor(plan_for(1280, {800, 80}), true);
-    EXPECT_EQ(governor.tile_at(70).row_count, 10u) << "to the end of the band";
+    EXPECT_EQ(governor.tile_at(70).row_count, 10u) << "to the end of the film tile";
     EXPECT_EQ(governor.tile_at(0, 3).row_count, 3u);
     EXPECT_EQ(governor.tile_at(0, 0).row_count, 1u);
     EXPECT_EQ(governor.tile_at(0, 1000).row_count, std::min(governor.rows(), 80u));

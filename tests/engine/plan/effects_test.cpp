@@ -138,7 +138,8 @@ TEST(Effects, unneeded_effect_switched_on_runs_and_says_so) {
     EXPECT_EQ(ao.reason, "switched on by the user, though the sky is black: there is no light to occlude");
 }
 
-// Who names a way of occlusion has it stand for light between surfaces. Photons do not start from the sky.
+// Naming a technique of occlusion makes it stand in for light between surfaces. Photons do not start from the
+// sky.
 TEST(Effects, indirect_light_is_left_out_where_occlusion_or_photons_without_a_light_are_asked_for) {
     const auto indirect = [](const SceneFacts& facts, const EffectRequest& request) {
         return decide_effects(facts, request)[static_cast<std::size_t>(Effect::indirect)];
@@ -152,7 +153,7 @@ TEST(Effects, indirect_light_is_left_out_where_occlusion_or_photons_without_a_li
     EXPECT_EQ(indirect(without_light(), {.traces_paths = false}).reason, "neither emitter nor sun shines");
 }
 
-// Light that is not let out needs no photons, whatever the scene has.
+// Without light that surfaces send on, no photons are needed, whatever the scene has.
 TEST(Effects, photons_need_emitters_or_sun_that_are_on) {
     const auto all_off = [](std::initializer_list<Effect> off) {
         EffectRequest request;

@@ -46,9 +46,9 @@ TEST(ForcedEffect, extra_channels_change_no_bit_of_the_colour) {
     EXPECT_EQ(differing_values(render(scene, PlanRequest{}), render(scene, forced)), 0);
 }
 
-// What a scene does not call for is either not possible, and then forcing it changes nothing in the plan, or
-// it is one of those above, or sunlight between surfaces, for which occlusion of the sky stands: forcing that
-// does change the picture, as the plan says.
+// Forcing an effect that a scene does not call for changes nothing in the plan if the effect is impossible.
+// Otherwise the effect is one of those above, or sunlight between surfaces, for which occlusion of the sky
+// stands in: forcing that one does change the picture, as the plan says.
 TEST(ForcedEffect, unneeded_effect_is_impossible_or_tested_here) {
     for (const std::string& name : test::scene_names()) {
         const Scene scene = small_scene(name);
@@ -75,7 +75,7 @@ void PrintTo(const Needed& needed, std::ostream* os) {
 
 class NeededEffect : public testing::TestWithParam<Needed> {};
 
-// Negative control: an effect that runs is an effect that shows.
+// Negative control: an effect that runs changes the picture.
 TEST_P(NeededEffect, switched_off_changes_the_picture) {
     const auto [name, effect] = GetParam();
     const Scene scene = small_scene(name);

@@ -94,7 +94,7 @@ TEST(LeanRender, spheres_alone_have_no_world) {
     EXPECT_TRUE(run.buffers.contains("sphere.records"));
 }
 
-// What a session ran, and what it held; what a plan says that it would.
+// What a session ran and held, and what its plan predicts.
 using NamedNumbers = std::map<std::string, std::uint64_t>;
 
 NamedNumbers passes_of(const RenderOutcome& outcome) {
@@ -133,8 +133,8 @@ TEST_P(LeanRenderOf, device_holds_the_plan_and_nothing_else) {
     EXPECT_EQ(run.pipelines, run.shaders.size() + levels);
 }
 
-// What the session ran and needed: passes with their counts, buffers with their bytes. After so many samples
-// the device has freed what only the upload needed.
+// What the session ran and needed: passes with their counts, buffers with their bytes. After this many
+// samples the device has freed what only the upload needed.
 TEST_P(LeanRenderOf, report_names_the_passes_and_buffers_of_the_plan) {
     const Scene scene = test::repository_scene(GetParam(), {"render.size=[32, 24]", "render.spp=24"});
     const RenderOutcome outcome = render_scene(scene, {.plan = test::exr_request()});
@@ -152,7 +152,7 @@ NamedNumbers final_passes(NamedNumbers passes) {
     return passes;
 }
 
-// In two strips for an image of this size.
+// Filtered in two strips for an image of this size.
 TEST(LeanRender, denoiser_is_in_the_plan_as_in_the_report) {
     PlanRequest request = test::exr_request();
     request.wants_denoised = true;

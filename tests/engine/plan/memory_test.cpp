@@ -85,7 +85,7 @@ TEST(PlanMemory, world_over_the_device_limit_asks_for_a_smaller_scene) {
     EXPECT_NE(message.find("make the scene smaller"), std::string::npos) << message;
 }
 
-// The world and the scratch of its growth are reached by address; what else belongs to it is bound.
+// The world and the scratch memory of its growth are reached by address; its other buffers are bound.
 TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
     const Scene scene = test::repository_scene("one_voxel");
     const SceneFacts facts = measure_scene(scene);
@@ -114,7 +114,7 @@ TEST(PlanMemory, world_may_pass_the_binding_limit_and_nothing_else_may) {
               "scene smaller");
 }
 
-// Pictures of every shape up to the largest that a shader can number keep each buffer below 128 MiB.
+// Pictures of every shape, up to the largest that a shader can number, keep each buffer below 128 MiB.
 TEST(PlanMemory, buffers_of_large_pictures_stay_below_the_binding_limit) {
     Scene scene = test::repository_scene("one_voxel");
     for (const glm::ivec2 size :
@@ -172,8 +172,8 @@ TEST(PlanSettings, setting_out_of_range_is_refused_with_its_value) {
     EXPECT_EQ(refusal(Scene{}, PlanRequest{}, {}, ExitCode::input_refused), "accepted");
 }
 
-// As many photons as pixels, unless the device's store has no room for them; more, when asked for, go in
-// runs.
+// As many photons as pixels, unless the device's store has no room for them. If more are asked for, they are
+// traced in runs.
 TEST(PlanPhotons, large_picture_takes_as_many_photons_as_fit) {
     const Scene scene = test::repository_scene("cornell", {"render.size=[4096, 4096]"});
     const RenderPlan plan = test::plan_of(scene);

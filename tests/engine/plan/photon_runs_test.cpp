@@ -47,7 +47,7 @@ TEST_P(PhotonRuns, of_any_size_give_the_same_film) {
     for (const std::uint32_t at_once : {1u, 7u})
         EXPECT_EQ(film_in_runs(scene, at_once), whole) << at_once;
     Scene another = scene;
-    another.settings.photons.radius = 3.5;  // which changes the light of photons alone
+    another.settings.photons.radius = 3.5;  // changes only the light of photons
     EXPECT_NE(film_in_runs(another, kPhotons), whole);
 }
 

@@ -1,5 +1,5 @@
-// How occlusion is found: what the settings say, what the plan chooses and refuses, and what a plan with
-// cells holds.
+// How occlusion is computed: what the settings say, what the plan chooses and refuses, and what a plan with
+// cells contains.
 
 #include <gtest/gtest.h>
 
@@ -236,7 +236,7 @@ TEST(PlanAo, plan_lists_exactly_what_its_options_need) {
     EXPECT_EQ(planned_names({"ao.method=hash", "ao.filter=2"}), filtered);
 }
 
-// Everything of occlusion that the frames record, and the sizes that they declare. A single frame gives up no
+// All occlusion passes that the frames record, and the sizes that they declare. A single frame gives up no
 // cells.
 constexpr std::uint32_t kFrames = 9;
 

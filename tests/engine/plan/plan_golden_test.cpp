@@ -25,7 +25,7 @@ std::string text_of(const fs::path& path) {
     return text.str();
 }
 
-// What the plan decides: the text without what follows from recordings, which other tests compare with those.
+// What the plan decides: the text without what follows from recordings, because other tests compare that.
 std::string decisions_of(const RenderPlan& plan) {
     std::istringstream lines(describe(plan));
     std::string text;
@@ -70,7 +70,7 @@ TEST(PlanGoldenFolder, golden_without_a_scene_is_forgotten) {
         EXPECT_TRUE(fs::exists(test::scene_path(entry.path().stem().string()))) << entry.path();
 }
 
-// One row of plan_json must say what the plan says, for every key that scripts rely on.
+// plan_json must say what the plan says, for every key that scripts rely on.
 TEST(PlanJson, plan_has_the_promised_keys) {
     const Scene scene = test::repository_scene("mixed");
     const RenderPlan plan = test::plan_of(scene);

@@ -1,6 +1,6 @@
 #pragma once
 
-// The scenes of this repository as the plan rung sees them, and a whole render recorded without a device.
+// The scenes of this repository for tests of plans, and a whole render recorded without a device.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ namespace voxilux::test {
 // A scene of ours with overrides as -D gives them. Throws as load_scene.
 [[nodiscard]] Scene repository_scene(const std::string& name, const std::vector<std::string>& overrides = {});
 
-// What `voxilux render -o x.exr` would ask for.
+// The request that `voxilux render -o x.exr` would make.
 [[nodiscard]] PlanRequest exr_request();
 
 [[nodiscard]] PlanRequest with_switch(PlanRequest request, Effect effect, Switch choice);
@@ -34,7 +34,7 @@ namespace voxilux::test {
 // Dispatches by label.
 [[nodiscard]] std::map<std::string, std::uint64_t> planned_counts(const Footprint& needs);
 
-// All that a whole render records when no tile is cut smaller than the plan's.
+// All recordings of a whole render whose tiles are no smaller than the plan's.
 struct RecordedRender {
     std::vector<Recording> recordings;           // the scene and the cleared film first, then the samples
     std::map<std::string, BufferProxy> buffers;  // by name

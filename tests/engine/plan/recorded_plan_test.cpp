@@ -26,7 +26,7 @@ Sizes planned_sizes(const Footprint& needs) {
     return sizes;
 }
 
-// A first radius is named, since a pilot is no part of a frame: footprint() counts what it holds.
+// The first radius is set, since a pilot is not part of a frame: footprint() counts what the pilot holds.
 void expect_as_planned(Scene scene, const PlanRequest& request) {
     scene.settings.photons.radius = 1.0;
     const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
@@ -83,7 +83,7 @@ TEST_P(RecordedPlan, every_switch_off_is_still_exactly_the_plan) {
     }
 }
 
-// The names that belong to an effect alone: first words of labels, buffers and shaders, and its film planes.
+// The names that belong to one effect: first words of labels, buffers and shaders, and its film planes.
 struct Traces {
     Effect effect;
     std::vector<std::string> prefixes;
@@ -102,7 +102,7 @@ const std::vector<Traces>& traces_of_effects() {
     return traces;
 }
 
-// Everything in the recordings whose name starts so.
+// Everything in the recordings whose name starts with one of these words.
 std::vector<std::string> found_traces(const test::RecordedRender& render,
                                       const std::vector<std::string>& prefixes) {
     std::vector<std::string> found;
@@ -119,15 +119,15 @@ std::vector<std::string> found_traces(const test::RecordedRender& render,
     return found;
 }
 
-// Labels, buffers and shaders exist if and only if the effect is on: the second half is negative control of
-// the first.
+// Labels, buffers and shaders exist if and only if the effect is on: the second half is the negative control
+// of the first.
 void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request) {
     const PreparedScene prepared = prepare_scene(scene, request, DeviceLimits{});
     const test::RecordedRender render = test::record_render(scene, prepared);
     for (const Traces& traces : traces_of_effects()) {
         const std::vector<std::string> found = found_traces(render, traces.prefixes);
         if (prepared.plan.has(traces.effect)) {
-            // Rays towards an atmosphere find its occlusion, too: of that, only the visibility is left.
+            // Rays towards an atmosphere also find its occlusion; of that only the visibility is left.
             const bool is_shared = traces.effect == Effect::ao && traces_sky(prepared.plan);
             EXPECT_GE(found.size(), is_shared ? 1u : 3u)
                 << name_of(traces.effect) << " is on but leaves too few traces";
@@ -175,7 +175,7 @@ TEST(RecordedPlanOf, unneeded_effect_that_is_forced_on_is_recorded) {
     EXPECT_TRUE(test::record_render(scene, prepared).shaders.contains("ao_trace"));
 }
 
-// What a recorder adds to the real one, by no other change, is in the footprint.
+// What a recorder adds to the real one is in the footprint, with no other change.
 TEST(RecordedPlanOf, pass_that_the_recording_gains_is_planned_with_its_count_and_bytes) {
     const RenderPlan plan = test::plan_of(test::repository_scene("night", {"render.spp=5"}));
     const auto record = [](const RenderPlan& of, const DispatchTile& tile, gpu::FrameParams params,
@@ -210,7 +210,7 @@ TEST(RecordedPlanOf, giving_up_cells_is_planned_once_a_frame_of_a_range) {
     EXPECT_EQ(counts.at("ao.sample"), 3u);
 }
 
-// The radius of photons is found by an iteration whose buffers the device keeps.
+// The radius of photons is found by an iteration whose buffers stay on the device.
 TEST(RecordedPlanOf, pilot_of_photons_is_held_but_not_run_in_the_frame) {
     const auto planned = [](const std::vector<std::string>& overrides) {
         return footprint(test::plan_of(test::repository_scene("cornell", overrides)));

@@ -91,7 +91,7 @@ TEST(SampleSet, text_in_any_order_is_read_in_time_in_proportion) {
         text += "," + std::to_string(7 * i % 200003 * 2);  // each even number at most once, in no order
     const auto start = std::chrono::steady_clock::now();
     EXPECT_EQ(SampleSet::parse(text)->size(), 200000u);
-    // A tenth of a second; one by one against all before it would be minutes.
+    // Takes a tenth of a second; comparing each number with all before it would take minutes.
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 

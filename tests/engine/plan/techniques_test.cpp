@@ -95,7 +95,7 @@ TEST(Techniques, none_leaves_the_effect_out) {
     EXPECT_EQ(chosen_of(on, Effect::indirect).name, "paths");
 }
 
-// Paths find the light of the sky, so that its stand-in has nothing to do; sky and sun alone call for them.
+// Paths find the light of the sky, so its stand-in is not needed; sky and sun alone call for paths.
 TEST(Techniques, paths_take_the_place_of_occlusion_and_photons) {
     const Scene scene = test::repository_scene("first_light");
     const RenderPlan plan = test::plan_of(scene, {});
@@ -133,7 +133,7 @@ std::map<std::string, std::string> chosen_in(const std::string& name,
 
 using Chosen = std::map<std::string, std::string>;
 
-// Photons take the time of their caustics alone where emitters are all the light; elsewhere paths do.
+// Photons of caustics are used for indirect light where emitters are the only light; elsewhere paths are.
 TEST(Techniques, light_of_the_scene_decides_between_paths_and_photons) {
     EXPECT_EQ(chosen_in("cornell"), (Chosen{{"caustics", "photons"}, {"indirect", "photons"}}));
     EXPECT_EQ(chosen_in("cornell", {"sky.radiance=[1, 1, 1]"}),
@@ -148,8 +148,8 @@ TEST(Techniques, light_of_the_scene_decides_between_paths_and_photons) {
               "reference");
 }
 
-// Sunlight by way of voxels comes from directions that paths know, by way of spheres it does not. Emitters do
-// not change who finds it, so a faint one changes the picture as little as it shines.
+// Sunlight by way of voxels comes from directions that paths know; by way of spheres it does not. Emitters do
+// not change which technique finds it, so a faint emitter changes the picture only by its own light.
 TEST(Techniques, caustics_of_the_sun_are_left_to_paths_where_no_sphere_is_specular) {
     const std::string voxels =
         "[material.glass]\nsurface = \"glass\"\n[[shape]]\nshape = \"box\"\n"

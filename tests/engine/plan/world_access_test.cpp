@@ -1,4 +1,4 @@
-// The world as passes read it: by texels, or by addresses as GPUs and worlds without room for texels do.
+// How passes read the world: by texels, or by addresses on GPUs and for worlds that do not fit in texels.
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ Scene slab() {
     return scene;
 }
 
-// Everything that the voxels of a scene decide.
+// Everything that the voxels of a scene determine.
 void expect_equal(const EditableVoxels& a, const EditableVoxels& b) {
     EXPECT_EQ(a.world().origin(), b.world().origin());
     EXPECT_EQ(a.world().chunks(), b.world().chunks());

@@ -55,7 +55,7 @@ TEST(AliasTable, powers_off_by_a_twentieth_are_caught) {
     EXPECT_GT(chi_square_of(powers, moved), test::chi_square_critical_99(199));
 }
 
-// What the table really gives, from its buckets alone.
+// The probabilities that the table really gives, from its buckets alone.
 std::vector<double> exact_probabilities(const std::vector<gpu::AliasEntry>& table) {
     std::vector<double> probabilities(table.size(), 0.0);
     for (std::size_t i = 0; i < table.size(); ++i) {

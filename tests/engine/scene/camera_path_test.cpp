@@ -28,7 +28,7 @@ std::vector<CameraKey> keys_on(const std::vector<std::int64_t>& frames, const Cu
     return keys;
 }
 
-// The farthest that the path leaves the curve at any frame from the first key to the last.
+// The largest distance from the curve at any frame from the first key to the last.
 double distance_to(const std::vector<CameraKey>& keys, CameraPath path, const Curve& curve) {
     double worst = 0.0;
     for (std::int64_t frame = keys.front().frame; frame <= keys.back().frame; ++frame) {
@@ -217,11 +217,11 @@ TEST(TurntableCamera, scene_fits_in_every_frame) {
         EXPECT_LE(farthest, 1.0 - kFrameMargin + kRounding);
         EXPECT_GE(farthest, 0.97 * (1.0 - kFrameMargin)) << "no farther away than needed";
     }
-    scene.camera = framing_camera(box, View::right, 16.0 / 9.0);  // negative control: that of the box at rest
+    scene.camera = framing_camera(box, View::right, 16.0 / 9.0);  // negative control: the box at rest
     EXPECT_GT(farthest_corner(scene, box), 1.5);
 }
 
-// Seen from the camera, the sun of a turned model stays where it is, and that of turned light goes round.
+// Seen from the camera, the sun stays in place when the model turns, and goes round when the light does.
 TEST(TurntableCamera, model_or_light_turn_as_they_say) {
     const Camera rest{.position = {10.0, -20.0, 5.0}, .yaw_deg = 110.0, .pitch_deg = -20.0};
     const Sun sun{.azimuth_deg = 200.0f, .elevation_deg = 30.0f};

@@ -280,7 +280,7 @@ TEST(SceneHash, every_field_changes_the_hash) {
     }
 }
 
-// Machines and builds agree on the key of parts and caches.
+// Machines and builds agree on the key of parts and caches, so it has a fixed value.
 TEST(SceneHash, value_is_stable) {
     EXPECT_EQ(scene_hash(Scene{}), 0xf858dc304d557abbu) << std::hex << scene_hash(Scene{});
 }

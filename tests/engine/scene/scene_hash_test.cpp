@@ -36,7 +36,7 @@ Scene full_scene() {
 
 using Change = std::function<void(Scene&)>;
 
-// Which of the changes give a scene whose hash another one has.
+// The changes whose hash equals that of another scene.
 std::vector<std::size_t> unnoticed(const std::vector<Change>& changes,
                                    const std::function<std::uint64_t(const Scene&)>& hash) {
     std::set<std::uint64_t> hashes{hash(full_scene())};

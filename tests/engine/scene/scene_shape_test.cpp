@@ -73,7 +73,7 @@ TEST(SceneShape, boxes_equal_brute_force) {
         EXPECT_EQ(solid, filtered(from - 2, to + 2, 5, holds));
         EXPECT_EQ(drawn({BoxShape{from, to, true, std::uint16_t{5}}}),
                   filtered(from - 2, to + 2, 5, shell_of(holds)));
-        // Negative control: one cell more must be seen.
+        // Negative control: one cell more must be noticed.
         EXPECT_NE(solid, filtered(from - 2, to + 2, 5, [&](glm::ivec3 c) { return holds(c) || c == to; }));
     }
 }
@@ -139,7 +139,7 @@ TEST(SceneShape, wide_scene_is_one_model) {
         EXPECT_EQ(cells.at({x, 3, -5}), 3);
 }
 
-// Of a size whose cells would take gigabytes: 645^3 cells of a solid box, 2.6e8 of a shell.
+// Shapes whose cells would take gigabytes: 645^3 cells of a solid box, 2.6e8 of a shell.
 TEST(SceneShape, large_boxes_are_few_boxes) {
     const BoxShape solid{{0, 0, 0}, {645, 645, 645}, false, std::uint16_t{1}};
     const BoxShape room{{0, 0, 0}, {16000, 8000, 200}, true, std::uint16_t{1}};

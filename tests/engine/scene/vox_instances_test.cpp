@@ -57,7 +57,7 @@ TEST(WorldCell, all_48_signed_permutations_equal_brute_force) {
     }
 }
 
-// The comparison above can fail: the same rule without the half voxel is one cell off in every mirrored axis.
+// Negative control: the same rule without the half voxel is one cell off along every mirrored axis.
 TEST(WorldCell, brute_force_without_the_half_voxel_differs) {
     int different = 0;
     for (const Signed& s : all_signed_permutations()) {
@@ -224,8 +224,7 @@ TEST(VoxInstances, a_hand_made_cycle_is_refused) {
     EXPECT_EQ(instances.reason(), "node 0: node 0 is below itself: the scene graph has a cycle");
 }
 
-// A file that stands in a scene under an outer placement: its cells, moved as cells, are the instances'
-// cells.
+// A file placed in a scene by an outer placement: its cells, moved one by one, are those of the instances.
 TEST(VoxPlacement, outer_placement_moves_every_cell_exactly) {
     const VoxFile file =
         read_scene(chiral_model(3, 4, 5) + transform(0, 1, -1, {{{"_r", "40"}, {"_t", "5 6 -7"}}}) +

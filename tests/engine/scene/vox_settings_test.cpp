@@ -1,4 +1,4 @@
-// What the settings of a .vox file become. Files are written here, byte by byte.
+// What the settings of a .vox file become. The files are written here, byte by byte.
 
 #include <gtest/gtest.h>
 

@@ -101,7 +101,7 @@ TEST(Barriers, write_after_read_waits) {
               std::vector{hazard(1, "a", write_after_read, Stage::compute, Stage::compute)});
 }
 
-// The case that synchronization validation does not see.
+// A case that synchronization validation does not notice.
 TEST(Barriers, dispatch_after_dispatch_to_one_buffer_waits) {
     Recording recording = with_buffers({"a"});
     recording.dispatch(fill("a"));
@@ -245,7 +245,7 @@ TEST(Barriers, transfer_amid_uses_by_address_is_not_direct) {
     EXPECT_FALSE(is_direct_transfer(recording, 4, kMapped));
 }
 
-// The oracle: who touches what, by brute force over all pairs of commands.
+// The oracle: which command accesses what, by brute force over all pairs of commands.
 struct Touch {
     std::string buffer;
     Stage stage;
@@ -341,7 +341,8 @@ TEST(Barriers, random_recordings_have_no_race) {
     }
 }
 
-// Negative control: without one of its barriers a recording races, so the oracle sees and no barrier is idle.
+// Negative control: without one of its barriers a recording has a race, so the oracle works and no barrier is
+// idle.
 TEST(Barriers, random_recordings_race_without_any_one_barrier) {
     std::mt19937 random(8);
     int removed = 0;
@@ -361,7 +362,7 @@ TEST(Barriers, random_recordings_race_without_any_one_barrier) {
             caught += count_races(recording, rest) > 0 ? 1 : 0;
         }
     }
-    // Barriers that only a chain of others replaces are kept on purpose; they are few.
+    // Barriers that only a chain of other barriers replaces are kept on purpose; they are few.
     EXPECT_GT(caught, removed * 9 / 10) << caught << " of " << removed;
 }
 

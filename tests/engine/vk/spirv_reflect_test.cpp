@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::uint32_t>;
 
-// A module put together by hand, instruction by instruction (SPIR-V specification, section 3).
+// A module assembled by hand, instruction by instruction (SPIR-V specification, section 3).
 struct Assembler {
     Words words{0x07230203u, 0x00010500u, 0u, 100u, 0u};
 

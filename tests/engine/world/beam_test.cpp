@@ -231,7 +231,7 @@ TEST(Beam, saves_steps_of_parallel_rays) {
     EXPECT_GT(static_cast<double>(sum.steps_saved), 0.1 * static_cast<double>(sum.steps));
 }
 
-// Negative control of all that find no difference.
+// Negative control of all tests that find no difference.
 TEST(Beam, late_starts_are_caught) {
     const MarchWorld world = build_march_world(sparse_world(), Traversal::wide);
     Comparison sum;

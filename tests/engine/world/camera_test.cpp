@@ -17,8 +17,8 @@
 namespace voxilux {
 namespace {
 
-// Voxels. The header promises 2^-24 a million voxels away and 2^-21 at the farthest camera, 2^23 voxels away;
-// on top comes the rounding of the fraction, 2^-25.
+// Voxels. The header promises 2^-24 a million voxels away and 2^-21 for the farthest camera, 2^23 voxels
+// away; the rounding of the fraction, 2^-25, is added.
 constexpr long double kEntryError = 0x1p-20L;
 // The length of a float direction after one division by a rounded root.
 constexpr double kLengthError = 2e-7;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t kEditSeed = 20265;
 
-// First voxel whose cell, with its box, differs between two structures; empty when there is none. Blocks may
-// be numbered otherwise.
+// The first voxel whose cell, with its box, differs between two structures; empty when there is none. Blocks
+// may have other numbers.
 std::string first_difference(const MarchWorld& a, const MarchWorld& b) {
     const glm::ivec3 size = a.size();
     for (int z = 0; z < size.z; ++z) {
@@ -43,7 +43,7 @@ void patch(const std::vector<std::uint32_t>& from, const std::vector<WordRange>&
                   words.begin() + static_cast<std::ptrdiff_t>(range.first));
 }
 
-// Whoever holds the arrays of `before` and gets these words holds those of `after`.
+// The arrays of `before`, patched with these words, must equal those of `after`.
 void expect_changes_suffice(MarchWorld before, const WorldChanges& changes, const MarchWorld& after) {
     if (changes.is_rebuilt) return;
     patch(after.roots, changes.roots, before.roots);
@@ -119,7 +119,7 @@ TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
 
 INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()), test::traversal_name);
 
-// The box of both edits has 2^26 bricks and more.
+// The box of both edits has more than 2^26 bricks.
 TEST(EditWorldFarApart, edits_in_opposite_corners_of_a_large_world_build_it_anew) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(260, 65, 65));
     world.set({9, 9, 9}, 1);

@@ -115,7 +115,7 @@ TEST_P(EmptyBoxes, are_empty_after_random_edits) {
     }
 }
 
-// Negative control: wherever a distance that is one longer would reach a voxel, writing it is noticed.
+// Negative control: a distance that is raised by one and then reaches a voxel is noticed everywhere.
 TEST_P(EmptyBoxes, one_distance_raised_by_one_into_a_voxel_is_caught) {
     std::mt19937 dice(kBoxesSeed + 2);
     int raised = 0;
@@ -176,7 +176,7 @@ double mean_distance(const std::vector<std::uint8_t>& filled, const Distance& di
     return sum / count;
 }
 
-// Means of both ways to grow over the same roots: joining boxes, and cell by cell.
+// Means of both ways to grow boxes over the same roots: by joining boxes, and cell by cell.
 std::array<double, 2> both_means(const VoxelWorld& world, Traversal traversal) {
     const MarchWorld built = build_march_world(world, traversal);
     const int log2 = gpu::root_log2(static_cast<gpu::uint>(traversal));
@@ -198,7 +198,7 @@ std::array<double, 2> both_means(const VoxelWorld& world, Traversal traversal) {
         mean_distance(filled, [&](std::size_t i, std::uint32_t direction) { return grown[i][direction]; })};
 }
 
-// Growing cell by cell (the paper's way) is the measure. Joins may end a little shorter or longer.
+// Growing cell by cell (as in the paper) is the yardstick. Joined boxes may be a little shorter or longer.
 TEST(RootBoxes, are_on_average_as_long_as_boxes_grown_cell_by_cell) {
     constexpr double kShare = 0.95;
     std::mt19937 dice(kBoxesSeed + 4);

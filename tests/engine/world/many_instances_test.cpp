@@ -1,4 +1,4 @@
-// Ten thousand instances of a model: what the file, the world and its structures take, and whether every
+// Ten thousand instances of a model: the memory of the file, the world and its structures, and whether every
 // voxel lies where direct flattening puts it.
 
 #include <gtest/gtest.h>

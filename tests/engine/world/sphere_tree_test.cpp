@@ -141,7 +141,7 @@ gpu::uint glass_by_list(const TreeCase& c, glm::vec3 point, gpu::uint but) {
     return around;
 }
 
-// Every other ray starts on the sphere that the ray before it hit. Of all, how many disagree.
+// Every other ray starts on the sphere that the ray before it hit. Returns how many rays disagree.
 int mismatches(const TreeCase& c, const SphereView& view) {
     Numbers numbers;
     int count = 0;
@@ -184,7 +184,7 @@ TEST(SphereTreeControl, boxes_that_are_too_small_are_noticed) {
     EXPECT_GT(mismatches(c, {nodes, c.spheres}), 10);
 }
 
-// Spheres that take something of a disc and that the walk of lib/photon_share.glsl does not meet.
+// Spheres that cover a part of a disc but are not met by the walk of lib/photon_share.glsl.
 int lost_to_discs(const TreeCase& c, const std::vector<gpu::SphereNode>& nodes) {
     Numbers numbers;
     int lost = 0;
@@ -219,8 +219,8 @@ TEST(SphereTreeControl, inner_boxes_that_are_too_small_lose_spheres_of_discs) {
     EXPECT_GT(lost_to_discs(c, nodes), 10);
 }
 
-// The work of a ray grows like the logarithm: ten times as many spheres in ten times the space, with fewer
-// than twice the visits (linear would be ten times).
+// The work of a ray grows logarithmically: ten times as many spheres in ten times the space take fewer than
+// twice the visits (linear growth would be ten times).
 TEST(SphereTreeCost, visits_grow_slowly) {
     const auto visits = [](int count) {
         const double edge = 8.0 * std::cbrt(static_cast<double>(count));

@@ -7,7 +7,7 @@
 namespace voxilux {
 namespace {
 
-// Whether the prediction holds: exact but for leaves, which may be fewer when bricks repeat.
+// Whether the prediction holds: exactly, except that there may be fewer leaves when bricks repeat.
 bool is_right(const StructureBytes& predicted, const StructureBytes& built) {
     return predicted.roots == built.roots && predicted.nodes == built.nodes &&
            predicted.leaves >= built.leaves;

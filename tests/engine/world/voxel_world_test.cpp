@@ -50,7 +50,7 @@ Box random_box(std::mt19937& random) {
     return {lo, glm::min(lo + extent, glm::ivec3(32, 32, 16))};
 }
 
-// Boxes, cells that are set and cells that are cleared: what boxes share, no other cell may change.
+// Boxes, and cells that are set and cleared: a change must not reach other cells that share the box's brick.
 TEST(VoxelWorld, boxes_and_cells_equal_a_plain_map) {
     std::mt19937 random(11);
     for (int trial = 0; trial < 20; ++trial) {

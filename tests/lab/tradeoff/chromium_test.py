@@ -48,7 +48,7 @@ class Shown(unittest.TestCase):
             self.assertEqual(self.pictures[scheme].getpixel((2, 2)), colour, scheme)
 
     def test_page_is_full_from_top_to_bottom(self):
-        """Every stretch of 400 pixels holds something else than paper."""
+        """Every stretch of 400 pixels has something other than background."""
         for scheme, picture in self.pictures.items():
             for top in range(0, SIZE[1] - 400, 400):
                 stretch = picture.crop((0, top, SIZE[0], top + 400))

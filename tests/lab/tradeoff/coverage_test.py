@@ -1,4 +1,4 @@
-"""The coverage tool, with a stand-in for voxilux that is honest or is not.
+"""The coverage tool, with a stand-in for voxilux whose error bounds are right or wrong.
 
     coverage_test.py COVERAGE SCENES VOXILUX
 """

@@ -57,7 +57,7 @@ def run(knob, setting, time_s, noise, bias, spp, is_default=False):
 
 
 def curve(one):
-    """The same setting with a quarter of the samples, as many, and four times as many."""
+    """The same setting with a quarter of the samples, with as many, and with four times as many."""
     levels = []
     for factor in (0.25, 1.0, 4.0):
         other = run("", "", factor * one["time_s"]["median"], one["error"]["noise"] / math.sqrt(factor),

@@ -1,6 +1,6 @@
-"""Stands for voxilux where coverage.py is tested. A picture is a file with the size of its error and its seed.
+"""Stands in for voxilux in the tests of coverage.py. A picture is a file with the size of its error and its seed.
 
-Scenes: honest.toml; liar.toml has twice the error it claims; late.toml takes longer than its forecast; silent.toml
+Scenes: honest.toml; liar.toml has twice the error that it reports; late.toml takes longer than its forecast; silent.toml
 knows neither; noisy.toml has references worse than its pictures; broken.toml cannot be rendered.
 """
 

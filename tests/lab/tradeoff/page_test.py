@@ -26,7 +26,7 @@ VOID = {"meta", "img", "br", "link", "hr", "input"}
 
 
 class Ending:
-    """What page.py ended with, without a process of its own: loading matplotlib takes longer than a page."""
+    """Runs page.py in this process, because loading matplotlib takes longer than making a page."""
 
     def __init__(self, *words):
         import page
@@ -186,7 +186,7 @@ class Page(unittest.TestCase):
 
 class Joined(unittest.TestCase):
     def test_joined_source_runs_from_standard_input(self):
-        """As voxilux runs it, which carries the source inside."""
+        """Runs the joined script as voxilux does, which holds it inside the binary."""
         with tempfile.TemporaryDirectory() as folder:
             source = fake_price_list.write(folder)
             done = make(source, folder=folder)

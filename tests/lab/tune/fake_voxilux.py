@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Stands for voxilux where the search is tested: its errors are a formula with one smallest value."""
+"""Stands in for voxilux in the tests of the search: its errors follow a formula with one minimum."""
 
 import json
 import math

@@ -125,7 +125,7 @@ TEST(BenchAo, prints_rows_with_their_keys_for_each_motion_and_variant) {
     EXPECT_EQ(rows[1]["atomics"].get<double>(), 2.0 * rows[1]["rays"].get<double>());
     EXPECT_EQ(rows[3]["motion"], "walk");
     EXPECT_GT(rows[4]["searched_percent"], 0.0);
-    // Cells that keep their samples are nearer to the truth than one ray is.
+    // Cells that keep their samples are nearer to the truth than a single ray is.
     for (const std::size_t brute : {0u, 3u})
         EXPECT_LT(rows[brute + 1]["errors"][1]["rmse"], rows[brute]["errors"][1]["rmse"]);
 }
@@ -178,7 +178,7 @@ TEST(BenchPhotons, prints_rows_with_their_keys_for_each_variant) {
         EXPECT_TRUE(row["relmse"].is_null());
         EXPECT_EQ(row["faults"], 0) << row;
     }
-    // Paths that chance does not end are longer.
+    // Paths without roulette are longer.
     EXPECT_GT(rows[1]["segments"], rows[0]["segments"]);
     EXPECT_GT(rows[1]["stored"], rows[0]["stored"]);
 }

@@ -30,7 +30,7 @@ Pipe make_pipe() {
     return {ends[0], ends[1]};
 }
 
-// Between fork and exec; what fails here ends the child with a code that voxilux does not have.
+// Runs between fork and exec. What fails here ends the child with a code that voxilux does not have.
 [[noreturn]] void become(const std::vector<std::string>& arguments, const Surroundings& surroundings, int out,
                          int err) {
     ::dup2(out, STDOUT_FILENO);
@@ -38,7 +38,7 @@ Pipe make_pipe() {
     if (!surroundings.folder.empty() && ::chdir(surroundings.folder.c_str()) != 0) ::_exit(126);
     ::setenv("XDG_CACHE_HOME", VX_TEST_CACHE, 1);
     ::setenv("XDG_STATE_HOME", VX_TEST_CACHE "/state", 1);
-    ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // drivers leak, and are gone when leaks are traced
+    ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // drivers leak, and are unloaded before leaks are traced
     for (const auto& [name, value] : surroundings.environment)
         ::setenv(name.c_str(), value.c_str(), 1);
     for (const int signal : surroundings.ignored_signals)

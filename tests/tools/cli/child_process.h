@@ -34,12 +34,13 @@ class ChildProcess {
     explicit ChildProcess(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
-    ~ChildProcess();  // kills it when it still runs
+    ~ChildProcess();  // kills it if it still runs
 
-    // Waits until standard error holds a whole line, and returns it; empty when it ended without one.
+    // Waits until standard error holds a whole line, and returns it; empty when the process ended without
+    // one.
     std::string wait_for_error_line();
 
-    // Waits until standard error holds `text`; false when it ended without it.
+    // Waits until standard error holds `text`; false when the process ended without it.
     [[nodiscard]] bool wait_for_error(const std::string& text);
 
     void send(int signal);

@@ -1,4 +1,4 @@
-// voxilux convert as a user runs it, and inputs that become voxels on the way to a picture.
+// voxilux convert as a user runs it, and inputs that are converted to voxels before they are rendered.
 
 #include <gtest/gtest.h>
 

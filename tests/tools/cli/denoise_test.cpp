@@ -58,12 +58,12 @@ TEST(DenoiseCommand, parts_are_filtered_when_they_are_together) {
     EXPECT_TRUE(nlohmann::json::parse(ending.out).at("denoised").at("filtered").get<bool>());
     EXPECT_TRUE(bytes_of(scratch / "d.png") == bytes_of(scratch / "whole.png"));
     EXPECT_TRUE(read_exr(scratch / "d.exr").channels.contains("denoised.error.Y"));
-    // One half of the samples has but one half of the film.
+    // One half of the samples fills only one half of the film.
     EXPECT_EQ(run({"denoise", "1.exr", "-o", "one.png", "-q"}, here).code, 0);
     EXPECT_FALSE(bytes_of(scratch / "one.png") == bytes_of(scratch / "d.png"));
 }
 
-// A part carries the exposure that the author of its file has set.
+// A part carries the exposure that its file's author has set.
 TEST(DenoiseCommand, part_is_shown_with_the_exposure_of_its_file) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};

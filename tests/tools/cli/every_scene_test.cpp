@@ -44,7 +44,7 @@ std::vector<std::string> stems_in(const fs::path& folder, const std::string& end
     return stems;
 }
 
-// A name that GoogleTest takes.
+// A test name that GoogleTest accepts.
 std::string test_name(const testing::TestParamInfo<std::string>& test) {
     std::string name = test.param;
     for (char& letter : name) {
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(scenes, EveryScene,
 
 class EveryVoxExternal : public testing::TestWithParam<std::string> {};
 
-// Real files may be odd, and then say so.
+// Real files may have oddities, which are reported.
 TEST_P(EveryVoxExternal, renders_without_a_message_or_a_fault) {
     SKIP_WITHOUT_SHARED_DATA();
     expect_clean_render((shared_data() / "data" / "vox" / (GetParam() + ".vox")).string(), true);

@@ -17,7 +17,7 @@ Words one_voxel_render(const std::string& output, Words more = {}) {
     return with({"render", scene_file("one_voxel"), "--size", "32x18", "--spp", "2", "-o", output}, more);
 }
 
-// A render that no machine finishes; it says on standard error when it has begun.
+// A render that no machine finishes. Standard error shows when it has begun.
 Words endless_render(const std::string& output) {
     return {"render",     scene_file("one_voxel"),
             "--size",     "32x18",

@@ -13,7 +13,7 @@
 namespace voxilux::test {
 namespace {
 
-// Of the forecast of memory, relative: what a user who plans memory can live with.
+// Relative tolerance of the memory forecast: enough for a user who plans memory.
 constexpr double kMemoryTolerance = 0.1;
 // From the time limit to the end of the process.
 constexpr double kLateness_s = 2.0;
@@ -99,7 +99,7 @@ TEST(PlanHistory, remembers_renders_that_had_a_forecast) {
     const Words render = {"render", scene_file("mixed"), "--size", "32x18", "-q", "-o", scratch / "a.png"};
     EXPECT_EQ(forecast_of({"plan", "--history"}, here)["count"], 0);
     EXPECT_EQ(run(with(render, {"--error", "20%"}), here).code, 0);
-    EXPECT_EQ(run(with(render, {"--spp", "2"}), here).code, 0);  // had none
+    EXPECT_EQ(run(with(render, {"--spp", "2"}), here).code, 0);  // had no error target
     const Json history = forecast_of({"plan", "--history"}, here);
     EXPECT_EQ(history["count"], 1);
     ASSERT_EQ(history["renders"].size(), 1u);
@@ -141,7 +141,7 @@ TEST(ErrorFlag, render_that_goes_on_gives_the_picture_of_one_that_did_not_stop) 
               read_exr(scratch / "b.exr").channels.at("R").pixels);
 }
 
-// Seconds that a render with a time limit takes, from its start to the end of its process; fails where its
+// Seconds that a render with a time limit takes, from its start to the end of its process. Fails where its
 // pictures are not whole.
 double limited_seconds(const std::string& limit, const Words& more) {
     const ScratchFolder scratch;

@@ -45,7 +45,7 @@ TEST(Frames, frame_of_a_range_has_the_bytes_of_the_frame_alone) {
     EXPECT_EQ(run(small_turn({"--frame", "7", "--reproducible", "-o", "one.exr"}), here).code, 0);
     EXPECT_EQ(bytes_of(scratch / "a.0007.exr"), bytes_of(scratch / "one.exr"));
     EXPECT_NE(bytes_of(scratch / "a.0008.exr"), bytes_of(scratch / "one.exr"));
-    // 24 frames are a turn.
+    // 24 frames make a whole turn.
     EXPECT_EQ(run(small_turn({"--frames", "31", "--reproducible", "-o", "a.exr"}), here).code, 0);
     EXPECT_EQ(read_exr(scratch / "a.0031.exr").channels.at("R").pixels,
               read_exr(scratch / "one.exr").channels.at("R").pixels);
@@ -142,7 +142,7 @@ TEST(Frames, that_have_no_time_are_not_begun_and_named) {
               "voxilux: no time left for frame 2; 1 of 9 frames are written; go on with --frames 2-9\n");
 }
 
-// The first frame takes its share of the time; the signal comes in the second.
+// The first frame takes its part of the time; the signal comes in the second frame.
 TEST(Frames, interruption_keeps_what_is_finished_and_says_how_to_go_on) {
     const ScratchFolder scratch;
     ChildProcess child(small_turn({"--frames", "3-9x2", "--spp", "100000000", "--time-limit", "8s",
@@ -212,7 +212,7 @@ TEST(Frames, unnamed_pictures_never_replace_files) {
 TEST(Frames, side_named_by_a_flag_is_where_the_turn_begins) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
-    // From the front; a quarter of the turn is seen from the right.
+    // The turn begins at the front; after a quarter the right side is seen.
     EXPECT_EQ(run(small_turn({"--camera", "front", "--frame", "7", "-q", "-o", "a.exr"}), here).code, 0);
     EXPECT_EQ(run(small_turn({"--camera", "right", "--frame", "1", "-q", "-o", "b.exr"}), here).code, 0);
     EXPECT_EQ(read_exr(scratch / "a.exr").channels.at("Z").pixels,

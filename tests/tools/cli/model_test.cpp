@@ -1,5 +1,4 @@
-// Turntables, transparent pictures, sprites, and what a .vox file says of its picture, as a user renders
-// them.
+// Turntables, transparent pictures, sprites, and the picture settings of a .vox file, as a user renders them.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +34,7 @@ TEST(Turntable, turns_camera_model_or_light) {
     EXPECT_EQ(names_in(scratch.path()).size(), 13u);
 }
 
-// A turn of the model by a quarter is the file turned by a quarter.
+// A quarter turn of the model equals the file turned by a quarter.
 TEST(Turntable, model_turns_before_a_camera_and_a_sun_that_stay) {
     const ScratchFolder scratch;
     const auto scene = [](const char* rotate) {
@@ -52,7 +51,7 @@ TEST(Turntable, model_turns_before_a_camera_and_a_sun_that_stay) {
         run({"render", "rest.toml", "--turntable", "4", "--turn", "model", "-q", "-o", "m.exr"}, here);
     EXPECT_EQ(turn.code, 0) << turn.err;
     EXPECT_EQ(run({"render", "turned.toml", "-q", "-o", "t.exr"}, here).code, 0);
-    // Of the picture of the turned file, summed over the pixels.
+    // Relative to the picture of the turned file, summed over the pixels.
     const Image turned = read_exr(scratch / "t.exr");
     const auto apart = [&](const char* file) {
         const Image image = read_exr(scratch / file);

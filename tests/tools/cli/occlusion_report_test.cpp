@@ -1,4 +1,4 @@
-// What the report says of occlusion.
+// The occlusion section of the report.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(OcclusionReport, has_a_line_for_people) {
     EXPECT_EQ(run(small_render(scratch)).out.find("\nocclusion "), std::string::npos);
 }
 
-// Where keys lie that share a home depends on the threads; nothing that is stored may.
+// The order of keys with the same home slot depends on the threads; nothing that is stored may.
 TEST(OcclusionReport, reproducible_picture_with_shared_occlusion_has_the_same_bytes_for_other_workgroups) {
     const ScratchFolder scratch;
     const auto bytes_with = [&](const char* group) {
@@ -71,7 +71,7 @@ TEST(OcclusionReport, reproducible_picture_with_shared_occlusion_has_the_same_by
     EXPECT_EQ(bytes_with("1x64"), usual);
 }
 
-// A model that is somewhere else from frame 1 on.
+// A model that is in another place from frame 1 on.
 std::string walking_file() {
     using namespace vox_builder;
     return file_text(chiral_model(4, 3, 5) +
@@ -79,7 +79,7 @@ std::string walking_file() {
                      shape(1, {{0, {{"_f", "0"}}}}));
 }
 
-// The plan of a range of frames holds every pass that its render records.
+// The plan of a range of frames has every pass that its render records.
 TEST(OcclusionReport, render_of_moving_voxels_records_only_passes_of_its_plan) {
     const ScratchFolder scratch;
     std::ofstream(scratch / "s.toml") << "[[model]]\nfile = 'walk.vox'\n[ao]\nmethod = 'hash'\nslots = "

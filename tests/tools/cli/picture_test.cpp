@@ -134,7 +134,7 @@ TEST(Picture, colour_alone_is_written_when_asked_for) {
     EXPECT_EQ(read_exr(scratch / "a.exr").channels.size(), 5u) << "R, G, B, sampleCount.Y, error.Y";
 }
 
-// Its corners would lie farther away than coordinates of 32 bits reach.
+// Its corners would be farther away than 32-bit coordinates reach.
 TEST(Picture, image_too_large_for_coordinates_is_refused) {
     const ScratchFolder scratch;
     const Ending ending =
@@ -145,7 +145,7 @@ TEST(Picture, image_too_large_for_coordinates_is_refused) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "a.exr"));
 }
 
-// Turned either way, another pair of corners lies beyond.
+// Turned either way, another pair of corners is out of reach.
 TEST(Picture, every_corner_of_an_image_is_looked_at) {
     const ScratchFolder scratch;
     for (const char* yaw : {"camera.yaw=20", "camera.yaw=-20"}) {
@@ -287,9 +287,9 @@ TEST(Picture, time_limit_ends_in_time_with_a_whole_picture) {
                          scratch / "a.exr"};
     EXPECT_EQ(run(words).code, 0);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    EXPECT_GE(seconds, 1.0)
-        << "what is kept for the last slice and the files, as a strip foretold, is less than half";
-    EXPECT_LE(seconds, 2.0 + 2.0) << "the limit, and 2 s for the last slice and the files";
+    EXPECT_GE(seconds, 1.0) << "what is reserved for the last dispatch tile and the files, as a strip "
+                               "predicted, is less than half";
+    EXPECT_LE(seconds, 2.0 + 2.0) << "the limit, and 2 s for the last dispatch tile and the files";
     const Image image = read_exr(scratch / "a.exr");
     for (const float samples : image.channels.at("sampleCount.Y").pixels)
         ASSERT_GE(samples, 1.0f);

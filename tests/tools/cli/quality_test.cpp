@@ -1,4 +1,4 @@
-// Quality presets: what they set, what wins over them, what --help says.
+// Quality presets: what they set, what overrides them, what --help prints.
 
 #include <gtest/gtest.h>
 

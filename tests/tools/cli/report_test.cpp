@@ -64,7 +64,7 @@ TEST(Report, numbers_are_plausible_and_faults_are_zero) {
         EXPECT_EQ(count, 0) << name;
 }
 
-// The effect's own time is that of its passes; an effect without a pass has none.
+// The time of an effect is that of its passes. An effect without a pass has none.
 TEST(Report, effects_carry_the_time_of_their_passes) {
     const ScratchFolder scratch;
     const Json report = json_of(small_render(scratch, {"--json", "-"}));

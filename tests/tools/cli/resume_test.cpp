@@ -1,4 +1,4 @@
-// Checkpoints: what is left of a render that did not end, and how it goes on.
+// Checkpoints: what an unfinished render leaves, and how it goes on.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -32,7 +32,7 @@ std::string uninterrupted(const Words& more) {
     return bytes_of(scratch / "a.exr");
 }
 
-// Names but for files that were being written when their process was killed.
+// Names in the folder, without files that were being written when their process was killed.
 Words whole_names_in(const fs::path& folder) {
     Words names = names_in(folder);
     std::erase_if(names, [](const std::string& name) { return name.ends_with(".tmp"); });

@@ -134,8 +134,8 @@ TEST(Merge, what_does_not_belong_together_ends_with_3) {
     EXPECT_NE(refusal({"p1.exr", "none.exr"}).find("none.exr: cannot open"), std::string::npos);
 }
 
-// A render of `flags` in one go, and in parts that are merged as a list and as a tree. Techniques that find
-// light by paths and by photons take other ways through the engine than occlusion does.
+// A render of `flags` in one go, and in parts that are merged as a list and as a tree. Techniques that use
+// paths or photons run other passes than occlusion does.
 void expect_partitions_to_add_up(const Words& flags) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
@@ -170,7 +170,8 @@ TEST(Samples, parts_of_photons_add_up_to_one_render) {
         {scene_file("cornell"), "--photons", "2000", "--technique", "indirect=photons"});
 }
 
-// The number of samples is no part of a part: those of another command go on where the first one ended.
+// The total number of samples is not stored in a part: the parts of another command continue where the first
+// one ended.
 TEST(Samples, more_samples_can_be_added_later) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
@@ -198,7 +199,7 @@ TEST(Samples, finished_part_ends_the_command_at_once) {
     EXPECT_EQ(again.err, "note: p.exr has these samples already\n");
     EXPECT_EQ(Json::parse(again.out)["samples"], 4);
     EXPECT_TRUE(bytes_of(scratch / "p.exr") == before) << "not written anew, with other times";
-    // Other samples, another scene or damage: it is rendered.
+    // With other samples, another scene or damage, it is rendered again.
     for (const Words& more : {Words{"--samples", "2-6"}, Words{"--seed", "5"}})
         EXPECT_EQ(run(with(part, with(more, {"-q"})), here).code, 0);
     EXPECT_FALSE(bytes_of(scratch / "p.exr") == before);

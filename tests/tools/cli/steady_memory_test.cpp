@@ -1,4 +1,4 @@
-// A render of many samples needs the memory of one of few: nothing is kept of a sample but its sums.
+// A render of many samples needs as much memory as one of few: only sums are kept.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFewSamples = 20;
 constexpr int kManySamples = 220;
-// MiB. A shader that is compiled for each sample anew leaves 0.14 MiB or more each time, 28 in all.
+// MiB. A shader that is compiled anew for each sample leaves at least 0.14 MiB each time, 28 in all.
 constexpr double kSteady = 8.0;
 
 double peak_mib(const Words& scene, int samples) {
@@ -26,7 +26,7 @@ double peak_mib(const Words& scene, int samples) {
     return nlohmann::json::parse(ending.out)["peak_rss_mib"];
 }
 
-// Pipelines are made by the first render, so that the second one only finds them.
+// The first render makes the pipelines, so that the second one only finds them.
 double growth_mib(const Words& scene) {
     (void)peak_mib(scene, 1);
     return peak_mib(scene, kManySamples) - peak_mib(scene, kFewSamples);
@@ -59,7 +59,7 @@ TEST(SteadyMemory, of_emitters_and_photons) {
         EXPECT_LT(growth_mib({scene_file(scene), "--photons", "256"}), kSteady) << scene;
 }
 
-// Negative control: a picture that is larger by as much as the samples above were more does not pass.
+// Negative control: the memory of a larger picture is noticed.
 TEST(SteadyMemory, sees_what_a_larger_picture_takes) {
     const Words scene{scene_file("first_light")};
     Words larger = scene;

@@ -162,7 +162,7 @@ void expect_a_front(const Made& made) {
     }
 }
 
-// Each check would measure anew if it were a test of its own.
+// One test, because each check would otherwise measure anew.
 TEST(Tradeoff, of_a_small_scene_holds_what_is_known_of_it) {
     const Made made;
     ASSERT_EQ(made.ending.code, 0) << made.ending.err;
@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedWords{"file_for_a_folder", {"tradeoff", scene_file("night"), "-o", "file"}, 73, "file"}),
     [](const testing::TestParamInfo<RefusedWords>& one) { return one.param.name; });
 
-// How a price list ends that is interrupted when its progress says `stage`.
+// How a price list ends that is interrupted at the progress message `stage`.
 Ending interrupted_list(const ScratchFolder& folder, const std::string& time_limit,
                         const std::string& stage) {
     Words words = small_list(folder / "list", "4096");
@@ -269,8 +269,8 @@ TEST(TradeoffPage, that_python_cannot_make_leaves_the_other_files) {
     const ScratchFolder folder;
     Words words = small_list(folder / "list", "2");
     std::erase(words, "--no-page");
-    // A folder that holds something is where the page should go, and a module of the library's name lies
-    // about.
+    // A non-empty folder is where the page should go, and a module with the library's name lies in the
+    // current folder.
     std::filesystem::create_directories(folder / "list/tradeoff.html/kept");
     write_text(folder / "matplotlib.py", "open('ran', 'w')");
     const Ending ending = run(words, {.folder = folder.path()});

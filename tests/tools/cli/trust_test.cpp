@@ -1,5 +1,5 @@
-// What the edges of the system may do to a render: streams that take nothing, odd names, signals, files made
-// to hurt. A finished picture is never lost to them.
+// What the environment may do to a render: streams that take nothing, odd names, signals, hostile files. None
+// of them costs a finished picture.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -28,7 +28,7 @@ TEST(FullStreams, messages_that_nobody_can_read_change_no_exit_code) {
     EXPECT_EQ(names_in(scratch.path()), Words{"a.png"});
 }
 
-// Results on a full stream are lost, which the code says; the picture is not.
+// Results on a full stream are lost, as the exit code says; the picture is not.
 TEST(FullStreams, picture_is_written_whatever_standard_output_is) {
     const ScratchFolder scratch;
     const Ending ending =
@@ -160,7 +160,7 @@ TEST(Signals, user_signal_saves_a_checkpoint_and_goes_on) {
     EXPECT_EQ(child.finish().code, 130) << "it was still at work";
 }
 
-// What the end of the render takes is asked for before its first sample.
+// The memory that the end of the render needs is reserved before its first sample.
 TEST(HostMemory, that_a_picture_will_lack_is_said_before_the_work) {
     const ScratchFolder scratch;
     Words words = one_voxel("a.png", {"--progress", "json"});

@@ -1,4 +1,4 @@
-// Two commands that are asked the same give the same answer.
+// Two ways to ask for the same thing give the same answer.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace voxilux::test {
 namespace {
 
-// A block of a medium beside one whose roughness is no number.
+// A block of a medium beside one whose roughness is not a number.
 std::string vox_of_a_medium(const ScratchFolder& scratch) {
     using namespace vox_builder;
     const std::string file = scratch / "medium.vox";
@@ -46,7 +46,7 @@ TEST(SceneMessages, are_none_for_materials_that_are_simulated) {
     EXPECT_EQ(info.out.find("medium"), std::string::npos) << info.out;
 }
 
-// The same pixels with the same random numbers, some of them alone.
+// The same pixels with the same random numbers, but only some of them.
 TEST(CompareCrop, is_in_the_window_that_both_images_have) {
     const ScratchFolder scratch;
     const std::string whole = scratch / "whole.exr", crop = scratch / "crop.exr",

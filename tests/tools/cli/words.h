@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of the binary say and hear: command lines as words, and the JSON that comes back.
+// Helpers to call the binary: command lines as words, and the JSON that comes back.
 
 #include <gtest/gtest.h>
 

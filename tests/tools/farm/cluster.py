@@ -1,4 +1,4 @@
-"""What the tests of the farm share: renders, jobs, and clusters on the loopback."""
+"""Helpers of the farm's tests: renders, jobs, and clusters on the loopback."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""Whether the farm's claims hold: with --error, the true error of the merged picture is below what was asked for in at
+"""Whether the farm keeps its error targets: with --error, the true error of the merged picture is below the target in at
 least 95 % of the jobs. The truth is a picture with many more samples and another seed.
 
     errors.py BINARY SCENES [--error 3%] [--seeds 3] [--scenes 20] [--truth 64]
@@ -17,7 +17,7 @@ TRUTH_SEED = "1000003"
 
 
 def true_error(bench, truth, picture):
-    """The square root of relMSE, as the claim is."""
+    """The square root of relMSE, as in the report."""
     found = subprocess.run([bench.binary, "compare", bench.top / truth, bench.top / picture, "--json", "-"],
                            capture_output=True, text=True, check=True)
     return math.sqrt(json.loads(found.stdout)["relmse"])

@@ -14,7 +14,7 @@ from cluster import Cluster, bench_of_arguments, can_hide_folders, kill, workers
 
 BENCH = bench_of_arguments()
 SMALL = ["--size", "48x27", "--spp", "24"]
-# The first part is one sample, so whoever looks for it 50 times a second finds most of the work still to be done.
+# The first part is one sample, so a test that looks for it 50 times a second finds most of the work still to be done.
 LONG = ["--size", "320x180", "--spp", "48"]
 
 
@@ -70,7 +70,7 @@ class Farm(unittest.TestCase):
         self.assertGreater(self.difference(pale, *more), 0.0, "or the colour is not seen")
 
     def difference(self, mesh, *more):
-        """Of a render in one process from the picture of the farm."""
+        """The difference between a render in one process and the picture of the farm."""
         BENCH.render(mesh, "direct.exr", *more)
         words = [BENCH.binary, "compare", BENCH.top / "direct.exr", BENCH.top / "mesh.exr", "--json", "-"]
         found = subprocess.run(words, capture_output=True, text=True, check=True)
@@ -143,7 +143,7 @@ class Farm(unittest.TestCase):
             self.assertIn("is not used: ", err)
             self.assertIn("is another build", err)
             self.assertIn("missing: samples 0-23; --resume goes on", err)
-            # What it is told is longer than the 128 KiB of an argument.
+            # Its input is longer than the 128 KiB that an argument may have.
             _, err = BENCH.farm("turntable", "many.exr", "--frames", "1-4000", "--scheduler", cluster.address,
                                 "--worker-binary", other, code=75)
             self.assertIn("4000 of 4000 frames are missing, from 1 on", err)

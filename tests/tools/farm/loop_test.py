@@ -1,4 +1,4 @@
-"""What the loop of a job does with the answers of workers: a client of our own stands for Dask."""
+"""What the loop of a job does with the answers of workers. A client of our own stands in for Dask."""
 
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""What the farm decides, without a cluster: ranges, the folder of a job, who gets which task."""
+"""The farm's decisions, without a cluster: ranges, the folder of a job, who gets which task."""
 
 import os
 import pathlib
@@ -44,7 +44,7 @@ class JobFolder(unittest.TestCase):
         self.last = None
 
     def job(self, resumes=False, **changes):
-        """What a new process would make of the folder: the one before has ended, and with it its lock."""
+        """Opens the folder as a new process would: the process before has ended, and with it its lock."""
         if self.last is not None:
             os.close(self.last.lock)
         manifest = {"id": "1", "build": "b", "scene": "s.toml", "words": [], "frames": [0], "by_frames": False,
@@ -64,7 +64,7 @@ class JobFolder(unittest.TestCase):
         self.add(job, 0, 4)
         self.add(job, 8, 9)
         with open(job.folder / "journal.jsonl", "a", encoding="utf-8") as journal:
-            journal.write('{"frame": 0, "ranges": [[4')  # torn
+            journal.write('{"frame": 0, "ranges": [[4')  # incomplete
         again = self.job(resumes=True)
         self.assertEqual(again.samples(0), [(0, 4), (8, 9)])
         self.assertEqual(again.missing(0, 10), [(4, 8), (9, 10)])
@@ -187,8 +187,8 @@ class Tasks(unittest.TestCase):
     """Workers with a clock of our own: each takes a task, and ends it when its speed says so."""
 
     def play(self, speeds, units, start_s=0.5, dies=()):
-        """Runs all; returns the tasks in the order of their ends, and when the last one ended. A worker that dies gives
-        its task back half way."""
+        """Runs all tasks; returns them in the order of their ends, and when the last one ended. A worker that dies gives its
+        task back half way."""
         work, now_s, ends, done = Work(), 0.0, [], []
         work.add(0, [(0, units)])
         while farm_ranges.size(farm_ranges.union([(t.first, t.end) for t, *_ in done], [])) < units:

@@ -20,7 +20,7 @@ from farm_work import Work  # noqa: E402
 
 NAP_S = 0.02
 WORKERS = 4
-MAX_TASK_MS = 2.0  # of CPU, with cores of its own: other work on the same cores slows each task by a tenth and more
+MAX_TASK_MS = 2.0  # of CPU time, with cores of its own: other work on them slows each task by a tenth and more
 MAX_GROWTH_MIB = 100.0  # from a tenth of the tasks to the end
 
 

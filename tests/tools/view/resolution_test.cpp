@@ -15,7 +15,7 @@ struct Device {
     [[nodiscard]] double time_of(glm::ivec2 size) const { return fixed_s + pixel_s * size.x * size.y; }
 };
 
-// The frames until the size stays for twenty of them; a thousand: it never does.
+// The number of frames until the size stays for twenty of them; a thousand means never.
 int frames_until_steady(Resolution& resolution, const Device& device) {
     resolution.start();
     int steady = 0;

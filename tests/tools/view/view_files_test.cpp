@@ -9,7 +9,7 @@ std::string drop(const std::string& file) {
     return "[[step]]\ndrop = '" + file + "'\n";
 }
 
-// Plays a script on a file, without a size; the window remembers in state.json.
+// Plays a script on a file, without a given size; the window remembers in state.json.
 Ending play_remembered(const ScratchFolder& scratch, const std::string& input, const std::string& script,
                        const Words& more = {}) {
     write_text(scratch / "script.toml", script);

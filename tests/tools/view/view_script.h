@@ -19,7 +19,7 @@ inline bool is_ci() {
     return ci != nullptr && std::string_view(ci) == "true";
 }
 
-// A CI that cannot show windows would pass without having tried.
+// Skips without a display, but fails in CI, where a skip would pass without having tried.
 #define SKIP_UNLESS_DISPLAY()                                     \
     if (std::string_view(VX_BINARY).empty()) {                    \
         if (is_ci()) FAIL() << "no xvfb-run, which CI must have"; \

@@ -1,4 +1,4 @@
-// A long afternoon in the window.
+// A long session in the window.
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ constexpr int kFrames = 10000;
 // would double the memory.
 constexpr double kMaxGrowth = 1.15;
 
-// What happens every twelve frames: each number is another thing.
+// What happens in every twelfth frame; the numbers select different actions.
 std::string act(int number) {
     const auto text = [](int i) { return std::to_string(i); };
     switch (number % 8) {

@@ -1,4 +1,4 @@
-// Images with a background against the same scene before its sky: what the scene covers must be the same,
+// Images with a background against the same scene in front of its sky: what the scene covers must be equal,
 // sample by sample.
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Background, alpha_is_the_share_of_samples_that_meet_the_scene) {
     EXPECT_FALSE(render(scene, Backdrop::sky).channels.contains("A"));
 }
 
-// Premultiplied: what is left is the sky's.
+// Colours are premultiplied, so the rest is the sky's.
 TEST(Background, scene_and_sky_add_up_to_the_image_with_its_sky) {
     for (const bool has_glass : {false, true}) {
         const Scene scene = blocks(has_glass);
@@ -89,8 +89,8 @@ TEST(Background, glass_is_opaque) {
         EXPECT_EQ(alpha, 1.0f);
 }
 
-// A slab over the ground, which its shadow and nothing else shows, in a sun without a sky: alpha is 1 in the
-// shadow and 0 elsewhere, over what the ground lacks of light.
+// A slab over the ground, of which only the shadow is shown, in a sun without a sky: alpha is 1 in the shadow
+// and 0 elsewhere.
 TEST(Background, ground_that_catches_shadows_covers_by_the_light_that_it_lacks) {
     Scene scene = test::white_scene();
     scene.materials[0].albedo = glm::vec3(0.0f);
@@ -121,7 +121,7 @@ TEST(Background, ground_that_catches_shadows_covers_by_the_light_that_it_lacks) 
     EXPECT_GT(open, 800);
 }
 
-// Nothing on it: no alpha, whatever sun and sky are.
+// Nothing stands on the ground: no alpha, whatever sun and sky are.
 TEST(Background, ground_without_shadows_is_not_there) {
     Scene scene = blocks(false);
     scene.models.clear();
@@ -174,7 +174,8 @@ TEST(Background, what_nothing_covers_has_exactly_the_code_of_the_colour) {
     }
 }
 
-// A dark world with a lamp, and a black ground under the sky: what catches shadows cannot lack light.
+// Two worlds in which a shadow catcher cannot lack light: a dark one with an emitter, and a black ground
+// under the sky.
 TEST(Background, ground_that_catches_shadows_where_there_is_no_light_is_not_there) {
     for (const bool is_black : {false, true}) {
         Scene scene = test::white_scene();

@@ -1,6 +1,6 @@
-// The Cornell box against the reference picture, as the measure of photon mapping is defined: the emitters'
-// discs (luminance above 5, grown by 3 pixels) are left out; a Gaussian filter of 2 pixels tells the caustic
-// of the glass ball from noise.
+// The Cornell box against the reference picture, as the benchmark of photon mapping is defined: the emitters'
+// discs (luminance above 5, grown by 3 pixels) are left out; a Gaussian filter of 2 pixels separates the
+// caustic of the glass ball from noise.
 
 #include <cmath>
 #include <cstdlib>

@@ -76,7 +76,7 @@ TEST(EffectPrice, of_a_soft_sun_on_a_plane_is_within_its_interval) {
     EXPECT_LT(price.error_high - price.error_low, 0.05 * truth);
 }
 
-// Negative control: the closed form of a sun that stands five degrees higher is outside.
+// Negative control: the closed form for a sun five degrees higher lies outside.
 TEST(EffectPrice, of_a_soft_sun_rejects_another_elevation) {
     Scene scene = lit_plane(24.0f);
     scene.settings.sequence = Sequence::white;
@@ -87,7 +87,7 @@ TEST(EffectPrice, of_a_soft_sun_rejects_another_elevation) {
 
 TEST(EffectPrice, of_occlusion_on_a_plane_is_zero_in_error_and_not_in_time) {
     Scene scene = lit_plane(0.0f);
-    // So many rays that they take most of the time, on a busy machine too.
+    // So many rays that they take most of the time, even on a busy machine.
     scene.settings.size = {128, 128};
     scene.settings.ao_rays = 64;
     const EffectPrice price = price_of(scene, Effect::ao);
@@ -116,7 +116,7 @@ TEST(EffectPrice, of_occlusion_forced_under_a_black_sky_is_exactly_zero) {
     EXPECT_FALSE(price.is_beyond_noise);
 }
 
-// Negative control: under a sky the same occlusion shows, although its rays are noisy.
+// Negative control: under a sky the same occlusion changes the picture, although its rays are noisy.
 TEST(EffectPrice, of_occlusion_under_a_sky_is_beyond_noise) {
     Scene scene = pillar_in_space();
     scene.sky.radiance = glm::vec3(1.0f);
@@ -205,7 +205,7 @@ TEST(ChangedSession, renders_what_a_new_session_renders) {
     EXPECT_EQ(session.end(), std::vector<std::string>{});
 }
 
-// Negative control: the comparison sees a change.
+// Negative control: the comparison notices a change.
 TEST(ChangedSession, renders_something_else_with_another_seed) {
     Scene scene = pillar_in_space();
     scene.sky.radiance = glm::vec3(1.0f);

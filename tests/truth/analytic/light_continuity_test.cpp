@@ -1,5 +1,5 @@
-// What must not change a picture, or by no more than it shines: light found by each technique is a continuous
-// function of the scene, and knows nothing of how the scene is written down.
+// Changes that must not change a picture, or only by as little as they shine: the light that each technique
+// finds is a continuous function of the scene, and does not depend on how the scene is written down.
 
 #include <gtest/gtest.h>
 
@@ -38,9 +38,9 @@ const Way kReference{"indirect", "reference"};
 const Way kPhotons{"indirect", "photons"};
 const Way kOcclusion{"ao", "brute"};
 
-// A court of a floor, a wall and a lamp above them under sun and sky. `shift` moves all of it; `is_split`
-// makes two models of the wall and two materials of the lamp; `is_permuted` gives materials other numbers and
-// names.
+// A court of a floor, a wall and an emitter above them under sun and sky. `shift` moves all of it; `is_split`
+// makes two models of the wall and two materials of the emitter; `is_permuted` gives materials other numbers
+// and names.
 struct Court {
     glm::ivec3 shift{0};
     bool is_split = false;
@@ -116,7 +116,7 @@ TEST_P(LightContinuity, faint_light_changes_the_picture_by_as_little) {
     const LightPicture without = render(court({.lamp = 0.0f}), way);
     const LightPicture faint = render(court({.lamp = 1e-4f}), way);
     EXPECT_TRUE(test::is_equal_light(without, faint));
-    // Photons of the sun are other ones where some start from the lamp.
+    // Photons of the sun differ where some photons start from the emitter.
     const double most = way.technique == "photons" ? 1.0 : 1e-3;
     EXPECT_LT(farthest_apart(without, faint), most);
     EXPECT_FALSE(test::is_equal_light(without, render(court({.lamp = 6.0f}), way))) << "negative control";
@@ -129,7 +129,7 @@ TEST_P(LightContinuity, light_in_two_parts_is_the_same_light) {
         << "negative control";
 }
 
-// To the bit: numbers and names of materials, and whole voxels by which all is moved.
+// Equal to the bit: other numbers and names of materials, and a shift by whole voxels.
 TEST_P(LightContinuity, scene_written_otherwise_is_the_same_picture) {
     const LightPicture one = render(court({}), GetParam(), 8);
     EXPECT_TRUE(is_same(one, render(court({.is_permuted = true}), GetParam(), 8)));
@@ -140,8 +140,8 @@ TEST_P(LightContinuity, scene_written_otherwise_is_the_same_picture) {
 INSTANTIATE_TEST_SUITE_P(Ways, LightContinuity, testing::Values(kAuto, kReference, kPhotons, kOcclusion),
                          testing::PrintToStringParamName());
 
-// Glass that neither bends nor takes light, around the wall: light of sun and sky goes through. (Behind
-// glass, photons find no light of the sky, and occlusion takes it for a wall: the plan notes it.)
+// Glass that neither refracts nor absorbs, around the wall: light of sun and sky goes through. (Behind glass,
+// photons find no light of the sky, and occlusion takes the glass for a wall: the plan notes it.)
 Scene glazed(float ior, float albedo) {
     Scene scene = court({.lamp = 0.0f});
     const std::uint16_t glass = test::add_glass(scene, ior, albedo);
@@ -170,7 +170,7 @@ TEST(LightContinuityExternal, faint_lamps_and_invisible_glass_do_not_show) {
     const LightPicture off = render(shared_model("court_off"), kAuto);
     EXPECT_LT(farthest_apart(off, render(shared_model("court_on"), kAuto)), 1e-3);
     const LightPicture first = render(shared_model("anim_lamp"), kAuto);
-    // The lamp has another colour than the stone in its place.
+    // The emitter has another colour than the stone in its place.
     for (const int frame : {1, 2, 3})
         EXPECT_LT(mean_off(first, render(shared_model("anim_lamp", frame), kAuto)), 0.01) << frame;
     Scene glazed_model = shared_model("glass_ior1");

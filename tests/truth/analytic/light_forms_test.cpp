@@ -167,7 +167,7 @@ TEST(LightForms, slab_of_glass_moves_an_edge_by_snells_law) {
         const glm::dvec3 eye = glm::dvec3(0.0, 50.0, 0.0) + 400.0 * back;
         scene.camera = test::camera_towards(eye, {0.0, 50.0, 0.0}, 0.015);
         const LightPicture picture = render(scene, 16, 4);
-        double bright = 0.0, sum = 0.0;  // the edge by area, in blocks
+        double bright = 0.0, sum = 0.0;  // area of the edge, in blocks
         for (const TruthPixel& pixel : picture.pixels)
             bright = std::max(bright, pixel.mean.x);
         for (const TruthPixel& pixel : picture.pixels)
@@ -261,8 +261,8 @@ Scene furnace(std::uint16_t (*add_wall)(Scene&, float), const glm::ivec3& room, 
     return scene;
 }
 
-// Standard deviations, of the root of the mean square of blocks that have photons in common: it is hardly
-// more than that of a single number.
+// Standard deviations of a root mean square over blocks that have photons in common: it scatters hardly less
+// than a single number.
 constexpr double kMaxOfFew = 2.5;
 
 void expect_furnace(const Scene& scene, std::uint32_t iterations, double radiance, const char* what) {
@@ -304,7 +304,7 @@ TEST(LightFormsNightly, white_furnace_seen_from_inside_glass_is_n_squared_times_
     expect_furnace(ball, 96, 2.25, "ball");
     Scene block = furnace(test::add_diffuse, {8, 8, 8}, 8);
     test::add_box(block, {3, 1, 3}, {5, 3, 5}, test::add_glass(block, 1.5f));
-    // Straight on: rays that are oblique to all three axes never leave a cube of glass.
+    // Straight ahead: rays that are oblique to all three axes never leave a cube of glass.
     block.camera = test::camera_towards({4.1, 2.2, 3.9}, {4.1, 8.0, 3.9}, 30.0);
     expect_furnace(block, 96, 2.25, "voxels");
 }
@@ -356,7 +356,7 @@ TEST(LightForms, stored_photons_are_a_geometric_series_of_those_emitted) {
     for (const float albedo : {0.5f, 0.9f}) {
         constexpr double kPhotons = 16384.0 * 16.0;
         Scene scene = hollow_ball(4.0, glm::vec3(albedo));
-        scene.settings.photons.radius = 16.0;  // so that visible points want all of them
+        scene.settings.photons.radius = 16.0;  // so that visible points accept all of them
         test::FrameFixture fixture(scene, PlanRequest{});
         double stored = 0.0;
         for (std::uint32_t i = 0; i < 16; ++i)

@@ -1,5 +1,5 @@
 // Pictures of photon mapping against the tests' own path tracer, which shares no code with the shaders. The
-// radius is so small that what the discs blur is below the noise.
+// radius is so small that the blur of the discs is below the noise.
 
 #include <cmath>
 #include <filesystem>
@@ -31,7 +31,7 @@ void PrintTo(const LightCase& one, std::ostream* out) {
     *out << one.scene;
 }
 
-// A change to the scene that is rendered, which the truth does not know.
+// A change to the scene that is rendered, but not to the scene of the truth.
 using Change = void (*)(Scene&);
 void no_change(Scene&) {}
 
@@ -76,8 +76,8 @@ const LightCase kCases[] = {
 
 class LightTruth : public testing::TestWithParam<LightCase> {};
 
-// Where caustics are rare (mirror, cornell_small_light) few paths of the truth find them: its variances stay
-// too small, and the fine pictures are up to 1.2 deviations apart.
+// Where caustics are rare (mirror, cornell_small_light) few paths of the truth find them, so its variances
+// are too small, and the fine pictures are up to 1.2 deviations apart.
 constexpr double kMaxFine = 1.3;
 constexpr double kMaxCoarse = 1.25;
 constexpr double kMaxWhole = 4.0;

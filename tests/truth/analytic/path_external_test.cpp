@@ -108,15 +108,15 @@ TEST_P(PathsExternal, picture_is_the_truth_within_its_noise) {
     expect_truth(scene_of(GetParam().scene), GetParam());
 }
 
-// In the room and the maze few paths carry most of the light: with fewer samples, pixels that have met none
-// have too small a variance. Pixels beside those that an emitter fills in part get too large a variance from
-// them.
+// In the room and the maze few paths carry most of the light. With fewer samples, pixels that have met none
+// of them have too small a variance. Smoothing gives pixels beside one that an emitter partly fills too large
+// a variance.
 INSTANTIATE_TEST_SUITE_P(Gi, PathsExternal,
                          testing::Values(TruthCase{"courtyard"}, TruthCase{"room", 96}, TruthCase{"pillars"},
                                          TruthCase{"maze", 96, 0.7}, TruthCase{"corner"}),
                          testing::PrintToStringParamName());
 
-// The means over a picture, from enough samples to tell a thousandth.
+// The means over a picture, from enough samples to resolve a thousandth.
 class PathsNightlyExternal : public testing::TestWithParam<TruthCase> {};
 
 TEST_P(PathsNightlyExternal, mean_is_the_truth_within_a_thousandth) {
@@ -150,10 +150,9 @@ TEST(PathsExternal, reflection_that_is_a_hundredth_too_weak_is_caught) {
     }
 }
 
-constexpr int kCornerBlock =
-    8;  // pixels: the light of a single one has too few reflections to tell its variance
+constexpr int kCornerBlock = 8;  // pixels: a single one gets too few reflections to estimate its variance
 
-// Below 0 where a pixel of the block shows other things than the two faces: radiosity gives -1 there.
+// Below 0 where a pixel of the block shows something other than the two faces: radiosity gives -1 there.
 glm::dvec3 mean_of_block(const std::array<std::span<const float>, 3>& planes, int width, glm::ivec2 block) {
     glm::dvec3 sum(0.0);
     for (int y = 0; y < kCornerBlock; ++y) {

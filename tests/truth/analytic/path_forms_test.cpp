@@ -54,7 +54,8 @@ double relative_noise(const TruthPixel& pixel, const glm::dvec3& radiance) {
     return std::max({noise.x, noise.y, noise.z});
 }
 
-// A closed room with blocks inside, all of which emit E and reflect the share a: radiance E / (1 - a).
+// A closed room with blocks inside, where everything emits E and reflects the fraction a: radiance E / (1 -
+// a).
 Scene furnace(const glm::vec3& albedo, const glm::vec3& emission) {
     Scene scene = test::dark_scene(16, 1024, 1.0);
     const std::uint16_t wall = test::add_material(
@@ -78,7 +79,7 @@ TEST(PathForms, p1_furnace_that_emits_a_hundredth_more_is_caught) {
     EXPECT_GT(farthest(z_of(picture, {1.0, 1.0, 1.5})), kFarOff);
 }
 
-// A path meets 1000 walls on average: it goes on through several rounds of dispatches.
+// A path meets 1000 walls on average, so it goes on through several rounds of dispatches.
 TEST(PathForms, p2_furnace_of_albedo_0_999_loses_nothing) {
     const Scene scene = furnace({0.9f, 0.99f, 0.999f}, {0.1f, 0.01f, 0.001f});
     EXPECT_GT(test::FrameFixture(traced(scene), PlanRequest{}).plan().paths.rounds, 1u);
@@ -87,7 +88,7 @@ TEST(PathForms, p2_furnace_of_albedo_0_999_loses_nothing) {
     EXPECT_LT(relative_noise(whole.pixels.front(), glm::dvec3(1.0)), 0.04);
 }
 
-// Every path ends in the sky, and each reflection keeps all.
+// Every path ends in the sky, and no reflection loses light.
 TEST(PathForms, p3_white_niches_under_a_white_sky_are_exactly_white_in_every_sample) {
     Scene scene = test::dark_scene(32, 1024, 1.0);
     scene.sky.radiance = glm::vec3(1.0f);
@@ -134,8 +135,8 @@ double form_factor(const glm::dvec3& eye, const glm::dvec2& low, const glm::dvec
     return std::abs(sum) / (2.0 * kPi);
 }
 
-// One white square of a black floor under the sun, and a white voxel of a wall that sees it: exactly one
-// bounce, but for what the square gets back from the voxel, a thousandth at most.
+// One white square of a black floor under the sun, and a white voxel of a wall that faces it: exactly one
+// bounce, except for what the square gets back from the voxel, at most a thousandth.
 TEST(PathForms, one_bounce_of_the_sun_is_the_form_factor) {
     Scene scene = test::dark_scene(16, 1024, 1.0);
     const std::uint16_t black = test::add_diffuse(scene, 0.0f), white = test::add_diffuse(scene, 1.0f);
@@ -152,7 +153,7 @@ TEST(PathForms, one_bounce_of_the_sun_is_the_form_factor) {
     EXPECT_LT(relative_noise(picture.pixels.front(), glm::dvec3(expected)), 0.011);
 }
 
-// What the tests' own path tracer says, in blocks.
+// The picture of the tests' own path tracer, in blocks.
 struct Traced {
     std::string scene;
     glm::ivec2 size{24, 24};  // blocks
@@ -191,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathTruth,
                                          Traced{"mixed"}, Traced{"emitters"}),
                          [](const auto& tested) { return tested.param.scene; });
 
-// Voxels of mirror and glass in a court under a wide sun and a sky. One block of glass stands on the floor.
+// Voxels of mirror and glass in a court under a wide sun and a sky. A block of glass stands on the floor.
 Scene glints() {
     Scene scene = test::dark_scene(48, 1024, 1.0);
     scene.sky.radiance = {0.2f, 0.25f, 0.3f};
@@ -219,8 +220,8 @@ TEST(PathTruth, p15_glass_that_takes_a_fifth_more_is_caught) {
     EXPECT_FALSE(test::is_equal_light(render(scene, 96, kBlock), truth));
 }
 
-// A sun a tenth as wide as the real one: what chance hardly ever finds has little noise, and as much light as
-// a wide sun has.
+// A sun a tenth as wide as the real one: light that chance hardly ever finds has little noise, and is as much
+// as that of a wide sun.
 TEST(PathTruth, p15_small_sun_gives_as_much_light_as_a_wide_one) {
     Scene wide = glints();
     Scene small = wide;
@@ -234,7 +235,7 @@ TEST(PathTruth, p15_small_sun_gives_as_much_light_as_a_wide_one) {
         noise_a += a.pixels[i].variance_of_mean.y;
         noise_b += b.pixels[i].variance_of_mean.y;
     }
-    // The edges of shadows differ, by far less than what mirrors and glass send.
+    // The edges of shadows differ, but far less than the light of mirrors and glass.
     EXPECT_NEAR(light_a.y / light_b.y, 1.0, 0.02);
     EXPECT_LT(noise_a, 2.0 * noise_b);
 }

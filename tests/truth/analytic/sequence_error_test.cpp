@@ -1,5 +1,6 @@
-// Which sample sequence errs least in the renderer: RMSE of mean occlusion, pixel filter included, against a
-// truth of many more rays. The first sequence of RenderSettings is the default because of these numbers.
+// Which sample sequence has the smallest error in the renderer: RMSE of mean occlusion, pixel filter
+// included, against a truth of many more rays. The first sequence of RenderSettings is the default because of
+// these numbers.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -61,7 +62,7 @@ std::vector<float> true_occlusion(const Measurement& measurement) {
     return mean_occlusion(scene, {measurement.truth_samples}).front();
 }
 
-// By sequence: RMSE after each count of samples.
+// RMSE after each count of samples, by sequence.
 using Errors = std::map<Sequence, std::vector<double>>;
 
 Errors measure(const Measurement& measurement, const std::vector<float>& truth, std::uint32_t ao_rays) {
@@ -111,7 +112,7 @@ TEST(SequenceError, sobol_errs_no_more_than_halton_and_less_than_white_noise_in_
     EXPECT_EQ(RenderSettings{}.sequence, Sequence::sobol);
 }
 
-// What pictures claim of their error over what it is.
+// Estimated over true errors of pictures.
 class ClaimOfSequence : public testing::TestWithParam<Sequence> {
   protected:
     static constexpr std::uint32_t kSamples = 64;
@@ -137,12 +138,12 @@ class ClaimOfSequence : public testing::TestWithParam<Sequence> {
     Image truth_;
 };
 
-// Of 1728 pixels the claim and the truth scatter by 4 % each.
+// With 1728 pixels, estimate and truth scatter by 4 % each.
 TEST_P(ClaimOfSequence, is_the_error) {
     EXPECT_NEAR(claims_.statistics.error.estimate / true_error(), 1.0, 0.15);
 }
 
-// Negative control: the claim of half the samples is not.
+// Negative control: the estimate of half the samples does not fit.
 TEST_P(ClaimOfSequence, of_fewer_samples_is_not) {
     scene_.settings.spp = kSamples / 2;
     EXPECT_GT(test::render_validated(scene_).statistics.error.estimate / true_error(), 1.3);

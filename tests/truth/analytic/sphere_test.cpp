@@ -58,8 +58,8 @@ glm::dvec3 beside_axis(const Scene& scene, double distance, double off) {
     return scene.camera->position + distance * (std::sin(off) * basis[0] + std::cos(off) * basis[2]);
 }
 
-// Samples that cover the whole picture evenly err less than binomial ones, whose bound is used. The sphere is
-// small or huge, near or far, on the axis and beside it.
+// Samples that cover the whole picture evenly have a smaller error than binomial ones, whose bound is used.
+// The sphere is small or huge, near or far, on the axis and beside it.
 TEST(AnalyticSphere, silhouette_has_the_area_of_the_closed_form) {
     for (const double radius : {0.25, 3.0, 1e5}) {
         for (const double off : {0.0, 0.45}) {

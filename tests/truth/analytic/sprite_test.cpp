@@ -1,5 +1,5 @@
-// Orthographic images against ones drawn here, voxel by voxel: with a whole number of pixels per voxel, from
-// a side, each pixel is one voxel's, whatever its samples.
+// Orthographic images against ones drawn here, voxel by voxel: with a whole number of pixels per voxel and a
+// view from a side, each pixel shows one voxel, whatever its samples.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 constexpr int kEdge = 16;
 constexpr int kColours = 60;
 
-// Radiance of a voxel's material: what the image has, for nothing else shines.
+// Radiance of a voxel's material, which is that of the image, because nothing else shines.
 glm::vec3 glow(int material) {
     return glm::vec3(material % 5, material / 5 % 4, material / 20) / 4.0f;
 }
@@ -41,7 +41,7 @@ Scene shining_model() {
                     model.voxels.push_back(
                         {x, y, z, static_cast<std::uint16_t>(1 + random() % (kColours - 1))});
     for (const std::uint16_t corner :
-         {std::uint16_t{0}, std::uint16_t{kEdge - 1}})  // so that the box is full whatever the numbers
+         {std::uint16_t{0}, std::uint16_t{kEdge - 1}})  // so that the box is full for any random numbers
         model.voxels.push_back({corner, corner, corner, 7});
     scene.models = {std::move(model)};
     scene.instances = {{.model = 0}};
@@ -57,7 +57,7 @@ std::vector<int> grid_of(const Scene& scene) {
     return grid;
 }
 
-// The cell at `depth` behind the voxel that the column and the row, from the top, of a view show.
+// The cell at `depth` behind the voxel that a view shows at a column and a row (from the top).
 glm::ivec3 cell_behind(View view, int column, int row, int depth) {
     const int last = kEdge - 1;
     switch (view) {
@@ -100,7 +100,7 @@ std::vector<std::uint8_t> drawn(const Scene& scene, View view, int scale) {
     return codes;
 }
 
-// `aside`: how far the camera is from where it frames the model, voxels.
+// `aside` is the distance in voxels from the camera to where it would frame the model.
 std::vector<std::uint8_t> rendered(Scene scene, View view, int scale, glm::dvec3 aside = glm::dvec3(0.0)) {
     Camera looking = looking_along(view);
     looking.projection = Projection::orthographic;

@@ -1,6 +1,5 @@
-// Hard cases of the occlusion hash, numbered as in the lists of what voxel renderers have failed at: rows of
-// cases and holes of earlier renderers. Others are beside what they test (unit/cell_table_test.cpp,
-// pass/ao_value_test.cpp).
+// Hard cases of the occlusion hash, numbered as in README.md: rows of cases and holes of earlier renderers.
+// Others are beside what they test (tests/shaders/cell_table_test.cpp, tests/device/pass/ao_value_test.cpp).
 
 #include <gtest/gtest.h>
 
@@ -66,7 +65,7 @@ TEST(HardCase, row19_all_pixels_of_one_key_share_one_cell) {
     EXPECT_EQ(std::set<float>(frame.visibility.begin(), frame.visibility.end()).size(), 1u);
 }
 
-// Every pixel's key against double precision; false when a face has none.
+// Compares every pixel's key with double precision; false when a face has none.
 void expect_right_keys(const AoFixture& fixture, const AoFrame& frame, std::size_t at_least) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < frame.hits.size(); ++i) {
@@ -104,7 +103,7 @@ TEST(HardCase, row20_scene_a_million_voxels_from_the_origin_has_the_cells_of_the
     EXPECT_TRUE(test::sums_of(moved_rig.render()) == sums);
 }
 
-// A dolly through many distances: every hit is in a cell of a stated level, the one of its distance.
+// A dolly shot through many distances: every hit is in a cell of the level that its distance calls for.
 TEST(HardCase, row20_levels_follow_the_distance_within_their_bounds) {
     Scene scene = test::pillared_scene();
     scene.settings.ao.cell_px = 4.0f;
@@ -120,7 +119,7 @@ TEST(HardCase, row20_levels_follow_the_distance_within_their_bounds) {
     EXPECT_EQ(levels, (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// The eye close to a wall: cells do not get smaller without end.
+// The camera is close to a wall: cells do not get smaller without end.
 TEST(HardCase, hole13_camera_close_to_a_wall_enters_few_cells) {
     Scene scene = test::pillared_scene();
     scene.camera = test::camera_towards({-5.43, 4.999, 2.37}, {-5.43, 6.0, 2.37}, 60.0);
@@ -129,7 +128,7 @@ TEST(HardCase, hole13_camera_close_to_a_wall_enters_few_cells) {
     EXPECT_LE(frame.counters[gpu::kWorkAoClaimed], 9u) << "the picture is two thousandths of a voxel wide";
 }
 
-// Sums after one more frame on top of others that were put into the table.
+// Sums after one more frame, on top of other sums that were put into the table.
 void expect_sums_carry_on(std::uint64_t preset) {
     AoFixture fixture(test::pillared_scene());
     AoFrame before = fixture.render();
@@ -188,7 +187,7 @@ TEST(HardCase, row22_visibility_of_a_plane_stays_one_for_any_number_of_samples) 
     }
 }
 
-// 70,000 samples in one cell by rays alone.
+// 70,000 samples in one cell, added by rays alone.
 TEST(HardCase, hole05_samples_beyond_65536_in_one_cell_are_all_there) {
     Scene scene = test::pillared_scene();
     scene.camera = test::camera_down({8.3, -2.7, 30.0}, 0.3);
@@ -206,7 +205,7 @@ TEST(HardCase, hole05_samples_beyond_65536_in_one_cell_are_all_there) {
     EXPECT_EQ(sum.second, test::open_samples(fixture, key, 0, sum.first));
 }
 
-// Sums after some frames from a state on.
+// Sums after some frames from a given state.
 CellSums flight_from(std::uint64_t frames_done, int frames) {
     AoFixture fixture(test::pillared_scene());
     fixture.state.frames_done = frames_done;
@@ -229,8 +228,7 @@ TEST(HardCase, row23_cells_in_sight_outlive_the_wrap_of_frame_numbers) {
         ASSERT_EQ(fixture.render().counters[gpu::kWorkAoEvicted], 0u) << i;
 }
 
-// Cells that come back into sight when they are about to be given up: those that were not given up before are
-// kept.
+// Cells that come back into sight just before they would be given up are kept.
 TEST(HardCase, hole16_cells_seen_again_are_not_given_up_while_in_sight) {
     for (int away = 28; away <= 42; ++away) {
         AoFixture fixture(test::pillared_scene());
@@ -272,7 +270,7 @@ TEST(HardCase, row23_seeds_at_the_ends_give_other_sums) {
     EXPECT_EQ(pictures.size(), 6u);
 }
 
-// Root mean square error of some cells before a wall after so many samples.
+// Root mean square error of some cells in front of a wall after so many samples.
 double error_after(const AoFixture& fixture, std::uint64_t samples) {
     double sum = 0.0;
     constexpr int kCells = 8;

@@ -1,5 +1,5 @@
-// Rows D4 to D7 of the list of hard cases: changes of a scene that change its picture not at all, or by what
-// is known beforehand.
+// Rows D4 to D7 of the list of hard cases: changes of a scene that do not change its picture, or change it by
+// a known amount.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ Scene courtyard() {
     return scene;
 }
 
-// A room with an emitter under the ceiling, whose light photons carry on.
+// A room with an emitter under the ceiling, whose light reaches other surfaces by photons.
 Scene lit_room() {
     Scene scene = test::dark_scene(32, 8192, 0.25);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.7f));
@@ -54,7 +54,7 @@ std::size_t count_of_differences(const std::vector<T>& a, const std::vector<T>& 
     return test::differing_bits(std::span<const T>(a), std::span<const T>(b)).count;
 }
 
-// Elements of all planes that differ in a bit.
+// Elements of all planes that differ in any bit.
 std::size_t differences(const FramePlanes& a, const FramePlanes& b) {
     EXPECT_GT(a.color.size(), 0u);
     return count_of_differences(a.hits, b.hits) + count_of_differences(a.ao, b.ao) +
@@ -65,7 +65,7 @@ std::size_t differences(const Scene& a, const Scene& b) {
     return differences(test::render_first_sample(a), test::render_first_sample(b));
 }
 
-// The scene of a file: a wall and a floor in colour 1, and what else `chunks` say.
+// The scene of a file: a wall and a floor in colour 1, and whatever `chunks` add.
 Scene scene_of(const std::string& models, const std::string& graph, const std::string& materials = "") {
     using namespace vox_builder;
     std::vector<Cell> cells;
@@ -114,7 +114,7 @@ TEST(Continuity, d4_hidden_layer_empty_model_and_unused_material_change_no_bit) 
     EXPECT_GT(changed(scene_of(tower, two + shown)), 0u) << "the negative control: a layer that is shown";
 }
 
-// Voxels in the order of z, cut into columns of one model each.
+// Voxels in z order, cut into columns of one model each.
 Scene in_columns(const Scene& scene) {
     Scene cut = scene;
     cut.models.clear();
@@ -195,7 +195,7 @@ TEST(Continuity, d6_moved_scene_keeps_every_bit_in_every_projection_and_on_a_gro
     }
 }
 
-// A signed permutation of the axes that leaves z, applied to all that has a place or a direction.
+// A signed permutation of the axes that keeps z, applied to everything with a position or a direction.
 Scene turned(const Scene& scene, const Rotation& rotation) {
     const auto point = [&](glm::dvec3 p) {
         glm::dvec3 result;
@@ -241,7 +241,8 @@ LightPicture mirrored(LightPicture picture) {
 constexpr Rotation kQuarter{.axis = {1, 0, 2}, .sign = {-1, 1, 1}};
 constexpr Rotation kMirror{.axis = {0, 1, 2}, .sign = {-1, 1, 1}};
 
-// Directions are drawn about axes of the surface, which do not turn with the scene: equal but for noise.
+// Directions are drawn about axes of the surface, which do not turn with the scene, so pictures are equal but
+// for noise.
 TEST(Continuity, d6_scene_turned_by_quarters_gives_the_same_picture) {
     for (const Scene& scene : {courtyard(), lit_room()}) {
         const LightPicture straight = picture_of(scene);

@@ -1,5 +1,5 @@
-// What the device makes of expressions that GLSL leaves open. The table is printed for the reader; asserted
-// is only what our shaders rely on, so that the test holds on every device that they run on.
+// How the device evaluates expressions that GLSL leaves open. The table is printed for the reader. Only what
+// our shaders rely on is asserted, so the test holds on every device that they run on.
 
 #include "probe/device_facts.h"
 

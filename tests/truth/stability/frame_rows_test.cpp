@@ -1,4 +1,4 @@
-// Hard cases of whole frames, numbered as in the list of what voxel renderers have failed at.
+// Hard cases of whole frames, numbered as in README.md.
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(HardCase, row18_occlusion_of_our_scenes_is_in_the_unit_interval_and_of_a_pl
     }
 }
 
-// The eye a thousandth of a voxel above the floor: every ray grazes.
+// The camera is a thousandth of a voxel above the floor, so every ray grazes.
 TEST(HardCase, row18_plane_seen_at_a_grazing_angle_has_occlusion_exactly_one) {
     Scene scene = test::white_scene();
     test::add_box(scene, {-200, -200, -1}, {200, 200, 0});
@@ -101,7 +101,7 @@ std::vector<float> occlusion(const Scene& scene, std::uint32_t sample) {
     return test::FrameFixture(scene).render(sample).ao;
 }
 
-// Of the noise of two pictures around a common mean picture.
+// Correlation of the noise of two pictures around a common mean picture.
 double correlation(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& mean) {
     double ab = 0.0;
     double aa = 0.0;
@@ -190,7 +190,7 @@ TEST(HardCase, row24_film_is_the_same_for_any_slices_and_groups) {
     scene.spheres.push_back({glm::dvec3(-3.0, 4.0, 2.5), 2.0, 0});
     const std::vector<std::int64_t> whole = film_of(scene, 33, test_executor());
     for (const std::uint32_t rows : {1u, 2u, 7u, 8u, 17u})
-        EXPECT_EQ(film_of(scene, rows, test_executor()), whole) << rows << " rows a slice";
+        EXPECT_EQ(film_of(scene, rows, test_executor()), whole) << rows << " rows per dispatch tile";
     for (const std::array<std::uint32_t, 2> group : {std::array{16u, 16u}, {32u, 1u}, {3u, 5u}}) {
         Executor executor(test_device(), all_shaders(), {.group_size = group, .poison_transients = true});
         EXPECT_EQ(film_of(scene, 33, executor), whole) << group[0] << "x" << group[1];

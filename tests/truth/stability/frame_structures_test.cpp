@@ -1,5 +1,5 @@
-// Whole frames through every structure of the world: the same bits, also from the places where earlier
-// renderers broke.
+// Whole frames through every structure of the world give the same bits, also from places where earlier
+// renderers failed.
 
 #include <gtest/gtest.h>
 

@@ -94,7 +94,7 @@ TEST(Row25, critical_angle_of_a_glass_ball_seen_from_inside_is_sound) {
         scene.spheres.push_back({glm::dvec3(0.0), 3.0, test::add_glass(scene, 1.5f)});
         scene.spheres.push_back({glm::dvec3(0.0), 0.1, test::add_diffuse(scene, 0.0f)});
         // Across the radius at R / n from the centre, a ray meets the surface at the critical angle. Beyond
-        // it is reflected again and again, which the black sides of the picture's other half end.
+        // that it is reflected again and again, until it meets the black sides of the picture's other half.
         scene.camera = test::camera_towards({2.0 * (1.0 - 1e-9), 0.0, 0.0}, {2.0, 5.0, 0.0}, fov);
         test::FrameFixture fixture(scene, PlanRequest{});
         const test::FramePlanes planes = fixture.render(0);
@@ -105,7 +105,7 @@ TEST(Row25, critical_angle_of_a_glass_ball_seen_from_inside_is_sound) {
     }
 }
 
-// Row 26. Glass that bends nothing and takes nothing.
+// Row 26. Glass that neither refracts nor absorbs.
 Scene clear_scene(bool has_glass) {
     Scene scene = repository_scene("cornell", 32);
     if (!has_glass) return scene;
@@ -166,7 +166,7 @@ TEST(Row28, glass_ball_that_crosses_glass_voxels_agrees_with_paths) {
     test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "crossing");
 }
 
-// Nothing but photons brings this light: the emitter's shadow rays end at the first surface of glass.
+// Only photons bring this light: shadow rays to the emitter end at the first surface of glass.
 TEST(Row28, emitter_inside_glass_lights_what_is_in_the_same_glass) {
     Scene scene = test::dark_scene(32, 16384, 0.1);
     test::add_room(scene, {8, 8, 6}, test::add_diffuse(scene, 0.5f));
@@ -188,7 +188,7 @@ TEST(Row28, emitter_and_ball_inside_glass_balls_of_one_material_agree_with_paths
     test::expect_equal_light(render(scene, 64), truth_of(scene, 1024), "lamp in balls");
 }
 
-// The same medium on both sides is no surface: what colour the ball's would take does not show.
+// The same medium on both sides is no surface, so the ball's own colour does not show.
 TEST(Row28Nightly, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
     Scene block = voxel_room(32);
     const std::uint16_t glass = test::add_glass(block, 1.5f, 0.5f);
@@ -220,7 +220,7 @@ TEST(Row30, black_walls_send_nothing_on) {
     for (const test::TruthPixel& pixel : picture.pixels)
         EXPECT_TRUE(pixel.mean == glm::dvec3(0.0) || pixel.mean == glm::dvec3(12.0));
     test::FrameFixture fixture(scene, PlanRequest{});
-    EXPECT_EQ(fixture.render(0).counters[gpu::kWorkPhotonsStored], 0u);  // and nothing is kept for nobody
+    EXPECT_EQ(fixture.render(0).counters[gpu::kWorkPhotonsStored], 0u);  // nobody gathers them
     EXPECT_GT(test::FrameFixture(voxel_room(16), PlanRequest{}).render(0).counters[gpu::kWorkPhotonsStored],
               0u);
 }
@@ -296,7 +296,7 @@ TEST(Row33, sunlight_through_an_opening_agrees_with_paths) {
 
 TEST(Row33, sunlight_through_a_pane_of_glass_agrees_with_paths) {
     Scene scene = sunny_room();
-    scene.sun.angular_diameter_deg = 25.0f;  // for the sake of the path tracer, which finds it by chance
+    scene.sun.angular_diameter_deg = 25.0f;  // wide, because the path tracer finds it by chance
     test::add_box(scene, {3, 2, 6}, {5, 4, 7}, test::add_glass(scene, 1.5f));
     test::expect_equal_light(render(scene, 64, kBlock, kForcedIndirect), truth_of(scene, 4096), "pane");
 }
@@ -307,7 +307,7 @@ Scene two_rooms(double radius) {
     test::add_room(scene, {9, 6, 5}, test::add_diffuse(scene, 0.8f));
     test::add_box(scene, {4, 0, 0}, {5, 6, 5}, 0);
     test::add_box(scene, {1, 2, 5}, {3, 4, 6}, test::add_emitter(scene, 50.0f));
-    scene.camera = test::camera_towards({8.8, 3.0, 4.8}, {5.0, 3.0, 1.0}, 80.0);  // in the dark one
+    scene.camera = test::camera_towards({8.8, 3.0, 4.8}, {5.0, 3.0, 1.0}, 80.0);  // in the dark room
     return scene;
 }
 
@@ -317,7 +317,7 @@ TEST(Row34, dark_room_behind_a_wall_of_one_voxel_stays_exactly_black) {
         ASSERT_EQ(pixel.mean, glm::dvec3(0.0));
 }
 
-// A disc that is wider than the wall reaches under it, as far as its radius and no farther.
+// A disc that is wider than the wall reaches under it, but no farther than its radius.
 TEST(Row34, wide_disc_leaks_along_a_shared_floor_by_its_radius_alone) {
     constexpr double kRadius = 1.75;
     Scene scene = two_rooms(kRadius);
@@ -336,8 +336,8 @@ TEST(Row34, wide_disc_leaks_along_a_shared_floor_by_its_radius_alone) {
     EXPECT_GT(leaking, 100) << "negative control: light does get under the wall";
 }
 
-// Rooms that touch at an edge alone. The camera sees walls and neither floor nor ceiling, whose planes both
-// rooms share: there discs reach past the edge, as in the case above.
+// Rooms that touch only along an edge. The camera sees walls, but neither floor nor ceiling: their planes are
+// shared by both rooms, so discs reach past the edge there, as in the case above.
 TEST(Row34, dark_room_behind_an_edge_stays_exactly_black) {
     Scene scene = test::dark_scene(32, 65536, 0.4);
     const std::uint16_t wall = test::add_diffuse(scene, 0.8f);
@@ -363,7 +363,7 @@ TEST(Row36Nightly, roulette_changes_no_mean) {
     EXPECT_GT(test::light_z(render(scene, 48), all).rms, test::kMaxRms) << "negative control: paths cut off";
 }
 
-// Between perfect mirrors a path never ends; between good ones roulette ends it.
+// Between perfect mirrors a path never ends. Between good mirrors roulette ends it.
 TEST(Row36, endless_paths_between_mirrors_end_and_are_counted) {
     for (const float albedo : {1.0f, 0.99f}) {
         Scene scene = test::dark_scene(8, 1024, 0.1);
@@ -376,8 +376,8 @@ TEST(Row36, endless_paths_between_mirrors_end_and_are_counted) {
     }
 }
 
-// Seen in a mirror, and through the ball that makes it, a caustic is light that no shadow ray finds at either
-// end; and the tracer that waits for paths to hit the emitter finds it from the camera's end alone.
+// Seen in a mirror, and through the ball that makes it, a caustic is light that shadow rays find at neither
+// end. The tracer that waits for paths to hit the emitter finds it from the camera's end alone.
 TEST(Row36, caustic_seen_in_a_mirror_and_through_its_ball_is_reciprocal) {
     Scene scene = test::dark_scene(32, 16384, 0.1);
     test::add_room(scene, {10, 10, 8}, test::add_diffuse(scene, 0.6f));

@@ -38,8 +38,8 @@ std::vector<MarchWorld> all_structures(const VoxelWorld& world) {
 
 namespace {
 
-// Only steps, and where a ray was when it was seen to miss, may depend on the structure. Steps are judged
-// here; all are cleared.
+// Only the steps, and the place where a ray was seen to miss, may depend on the structure. Steps are checked
+// here; then all of them are cleared.
 std::string clear_the_way(std::vector<gpu::MarchProbe>& probes, glm::ivec3 size,
                           const std::vector<gpu::Ray>& rays) {
     const auto most = static_cast<gpu::uint>(size.x + size.y + size.z + 3);

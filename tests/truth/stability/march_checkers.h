@@ -1,7 +1,7 @@
 #pragma once
 
 // What the hard cases of the march share: worlds, rays, the march on the device through every structure, and
-// its judges.
+// its checkers.
 
 #include <string>
 #include <vector>
@@ -26,29 +26,31 @@ inline constexpr double kMarchMargin = 1e-3;
 // The world in every structure.
 [[nodiscard]] std::vector<MarchWorld> all_structures(const VoxelWorld& world);
 
-// What is wrong when the rays march through these structures on the device: two that differ in a bit of the
-// result, more steps than the world has planes, the step limit reached. Empty when nothing is; `agreed` then
-// holds what all found, with the way cleared: 0 steps, and misses without a cell.
+// What is wrong when the rays march through these structures on the device: two results that differ in a bit,
+// more steps than the world has planes, the step limit reached. Empty when nothing is; `agreed` then holds
+// the common hits, with 0 steps and misses without a cell.
 [[nodiscard]] std::string march_differences(const std::vector<MarchWorld>& structures,
                                             const std::vector<gpu::Ray>& rays,
                                             std::vector<gpu::MarchProbe>& agreed);
 
-// What the rays find on the device whatever the structure; fails the test when march_differences are found.
+// The hits of the rays, which must not depend on the structure; fails the test when march_differences are
+// found.
 [[nodiscard]] std::vector<gpu::MarchProbe> march_everywhere(const std::vector<MarchWorld>& structures,
                                                             const std::vector<gpu::Ray>& rays);
 [[nodiscard]] std::vector<gpu::MarchProbe> march_everywhere(const VoxelWorld& world,
                                                             const std::vector<gpu::Ray>& rays);
 
-// March everywhere and expect the cells of the walk in exact integers (exact_walk.h).
+// Marches through every structure and expects the cells of the walk in exact integers (exact_walk.h).
 void expect_exact_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
-// March everywhere and expect cell, face, material, planes and time of the plain walk.
+// Marches through every structure and expects cell, face, material, planes and time of the plain walk.
 void expect_plain_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
-// March everywhere and expect an answer that the walk in real numbers allows (interval_walk.h).
+// Marches through every structure and expects an answer that the walk in real numbers allows
+// (interval_walk.h).
 void expect_interval_walk(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
-// March everywhere and expect what boxes in double precision allow.
+// Marches through every structure and expects what boxes in double precision allow.
 void expect_boxes(const VoxelWorld& world, const std::vector<gpu::Ray>& rays);
 
 // Where a march differs from the plain walk, in words; empty where it does not.

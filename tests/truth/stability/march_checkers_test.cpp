@@ -1,4 +1,4 @@
-// The judges of the march, judged: each accepts the truth and rejects a perturbed one.
+// The checkers of the march: each accepts the truth and rejects a perturbed one.
 
 #include <gtest/gtest.h>
 

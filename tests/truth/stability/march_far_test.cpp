@@ -17,7 +17,7 @@ constexpr double kFarMargin = 4e-3;
 // Most bytes of one array that these tests build.
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 27;
 
-// The traversals whose grid of roots over a world of `chunks` chunks is no larger.
+// The traversals whose grid of roots fits into one array over a world of `chunks` chunks.
 std::vector<Traversal> traversals_that_hold(glm::ivec3 chunks) {
     std::vector<Traversal> fitting;
     for (const Traversal traversal : all_traversals()) {

@@ -1,5 +1,5 @@
-// Holes that earlier voxel renderers had in their marches, numbered as in the list's second part. Each runs
-// on the device through every structure.
+// Holes that earlier voxel renderers had in their marches, numbered as in the second part of README.md. Each
+// test runs on the device through every structure.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ std::optional<glm::ivec3> first_filled(const VoxelWorld& world, glm::ivec3 cell,
 }
 
 // What cosine sampling yields for u.y = 0, and the view of a camera with yaw 0 in the middle of an odd width:
-// one component exactly zero, of either sign.
+// one component is exactly zero, of either sign.
 TEST(EarlierHole, b01_components_of_exactly_zero_give_no_nan_and_no_endless_march) {
     const VoxelWorld& world = test::world_named("random_0.02");
     std::vector<gpu::Ray> rays = test::family_named("random", world.size(), 3000);
@@ -100,7 +100,7 @@ TEST(EarlierHole, b06_a_voxel_entered_inside_the_radius_counts_whatever_it_leave
         for (int eighths = 0; eighths < 96; ++eighths) {
             for (const float radius : {1.0f, 7.5f, std::nextafter(7.5f, 8.0f), 8.0f, 8.5f}) {
                 gpu::Ray ray{wall, glm::vec3(0.5f), unit(axis, static_cast<float>(step)), radius};
-                const float passed = static_cast<float>(eighths % 8) / 8.0f;  // of the first cell
+                const float passed = static_cast<float>(eighths % 8) / 8.0f;  // part of the first cell
                 ray.cell[axis] -= step * (1 + eighths / 8);
                 ray.fraction[axis] = step > 0 ? passed : 1.0f - passed;
                 rays.push_back(ray);
@@ -114,8 +114,8 @@ TEST(EarlierHole, b06_a_voxel_entered_inside_the_radius_counts_whatever_it_leave
     }
 }
 
-// Voxels. What a hit's position inside its cell may be off by, from a camera 3000 voxels away: time and
-// planes inside the world round at 2^-24 of at most 60 voxels, a few times.
+// Voxels. Error of a hit's position inside its cell, seen from a camera 3000 voxels away: time and planes
+// inside the world round at 2^-24 of at most 60 voxels, a few times.
 constexpr double kPositionError = 2e-5;
 
 TEST(EarlierHole, b07_hits_seen_from_3000_voxels_keep_their_place_and_start_no_ray_in_a_solid) {
@@ -138,7 +138,7 @@ TEST(EarlierHole, b07_hits_seen_from_3000_voxels_keep_their_place_and_start_no_r
         const glm::dvec3 direction(rays[i].direction);
         const double plane = static_cast<double>(hit.cell[axis]) + static_cast<double>(hit.face & 1u);
         const glm::dvec3 truth = origin + direction * ((plane - origin[axis]) / direction[axis]);
-        // A grazing ray runs far along the face for each rounding across it.
+        // A grazing ray moves far along the face for each rounding across it.
         const double slope = 1.0 / std::abs(direction[axis]);
         for (int a = 0; a < 3; ++a)
             ASSERT_NEAR(static_cast<double>(hit.cell[a]) + static_cast<double>(got[i].fraction[a]), truth[a],
@@ -167,7 +167,7 @@ TEST(EarlierHole, b08_diagonal_walls_of_voxels_that_share_edges_let_no_ray_throu
                 rays.push_back(ray);
             }
         }
-        // Rays that leave the world below the wall may miss; the walk knows.
+        // Rays that leave the world below the wall may miss; the walk finds them.
         int stopped = 0;
         const auto got = test::march_everywhere(world, rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {

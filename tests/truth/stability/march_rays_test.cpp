@@ -1,6 +1,5 @@
-// Hard cases of the march, numbered as in the list of what voxel renderers have failed at: rays. Each runs on
-// the device and is judged by a walk in exact integers, by the plain walk of voxels, or by boxes in double
-// precision.
+// Hard cases of the march, numbered as in README.md: rays. Each test runs on the device and is checked by a
+// walk in exact integers, by the plain walk of voxels, or by boxes in double precision.
 
 #include <gtest/gtest.h>
 

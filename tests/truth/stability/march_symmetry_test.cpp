@@ -4,7 +4,7 @@
 // - Mirrored: the same hit bit for bit, up to the symmetry. A ray carries its cell, so mirroring keeps every
 //   crossing time, and ties go by axis alone.
 // - Permuted: the same hit bit for bit for a ray whose hit no tie decides. Ties are crossed x before y before
-//   z, which in the axes of the original scene is another order: there the walk in that order is the judge.
+//   z, which is another order in the axes of the original scene: a walk in that order checks them.
 // - Shifted by whole voxels: every bit but the cell. Directions scaled by a power of two: every bit but the
 //   time, which is scaled exactly. Scenes scaled by a power of two: the time is scaled exactly, too.
 
@@ -119,7 +119,7 @@ std::vector<gpu::Ray> rays_on_a_grid(glm::ivec3 size, int count) {
     return rays;
 }
 
-// Whether the order of planes that are met at once decides what the ray hits.
+// Whether the order of planes that are met at the same time decides what the ray hits.
 bool is_decided_by_ties(const VoxelWorld& world, const gpu::Ray& ray) {
     test::AxisOrder order = test::kTieRule;
     const gpu::MarchHit first = test::walk_cells(world, ray);
@@ -178,7 +178,7 @@ TEST_P(MarchSymmetry, row06_ties_of_permuted_scenes_go_by_the_rule_in_exact_inte
             decided += want.cell != unpermuted.cell || want.face != unpermuted.face ? 1 : 0;
         }
     }
-    EXPECT_GT(decided, 1000);  // the order of the axes is seen
+    EXPECT_GT(decided, 1000);  // the order of the axes matters
 }
 
 INSTANTIATE_TEST_SUITE_P(HardCase, MarchSymmetry, ::testing::ValuesIn(all_traversals()),
@@ -223,7 +223,7 @@ TEST(HardCase, row07_shift_by_whole_voxels_keeps_every_bit) {
     }
 }
 
-// Components that count as zero before the scale may count afterwards.
+// Components that count as zero before the scaling may count afterwards.
 bool has_vanishing_component(glm::vec3 direction) {
     const glm::vec3 size = glm::abs(direction);
     return std::ranges::any_of(std::array{size.x, size.y, size.z},

@@ -13,13 +13,13 @@
 namespace voxilux {
 namespace {
 
-// Bad rays may take this much longer than good ones, the best of ten tries each (as Embree's test of NaN and
-// infinity).
+// Bad rays may take this many times as long as good ones, with the best of ten tries each (as Embree's test
+// of NaN and infinity).
 constexpr double kMaxTime = 2.5;
 constexpr int kTries = 10;
 constexpr int kRays = 20000;
 
-// Least seconds of CPU that all threads of the process spend on one call, driver and readback included; tries
+// Least CPU seconds that all threads of the process spend on one call, driver and readback included. Tries
 // end early once one took no longer than `enough`.
 double cpu_seconds(const MarchWorld& march_world, const std::vector<gpu::Ray>& rays, double enough = 0.0) {
     double best = std::numeric_limits<double>::infinity();
@@ -46,7 +46,7 @@ std::vector<gpu::Ray> with_length(std::vector<gpu::Ray> rays, float length) {
 struct BadRays {
     std::string what;
     std::vector<gpu::Ray> rays;
-    bool misses;  // all that are bad must
+    bool misses;  // whether all bad rays must miss
 };
 
 std::vector<BadRays> bad_rays(const std::vector<gpu::Ray>& good) {
@@ -97,7 +97,7 @@ TEST_P(BadDirections, row08_are_counted_misses_and_leave_the_rays_beside_them_al
 INSTANTIATE_TEST_SUITE_P(HardCase, BadDirections, ::testing::ValuesIn(all_traversals()),
                          test::traversal_name);
 
-// Negative control: rays that go ten times as far through a world without boxes take more than is allowed.
+// Negative control: rays that go ten times as far through a world without boxes exceed the allowed time.
 TEST(BadDirectionsChecker, sees_rays_that_take_longer_than_is_allowed) {
     const VoxelWorld world(glm::ivec3(0), glm::ivec3(64, 1, 1));
     MarchWorld march_world = build_unexpanded_world(world, all_traversals().back());

@@ -1,5 +1,5 @@
-// Rays by the million. Each traversal gets its share of 10^6 rays of every family (10^8 in the nightly run),
-// each judged by the plain walk of voxels, some also by the walk in real numbers; and as many from inside
+// Rays by the million. Each traversal gets its part of 10^6 rays of every family (10^8 in the nightly run),
+// each checked by the plain walk of voxels, some also by the walk in real numbers; and as many from inside
 // closed shells, none of which may leave.
 
 #include <gtest/gtest.h>
@@ -42,8 +42,8 @@ std::vector<test::RayFamily> families(glm::ivec3 size, int count, std::uint32_t 
     return all;
 }
 
-// What is wrong with a march through the world, by the plain walk and, for one ray in kIntervalStride, by the
-// walk in real numbers. Both start where the ray enters the world.
+// What is wrong with a march through the world, according to the plain walk and, for one ray in
+// kIntervalStride, to the walk in real numbers. Both start where the ray enters the world.
 std::string first_fault(const VoxelWorld& world, const test::DenseVoxels& dense,
                         const std::vector<gpu::Ray>& rays, const std::vector<gpu::MarchProbe>& got) {
     const auto most = static_cast<gpu::uint>(dense.size().x + dense.size().y + dense.size().z + 3);

@@ -1,6 +1,5 @@
-// Hard cases of the march, numbered as in the list of what voxel renderers have failed at: worlds. Each runs
-// on the device and is judged by a walk in exact integers, by the plain walk of voxels, or by boxes in double
-// precision.
+// Hard cases of the march, numbered as in README.md: worlds. Each test runs on the device and is checked by a
+// walk in exact integers, by the plain walk of voxels, or by boxes in double precision.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +55,7 @@ TEST(HardCaseNightly, row11_none_of_a_hundred_million_marches_leaves_a_closed_sh
         expect_no_leak(size, rays, static_cast<std::uint32_t>(size));
 }
 
-// march_everywhere judges the steps.
+// march_everywhere checks the steps.
 TEST(HardCase, row12_no_ray_takes_more_steps_than_the_world_has_planes) {
     for (const test::NamedWorld& named : test::small_worlds(test::kMarchSeed)) {
         SCOPED_TRACE(named.name);

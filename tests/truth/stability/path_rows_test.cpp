@@ -73,7 +73,7 @@ Scene lit_room(float albedo, int pixels = 24) {
     return scene;
 }
 
-// No path ends in a closed room of albedo 1 but at the bound, which is counted; nothing shines there.
+// In a closed room of albedo 1 a path ends only at the bound, which is counted. Nothing shines there.
 TEST(PathRows, p4_closed_white_room_without_an_emitter_is_black_and_ends_at_a_counted_bound) {
     Scene scene = test::dark_scene(8, 1024, 1.0);
     scene.sky.radiance = glm::vec3(1.0f);
@@ -131,7 +131,7 @@ TEST(PathRows, p8_sky_and_sun_together_are_the_sum_of_both_in_every_sample) {
     EXPECT_GT(farthest_apart(colours_of(traced(both)), a), 0.1) << "the negative control: the sky alone";
 }
 
-// A bright room beside a dark one, one voxel of wall between them.
+// A bright room beside a dark one, with one voxel of wall between them.
 TEST(PathRows, p11_dark_room_behind_a_wall_of_one_voxel_stays_exactly_black) {
     Scene scene = lit_room(0.8f);
     test::add_box(scene, {-1, 5, 0}, {11, 6, 8}, test::add_diffuse(scene, 0.8f));
@@ -159,7 +159,7 @@ std::vector<glm::vec3> with_groups(const Scene& scene, std::array<std::uint32_t,
 }
 
 TEST(PathRows, p17_workgroups_and_tiles_change_no_bit) {
-    Scene deep = lit_room(0.995f);  // several rounds
+    Scene deep = lit_room(0.995f);  // takes several rounds
     for (const Scene& scene : {traced(court()), traced(deep)}) {
         const std::vector<glm::vec3> once = with_groups(scene, {8, 8});
         EXPECT_EQ(once, with_groups(scene, {16, 16}));

@@ -1,4 +1,4 @@
-// Row 35 of the list of hard cases: the error of progressive photon mapping falls as its authors say.
+// Row 35 of the list of hard cases: the error of progressive photon mapping falls at the published rates.
 // Source: C. Knaus and M. Zwicker 2011, "Progressive Photon Mapping: A Probabilistic Approach", ACM TOG
 // 30(3): the variance of the mean of n iterations falls with n^-alpha, its bias with n^(alpha - 1).
 
