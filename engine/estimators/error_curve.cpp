@@ -21,6 +21,7 @@
 
 #include "base/assert.h"
 #include "base/statistics.h"
+#include "estimators/error_estimate.h"
 
 namespace voxilux {
 namespace {
@@ -40,9 +41,7 @@ constexpr Prior kBiasPrior{.mean = 0.45, .deviation = 0.25};
 // Least relative deviation of a point: the noise estimated from few samples is off by some percent, since its
 // denominators are estimates, too.
 constexpr double kMinScatter = 0.03;
-// Quantile of the interval whose upper end is noise_high (error_estimate.cpp), and the part of its variance
-// that is the estimate's own.
-constexpr double kIntervalQuantile = 2.17;
+// The part of the variance of the interval whose upper end is noise_high that is the estimate's own.
 constexpr double kOwnVariance = 0.5;
 // Deviation of log(noise_high / noise), relative to it: images of few pixels, or few noisy ones.
 constexpr double kSpreadScatter = 0.2;
@@ -123,8 +122,7 @@ Value value_at(const ErrorLaw& law, Quantity quantity, const ConvergenceCurve& f
 
 // Deviation of the logarithm of a noise, from one set of random numbers to the next.
 double scatter_of(const ErrorPoint& point) {
-    const double wide =
-        std::sqrt(kOwnVariance) * std::log(point.noise_high / point.noise) / kIntervalQuantile;
+    const double wide = std::sqrt(kOwnVariance) * std::log(point.noise_high / point.noise) / kClaimQuantile;
     return std::max(wide, kMinScatter);
 }
 

@@ -65,4 +65,12 @@ struct Image {
     return planes;
 }
 
+// Only R, G and B, for images that are held many at once.
+[[nodiscard]] inline Image colours_alone(Image image) {
+    std::erase_if(image.channels, [](const auto& channel) {
+        return channel.first != "R" && channel.first != "G" && channel.first != "B";
+    });
+    return image;
+}
+
 }  // namespace voxilux

@@ -50,14 +50,6 @@ RenderPlan warm_up(RenderSession& session, const PriceJob& job, Entry& entry) {
     return plan;
 }
 
-// The colours alone, because the images of all trials are held at once.
-Image colours_of(Image image) {
-    std::erase_if(image.channels, [](const auto& channel) {
-        return channel.first != "R" && channel.first != "G" && channel.first != "B";
-    });
-    return image;
-}
-
 void take_trial(RenderSession& session, const PriceJob& job, std::size_t trial, Entry& entry) {
     RenderSettings settings = job.settings;
     settings.spp = job.samples;
@@ -65,7 +57,7 @@ void take_trial(RenderSession& session, const PriceJob& job, std::size_t trial, 
     RenderOutcome outcome = render(session, job, entry, settings);
     const RenderStatistics& statistics = outcome.statistics;
     entry.ms_per_sample.push_back(sampling_ms(statistics) / std::max(statistics.samples, 1u));
-    entry.pictures.push_back(colours_of(std::move(outcome.image)));
+    entry.pictures.push_back(colours_alone(std::move(outcome.image)));
 }
 
 void set_times(const Entry& with, const Entry& without, EffectPrice& price) {

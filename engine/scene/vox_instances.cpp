@@ -102,10 +102,6 @@ Pose below(const Pose& parent, const Pose& node) {
             .model = node.model};
 }
 
-bool is_within_limit(glm::i64vec3 t) {
-    return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
-}
-
 // The step from `from` to the node at `position`.
 Step enter(const VoxFile& file, const std::vector<Pose>& poses, std::uint32_t position, const Step& from) {
     Step step{.node = position, .world = below(from.world, poses[position]), .transform = from.transform};
@@ -140,7 +136,7 @@ Result<std::vector<VoxInstance>> walk(const VoxFile& file, const VoxGraph& graph
             continue;
         }
         if (top.world.model != kVoxNoNode) {
-            if (!is_within_limit(top.world.translation)) {
+            if (!is_vox_translation(top.world.translation)) {
                 return Failure{fmt::format("node {}: its position is beyond {} voxels from the origin",
                                            id_of(file.nodes[top.node]), kVoxMaxTranslation)};
             }
@@ -196,6 +192,10 @@ std::string_view instance_name(const VoxFile& file, const VoxInstance& instance)
     if (instance.node >= file.nodes.size()) return {};
     const std::string* name = find_value(attributes_of(file.nodes[instance.node]), "_name");
     return name != nullptr ? std::string_view(*name) : std::string_view();
+}
+
+bool is_vox_translation(glm::i64vec3 t) {
+    return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
 }
 
 }  // namespace voxilux

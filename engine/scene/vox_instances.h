@@ -27,6 +27,9 @@ struct VoxInstance {
 // Without a graph: one instance of every model, its low corner at the origin.
 [[nodiscard]] std::vector<VoxInstance> corner_instances(const VoxFile& file);
 
+// Whether no axis goes beyond kVoxMaxTranslation.
+[[nodiscard]] bool is_vox_translation(glm::i64vec3 translation);
+
 // The name of the transform above the instance, or "". Valid as long as `file`.
 [[nodiscard]] std::string_view instance_name(const VoxFile& file, const VoxInstance& instance);
 

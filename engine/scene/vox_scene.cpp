@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "base/checked_cast.h"
@@ -15,8 +14,6 @@
 namespace voxilux {
 namespace {
 
-constexpr std::size_t kMaxMaterials =
-    std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1;  // Voxel::material
 constexpr std::size_t kMaxNameBytes = 64;  // a file may give one huge name to many models
 
 // The index in Scene::materials of each palette index, added when a voxel needs it. A material that is in the
@@ -96,10 +93,6 @@ class ModelTable {
     std::vector<std::optional<std::uint32_t>> slots_;
 };
 
-bool is_in_range(glm::i64vec3 t) {
-    return std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) <= kVoxMaxTranslation;
-}
-
 // The visible instances of a file, as instances of the scene's models; `model_of` gives the model of each.
 std::vector<Instance> shown_instances(const std::vector<VoxInstance>& placed,
                                       const std::function<std::uint32_t(const VoxInstance&)>& model_of,
@@ -162,7 +155,7 @@ void place_instances(std::vector<Instance>& into, std::span<const Instance> inst
                      const Rotation& rotation, glm::ivec3 translation) {
     for (const Instance& inner : instances) {
         const glm::i64vec3 t = glm::i64vec3(rotation.apply(inner.translation)) + glm::i64vec3(translation);
-        if (!is_in_range(t)) {
+        if (!is_vox_translation(t)) {
             throw Error(ExitCode::input_refused,
                         fmt::format("an instance at {} {} {} is beyond {} voxels from the origin", t.x, t.y,
                                     t.z, kVoxMaxTranslation));

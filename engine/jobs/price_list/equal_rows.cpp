@@ -65,7 +65,7 @@ EqualPicture render(const Workshop& workshop, const MeasuredConfiguration& confi
                                                               .seed = workshop.seed + 1,
                                                               .samples = whole});
     EqualPicture result{.samples = whole, .time_s = measured.time_s};
-    result.picture = colours_of(std::move(measured.outcome.image));
+    result.picture = colours_alone(std::move(measured.outcome.image));
     const double square = relative_square(result.picture, *workshop.reference) - workshop.noise.square;
     result.error = std::sqrt(std::max(square, 0.0));
     return result;

@@ -104,7 +104,7 @@ void measure_round(const Workshop& workshop, std::vector<Round>& rounds, std::ui
                                               .samples = samples});
             round.level.times_s.push_back(measured.time_s);
             if (repeat == 0) round.level.claimed = measured.outcome.statistics.error;
-            round.pictures.push_back(colours_of(std::move(measured.outcome.image)));
+            round.pictures.push_back(colours_alone(std::move(measured.outcome.image)));
         }
     }
 }
@@ -184,13 +184,6 @@ void measure_rising(const Workshop& workshop, const SamplePlan& plan, std::uint3
 }
 
 }  // namespace
-
-Image colours_of(Image image) {
-    std::erase_if(image.channels, [](const auto& channel) {
-        return channel.first != "R" && channel.first != "G" && channel.first != "B";
-    });
-    return image;
-}
 
 Measured measure_once(RenderSession& session, const MeasureJob& job) {
     RenderSettings settings = job.configuration.settings;

@@ -35,9 +35,6 @@ struct Measured {
 // Runs `work`; false when it was interrupted.
 [[nodiscard]] bool is_measured(const std::function<void()>& work);
 
-// The colour channels of the image.
-[[nodiscard]] Image colours_of(Image image);
-
 // The settings of a run that the price list shows: those that its plan uses.
 [[nodiscard]] nlohmann::ordered_json settings_json(const Configuration& configuration, const RenderPlan& plan,
                                                    std::uint32_t samples);

@@ -160,7 +160,7 @@ Reference make_reference(RenderSession& session, const ReferenceJob& job) {
     const RenderPlan plan = a.outcome.plan;
     const std::uint32_t taken = a.outcome.statistics.samples + b.outcome.statistics.samples;
     const FilmSums film = joined(std::move(*a.outcome.film), std::move(*b.outcome.film));
-    Reference reference{.image = colours_of(picture_of(film)),
+    Reference reference{.image = colours_alone(picture_of(film)),
                         .samples = taken,
                         .time_s = a.time_s + b.time_s,
                         .error = error_of(film),
