@@ -110,6 +110,9 @@ VX_CONST(float, kAoFilterSigmas, 4.0f);
 // beyond 16 the loop gets too long to be unrolled.
 VX_CONST(uint, kFewSpheres, 16u);
 
+// Groups of nodes that wait while a ray walks the hierarchy over spheres (sphere_tree.h), one for each level
+// but the last two: eight children a node hold 8^9 spheres. Each takes 2 % of a step.
+VX_CONST(uint, kTreeStack, 8u);
 // By how much of the distance from which a sphere is looked at, boxes around spheres are larger than these.
 // Crossings are found with a few roundings of 2^-24 of that distance, so a ray may hit a sphere that it
 // misses by as much.
