@@ -74,8 +74,7 @@ std::string sphere_table_buffer(const RenderPlan& plan, Recording& recording) {
 
 std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording) {
     if (!plan.has_sphere_tree()) return placeholder_buffer(recording);
-    return declare<gpu::SphereNode>(recording, "sphere.tree", 2 * std::uint64_t{plan.sphere_count} - 1,
-                                    Lifetime::persistent);
+    return declare<gpu::SphereNode>(recording, "sphere.tree", plan.world.sphere_nodes, Lifetime::persistent);
 }
 
 std::string lights_buffer(const RenderPlan& plan, Recording& recording) {

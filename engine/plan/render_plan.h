@@ -32,7 +32,8 @@ struct WorldFacts {
     std::uint64_t leaf_bytes = 0;
     GrowthNeeds growth;
     LightFacts lights;
-    double sphere_visits = 0.0;  // nodes of the hierarchy over spheres that a ray visits, 0 without one
+    std::uint64_t sphere_nodes = 0;  // of the hierarchy over spheres, 0 without one
+    double sphere_visits = 0.0;      // of them that a ray visits
 
     bool operator==(const WorldFacts&) const = default;
 };

@@ -50,8 +50,11 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
     WorldFacts world_facts = measure_world(prepared.march_world);
     world_facts.traversal_reason = choice.reason;
     world_facts.lights = measure_lights(scene, prepared.lights, prepared.march_world.size(), origin);
-    if (scene.spheres.size() + scene.ground.count() > gpu::kFewSpheres)
-        world_facts.sphere_visits = mean_visits(build_sphere_tree(sphere_records(scene, origin)));
+    if (scene.spheres.size() + scene.ground.count() > gpu::kFewSpheres) {
+        const std::vector<gpu::SphereNode> tree = build_sphere_tree(sphere_records(scene, origin));
+        world_facts.sphere_nodes = tree.size();
+        world_facts.sphere_visits = mean_visits(tree);
+    }
     if (request.leaves_room) leave_room(world_facts);
     prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
     return prepared;

@@ -1,45 +1,22 @@
 #include "world/sphere_tree.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <bit>
+#include <cmath>
 
 #include "base/checked_cast.h"
+#include "base/error.h"
 #include "scene/lobe_weights.h"
+#include "world/sphere_view.h"
 
 namespace voxilux {
 namespace {
 
-// Relative to a sphere's coordinates: bounds the rounding of its record, where the anchor is small but the
-// centre may be large.
-constexpr double kRecordError = 1.0e-6;
-// Splits by cost may be lopsided. From this depth on, halves are equal, so recursion ends soon.
-constexpr int kMostLopsided = 64;
-
-struct Bounds {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-
-    void add(const Bounds& other) {
-        low = glm::min(low, other.low);
-        high = glm::max(high, other.high);
-    }
-    [[nodiscard]] double half_area() const {
-        const glm::dvec3 e = high - low;
-        return e.x * e.y + e.y * e.z + e.z * e.x;
-    }
-};
-
-Bounds bounds_of(const gpu::Sphere& sphere) {
-    if (sphere.curvature == 0.0f) {
-        const glm::dvec3 end(gpu::kFarthestGround, gpu::kFarthestGround, 0.0);
-        return {glm::dvec3(sphere.anchor) - end, glm::dvec3(sphere.anchor) + end};
-    }
-    const double radius = 1.0 / static_cast<double>(sphere.curvature);
-    const glm::dvec3 centre = glm::dvec3(sphere.anchor) - radius * glm::dvec3(sphere.normal);
-    const glm::dvec3 reach = radius + kRecordError * (glm::abs(centre) + radius);
-    return {centre - reach, centre + reach};
-}
+// Places of the planes of boxes on the grid of a node, beside the first.
+constexpr int kGridSteps = 255;
+// A part that is smaller than this share of a node is one of its children, not opened for more: on the node's
+// grid, boxes of what it holds would be hardly smaller than its own.
+constexpr double kSmallestOpened = 1.0 / 32.0;
 
 // The sphere by its point nearest to the world's corner, which is computed in double.
 gpu::SphereRecord sphere_record(const Sphere& sphere, glm::ivec3 origin) {
@@ -57,93 +34,170 @@ gpu::SphereRecord ground_record(const Scene& scene, glm::ivec3 origin) {
             static_cast<gpu::uint>(scene.materials.size())};
 }
 
-class TreeBuilder {
+glm::uvec3 bits_of(glm::vec3 v) {
+    return {std::bit_cast<gpu::uint>(v.x), std::bit_cast<gpu::uint>(v.y), std::bit_cast<gpu::uint>(v.z)};
+}
+
+gpu::SphereNode leaf_of(const gpu::Sphere& sphere, std::uint32_t number) {
+    gpu::SphereNode leaf{};
+    leaf.texels[0] = glm::uvec4(bits_of(sphere.anchor), number << 8u | gpu::kSphereLeaf);
+    leaf.texels[1] = glm::uvec4(bits_of(sphere.normal), std::bit_cast<gpu::uint>(sphere.curvature));
+    return leaf;
+}
+
+// The planes of children's boxes: corner + q 2^exponent, q from 0 to kGridSteps.
+struct Grid {
+    glm::vec3 corner;
+    int exponent;
+    double slack;  // by which boxes are larger, for what a walk rounds
+
+    explicit Grid(const SphereBox& box) {
+        const glm::dvec3 reach = glm::max(glm::abs(box.low), glm::abs(box.high));
+        slack = double{gpu::kSphereSlack} * std::max({reach.x, reach.y, reach.z});
+        corner = glm::vec3(box.low - 2.0 * slack);  // leaves room for its own rounding
+        std::frexp((box.extent() + 4.0 * slack) / kGridSteps, &exponent);
+        exponent = std::max(exponent, -126);
+    }
+    [[nodiscard]] double place(double at, int axis) const {
+        return std::ldexp(at - static_cast<double>(corner[axis]), -exponent);
+    }
+};
+
+std::uint32_t grid_byte(double place) {
+    VX_ASSERT(place >= 0.0 && place <= kGridSteps);
+    return static_cast<std::uint32_t>(place);
+}
+
+// Byte k of an axis, of low ends or of high ones.
+void set_byte(gpu::SphereNode& node, bool is_high, int axis, std::uint32_t k, std::uint32_t byte) {
+    const auto word = static_cast<std::uint32_t>(2 * axis) + (is_high ? 6u : 0u) + k / 4u;
+    node.texels[1u + word / 4u][static_cast<int>(word % 4u)] |= byte << (8u * (k % 4u));
+}
+
+class TreePacker {
   public:
-    explicit TreeBuilder(std::span<const gpu::SphereRecord> spheres) : order_(spheres.size()) {
-        for (const gpu::SphereRecord& sphere : spheres)
-            bounds_.push_back(bounds_of(sphere.shape));
-        std::iota(order_.begin(), order_.end(), 0u);
-        nodes.reserve(2 * spheres.size());
-        if (!spheres.empty()) add_node(order_, 0);
+    TreePacker(std::span<const gpu::SphereRecord> spheres, SphereCut cut)
+        : parts_(halve_spheres(spheres, cut)), spheres_(spheres), cut_(cut) {
+        if (parts_.empty()) return;
+        nodes.resize(1);
+        pack(0, 0);
     }
 
     std::vector<gpu::SphereNode> nodes;
 
   private:
-    using Part = std::span<std::uint32_t>;
+    using Children = std::vector<std::uint32_t>;  // places of parts
 
-    void add_node(Part part, int depth) {
-        Bounds box;
-        for (const std::uint32_t i : part)
-            box.add(bounds_[i]);
-        const std::size_t number = nodes.size();
-        nodes.push_back({.low = glm::vec3(box.low),
-                         .next = 0,
-                         .high = glm::vec3(box.high),
-                         .sphere = part.size() == 1 ? part.front() : gpu::kNoSphere});
-        if (part.size() > 1) {
-            const std::size_t first = split(part, depth);
-            add_node(part.first(first), depth + 1);
-            add_node(part.subspan(first), depth + 1);
+    void pack(std::size_t place, std::uint32_t part) {
+        if (parts_[part].count == 1) {
+            nodes[place] = leaf_of(spheres_[parts_[part].sphere].shape, parts_[part].sphere);
+            return;
         }
-        nodes[number].next = checked_cast<std::uint32_t>(nodes.size(), "nodes over spheres");
+        const Children children = in_octants(opened(part), parts_[part].box);
+        const std::size_t first = nodes.size();
+        nodes[place] = node_of(parts_[part].box, children, first);
+        nodes.resize(first + children.size());
+        for (std::size_t k = 0; k < children.size(); ++k)
+            pack(first + k, children[k]);
     }
 
-    void sort(Part part, int axis) {
-        std::sort(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
-            const double at_a = bounds_[a].low[axis] + bounds_[a].high[axis];
-            const double at_b = bounds_[b].low[axis] + bounds_[b].high[axis];
-            return at_a != at_b ? at_a < at_b : a < b;
-        });
+    // The children of a part: its halves, the largest of which are replaced by theirs.
+    Children opened(std::uint32_t part) const {
+        Children children(parts_[part].halves.begin(), parts_[part].halves.end());
+        const double least = cut_ == SphereCut::by_cost ? kSmallestOpened * parts_[part].box.extent() : 0.0;
+        const auto rank = [&](std::uint32_t child) {
+            if (parts_[child].count == 1 || parts_[child].box.extent() < least) return -1.0;
+            return cut_ == SphereCut::by_cost ? parts_[child].box.half_area() : parts_[child].count;
+        };
+        while (children.size() < gpu::kTreeWidth) {
+            const auto largest = std::ranges::max_element(children, {}, rank);
+            if (rank(*largest) < 0.0) break;
+            const auto [one, other] = parts_[*largest].halves;
+            *largest = one;
+            children.push_back(other);
+        }
+        return children;
     }
 
-    // Orders a part so that the two halves cost a ray the least (surface area heuristic). Returns the size of
-    // the first.
-    std::size_t split(Part part, int depth) {
-        double least = std::numeric_limits<double>::infinity();
-        std::size_t first = part.size() / 2;
-        int best = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            sort(part, axis);
-            const auto [cost, size] = cheapest_cut(part);
-            if (cost >= least) continue;
-            least = cost;
-            best = axis;
-            first = size;
+    // Orders children so that number k is the first that a ray of octant k meets, as far as they go: of all
+    // pairs of a child and a number, the best one is made first.
+    Children in_octants(Children children, const SphereBox& box) const {
+        const auto gain = [&](std::uint32_t child, std::size_t k) {
+            const glm::dvec3 away = parts_[child].box.low + parts_[child].box.high - box.low - box.high;
+            return (k & 1u ? away.x : -away.x) + (k & 2u ? away.y : -away.y) + (k & 4u ? away.z : -away.z);
+        };
+        Children placed(children.size());
+        std::vector<std::size_t> numbers;
+        for (std::size_t k = 0; k < children.size(); ++k)
+            numbers.push_back(k);
+        while (!numbers.empty()) {
+            std::size_t best_child = 0;
+            std::size_t best = 0;
+            for (std::size_t c = 0; c < children.size(); ++c)
+                for (std::size_t n = 0; n < numbers.size(); ++n)
+                    if (gain(children[c], numbers[n]) > gain(children[best_child], numbers[best])) {
+                        best_child = c;
+                        best = n;
+                    }
+            placed[numbers[best]] = children[best_child];
+            children.erase(children.begin() + static_cast<std::ptrdiff_t>(best_child));
+            numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(best));
         }
-        if (best != 2) sort(part, best);
-        return depth < kMostLopsided ? first : part.size() / 2;
+        return placed;
     }
 
-    struct Cut {
-        double cost;
-        std::size_t first;
-    };
-
-    Cut cheapest_cut(Part part) {
-        std::vector<double> behind(part.size());
-        Bounds box;
-        for (std::size_t i = part.size(); i-- > 1;) {
-            box.add(bounds_[part[i]]);
-            behind[i] = box.half_area();
+    gpu::SphereNode node_of(const SphereBox& box, const Children& children, std::size_t first) const {
+        if (first + children.size() > gpu::kMaxTreeNodes)
+            throw Error(ExitCode::out_of_memory,
+                        fmt::format("{} spheres need more than {} nodes of a hierarchy", spheres_.size(),
+                                    gpu::kMaxTreeNodes));
+        const Grid grid(box);
+        const auto last = static_cast<std::uint32_t>(children.size() - 1);
+        const auto biased = static_cast<std::uint32_t>(grid.exponent + 127);
+        gpu::SphereNode node{};
+        node.texels[0] =
+            glm::uvec4(bits_of(grid.corner), static_cast<std::uint32_t>(first) << 11u | last << 8u | biased);
+        for (std::uint32_t k = 0; k < children.size(); ++k) {
+            const SphereBox& child = parts_[children[k]].box;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double low = std::floor(grid.place(child.low[axis] - grid.slack, axis));
+                const double high = std::ceil(grid.place(child.high[axis] + grid.slack, axis));
+                set_byte(node, false, axis, k, grid_byte(low));
+                set_byte(node, true, axis, k, grid_byte(high));
+            }
         }
-        Cut cut{std::numeric_limits<double>::infinity(), part.size() / 2};
-        box = {};
-        for (std::size_t i = 1; i < part.size(); ++i) {
-            box.add(bounds_[part[i - 1]]);
-            const double cost =
-                box.half_area() * static_cast<double>(i) + behind[i] * static_cast<double>(part.size() - i);
-            if (cost < cut.cost) cut = {cost, i};
-        }
-        return cut;
+        return node;
     }
 
-    std::vector<Bounds> bounds_;
-    std::vector<std::uint32_t> order_;
+    std::vector<SpherePart> parts_;
+    std::span<const gpu::SphereRecord> spheres_;
+    SphereCut cut_;
 };
 
-double half_area(const gpu::SphereNode& node) {
-    return Bounds{glm::dvec3(node.low), glm::dvec3(node.high)}.half_area();
+std::uint32_t first_child(const gpu::SphereNode& node) {
+    return node.texels[0].w >> 11u;
+}
+
+std::uint32_t child_count(const gpu::SphereNode& node) {
+    return gpu::is_sphere_leaf(node) ? 0u : (node.texels[0].w >> 8u & 7u) + 1u;
+}
+
+// The box of a node's child.
+SphereBox child_box(const gpu::SphereNode& node, std::uint32_t k) {
+    const glm::uvec4 head = node.texels[0];
+    const double step = std::ldexp(1.0, static_cast<int>(head.w & 255u) - 127);
+    SphereBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto plane = [&](bool is_high) {
+            const auto word = static_cast<std::uint32_t>(2 * axis) + (is_high ? 6u : 0u) + k / 4u;
+            const gpu::uint bytes = node.texels[1u + word / 4u][static_cast<int>(word % 4u)];
+            return static_cast<double>(std::bit_cast<float>(head[axis])) +
+                   step * static_cast<double>(gpu::byte_of(bytes, k % 4u));
+        };
+        box.low[axis] = plane(false);
+        box.high[axis] = plane(true);
+    }
+    return box;
 }
 
 }  // namespace
@@ -156,16 +210,39 @@ std::vector<gpu::SphereRecord> sphere_records(const Scene& scene, glm::ivec3 ori
     return records;
 }
 
+std::vector<gpu::SphereNode> build_sphere_tree(std::span<const gpu::SphereRecord> spheres, SphereCut cut) {
+    return std::move(TreePacker(spheres, cut).nodes);
+}
+
+std::uint32_t depth_of(std::span<const gpu::SphereNode> nodes) {
+    std::uint32_t deepest = 0;
+    std::vector<std::uint32_t> depths(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {  // children come after their node
+        deepest = std::max(deepest, depths[i]);
+        for (std::uint32_t k = 0; k < child_count(nodes[i]); ++k)
+            depths[first_child(nodes[i]) + k] = depths[i] + 1;
+    }
+    return deepest;
+}
+
 std::vector<gpu::SphereNode> build_sphere_tree(std::span<const gpu::SphereRecord> spheres) {
-    return std::move(TreeBuilder(spheres).nodes);
+    std::vector<gpu::SphereNode> nodes = build_sphere_tree(spheres, SphereCut::by_cost);
+    if (depth_of(nodes) > gpu::kTreeStack + 1) nodes = build_sphere_tree(spheres, SphereCut::by_number);
+    return nodes;
 }
 
 double mean_visits(std::span<const gpu::SphereNode> nodes) {
     if (nodes.empty()) return 0.0;
+    SphereBox whole;
     double met = 0.0;
-    for (const gpu::SphereNode& node : nodes)
-        if (node.sphere == gpu::kNoSphere) met += half_area(node);
-    return 1.0 + 2.0 * met / half_area(nodes.front());
+    for (const gpu::SphereNode& node : nodes) {
+        for (std::uint32_t k = 0; k < child_count(node); ++k) {
+            const SphereBox box = child_box(node, k);
+            met += box.half_area();
+            if (&node == &nodes.front()) whole.add(box);
+        }
+    }
+    return met == 0.0 ? 1.0 : 1.0 + met / whole.half_area();
 }
 
 }  // namespace voxilux

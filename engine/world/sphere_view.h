@@ -1,6 +1,6 @@
 #pragma once
 
-// The walk of shared/sphere_tree.h over plain arrays.
+// The walk of shared/sphere_tree.h over a plain array.
 
 #include <span>
 
@@ -10,17 +10,12 @@ namespace voxilux {
 
 struct SphereView {
     std::span<const gpu::SphereNode> nodes;
-    std::span<const gpu::SphereRecord> spheres;
 };
 
 namespace gpu {
 
 inline SphereNode load_sphere_node(const SphereView& view, uint i) {
     return view.nodes[i];
-}
-
-inline Sphere load_sphere(const SphereView& view, uint i) {
-    return view.spheres[i].shape;
 }
 
 }  // namespace gpu

@@ -186,7 +186,7 @@ GlassAround glass_around(vec3 point, uint but) {
     around.curvature = 0.0;
     if (has_sphere_tree) {
         if (glass_spheres == 0u) return around;
-        EnclosingSphere inmost = enclosing_in_tree(sphere_nodes, point, glass_spheres, but);
+        EnclosingSphere inmost = enclosing_in_tree(point, glass_spheres, but);
         tree_steps += inmost.steps;
         around.i = inmost.i;
         if (inmost.i != kNoSphere) around.material = spheres[inmost.i].material;

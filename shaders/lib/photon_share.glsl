@@ -33,15 +33,16 @@ vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
             shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
         return shares;
     }
-    uint place = 0u;
-    while (place < sphere_nodes) {
-        SphereNode node = load_sphere_node(place);
-        bool is_near = is_node_near(node, point, max(radii.x, radii.y));
-        place = is_near ? place + 1u : node.next;
-        if (is_near && node.sphere != kNoSphere)
-            shares *= shares_left(spheres[node.sphere].shape, node.sphere, own, point, normal, radii);
+    BoxQuery query = point_query(point, max(radii.x, radii.y));
+    SphereWalk walk = begin_walk(query);
+    while (walk.group != 0u) {
+        SphereNode node = load_sphere_node(node_of(walk, query));
+        bool is_leaf = is_sphere_leaf(node);
+        vec2 left = shares_left(leaf_sphere(node), leaf_number(node), own, point, normal, radii);
+        shares *= is_leaf ? left : vec2(1.0);
+        walk = walk_on(walk, is_leaf ? 0u : children_met(node, query, 0.0));
     }
-    count(kFaultLoopCut, are_loops_spent(2u + (place & 1u)) ? 1u : 0u);
+    count(kFaultLoopCut, are_loops_spent(2u + (walk.group & 1u)) ? 1u : 0u);
     return shares;
 }
 

@@ -4,24 +4,20 @@
 
 #include "lib/spheres.glsl"
 
-layout(scalar) readonly buffer SphereTree {
-    SphereNode sphere_tree[];
-};
+layout(rgba32ui) readonly uniform uimageBuffer SphereTree;
 
 #define VX_SPHERES_PARAM
 #define VX_SPHERES_ARG
 
 SphereNode load_sphere_node(uint i) {
-    return sphere_tree[i];
-}
-
-Sphere load_sphere(uint i) {
-    return spheres[i].shape;
+    SphereNode node;
+    for (uint k = 0u; k < 4u; ++k)
+        node.texels[k] = imageLoad(SphereTree, int(4u * i + k));
+    return node;
 }
 
 #include "shared/sphere_tree.h"
 
 const bool has_sphere_tree = sphere_count > kFewSpheres;
-const uint sphere_nodes = 2u * sphere_count - 1u;
 
 #endif

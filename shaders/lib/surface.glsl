@@ -27,14 +27,15 @@ void init_scene() {
 
 uint tree_steps = 0u;  // of the last ray
 
-// The first sphere that a ray crosses before t_max. `own` is the sphere on which the ray starts.
-NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own) {
+// The first sphere that a ray crosses before t_max; of a ray that `takes_any`, maybe a later one. `own` is the
+// sphere that the ray starts on.
+NearestSphere found_sphere(vec3 origin, vec3 direction, float t_max, uint own, bool takes_any) {
     NearestSphere nearest;
     nearest.i = kNoSphere;
     nearest.t = t_max;
     nearest.steps = 0u;
     if (has_sphere_tree) {
-        nearest = nearest_in_tree(sphere_nodes, origin, direction, t_max, own);
+        nearest = nearest_in_tree(origin, direction, t_max, own, takes_any);
         tree_steps = nearest.steps;
     } else {
         for (uint i = 0u; i < sphere_count; ++i) {
@@ -44,6 +45,10 @@ NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own)
         }
     }
     return nearest;
+}
+
+NearestSphere nearest_sphere(vec3 origin, vec3 direction, float t_max, uint own) {
+    return found_sphere(origin, direction, t_max, own, false);
 }
 
 // A point of the ground without rounding error, clamped to the range of cell coordinates.
@@ -97,7 +102,7 @@ bool hits_voxels(Ray ray) {
 bool hits_spheres(Ray ray, uint own) {
     if (sphere_count == 0u) return false;
     vec3 origin = local_position(ray.cell, ray.fraction);
-    return nearest_sphere(origin, ray.direction, ray.t_max, own).i != kNoSphere;
+    return found_sphere(origin, ray.direction, ray.t_max, own, true).i != kNoSphere;
 }
 
 bool is_occluded(Ray ray, uint own) {

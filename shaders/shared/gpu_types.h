@@ -73,12 +73,9 @@ struct SphereRecord {
 
 VX_CONST(uint, kNoSphere, 0xFFFFFFFFu);
 
-// A node of the hierarchy over spheres (sphere_tree.h): a box, local to the world, voxels.
+// A node of the hierarchy over spheres, or one of these spheres, as sphere_tree.h packs them.
 struct SphereNode {
-    vec3 low;
-    uint next;  // index of the next node that is not below this one
-    vec3 high;
-    uint sphere;  // of a leaf; kNoSphere of the others
+    uvec4 texels[4];
 };
 
 // What all passes of one tile of one sample share. A tile is a run of rows of the crop window, which may be

@@ -108,6 +108,9 @@ VX_CONST(float, kAoFilterSigmas, 4.0f);
 // hold 455; beyond 16 the loop gets too long to be unrolled.
 VX_CONST(uint, kFewSpheres, 16u);
 
+// Groups of nodes that wait while a ray walks the hierarchy over spheres (sphere_tree.h), one for each level
+// but the last two: eight children a node hold 8^9 spheres. Each takes 2 % of a step.
+VX_CONST(uint, kTreeStack, 8u);
 // Extra size of the boxes around spheres, relative to the distance of the ray's origin. Crossings are
 // computed with a few roundings of 2^-24 of that distance, so a ray may hit a sphere that it misses by as
 // much.

@@ -110,6 +110,7 @@ RenderPlan photon_plan(const PhotonJob& job) {
     plan.photons.capacity = std::max(job.setup.capacity, 1u);
     plan.photons.buckets = job.setup.buckets;
     plan.sphere_count = static_cast<std::uint32_t>(job.spheres.size());
+    plan.world.sphere_nodes = build_sphere_tree(job.spheres).size();
     return plan;
 }
 

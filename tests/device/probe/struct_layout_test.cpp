@@ -43,8 +43,6 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(Hit, t), VX_MEMBER(Hit, material), VX_MEMBER(Hit, sphere)),
         VX_LAYOUT(Sphere, VX_MEMBER(Sphere, anchor), VX_MEMBER(Sphere, curvature), VX_MEMBER(Sphere, normal)),
         VX_LAYOUT(SphereRecord, VX_MEMBER(SphereRecord, shape), VX_MEMBER(SphereRecord, material)),
-        VX_LAYOUT(SphereNode, VX_MEMBER(SphereNode, low), VX_MEMBER(SphereNode, next),
-                  VX_MEMBER(SphereNode, high), VX_MEMBER(SphereNode, sphere)),
         VX_LAYOUT(Air, VX_MEMBER(Air, rayleigh), VX_MEMBER(Air, ozone), VX_MEMBER(Air, mie),
                   VX_MEMBER(Air, mie_extinction), VX_MEMBER(Air, mie_g), VX_MEMBER(Air, ground_albedo)),
         VX_LAYOUT(SkyParams, VX_MEMBER(SkyParams, air), VX_MEMBER(SkyParams, height),
