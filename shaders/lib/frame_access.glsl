@@ -2,6 +2,7 @@
 #ifndef VX_FRAME_ACCESS_GLSL
 #define VX_FRAME_ACCESS_GLSL
 
+#include "lib/interleaved_row.glsl"
 #include "shared/gpu_types.h"
 
 layout(scalar) uniform Frame {
@@ -14,13 +15,6 @@ struct Pixel {
     uint index;  // in the buffers of this tile
     bool inside;
 };
-
-// Software devices give each thread one contiguous half of the workgroups, and the sky is cheap: rows of groups are
-// dealt alternately to both halves, so that a picture with sky on top keeps all threads busy.
-uint interleaved_row(uint row, uint rows) {
-    uint first_half = (rows + 1u) / 2u;
-    return row < first_half ? 2u * row : 2u * (row - first_half) + 1u;
-}
 
 Pixel this_pixel() {
     uint group_row = interleaved_row(gl_WorkGroupID.y, gl_NumWorkGroups.y);
