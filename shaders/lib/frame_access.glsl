@@ -3,6 +3,7 @@
 #ifndef VX_FRAME_ACCESS_GLSL
 #define VX_FRAME_ACCESS_GLSL
 
+#include "lib/interleaved_row.glsl"
 #include "shared/gpu_types.h"
 
 layout(scalar) uniform Frame {
@@ -15,14 +16,6 @@ struct Pixel {
     uint index;  // in the buffers of this tile
     bool inside;
 };
-
-// Software devices give each thread a contiguous part of the workgroups, and the sky is cheap. Rows of groups
-// are therefore dealt alternately to both halves, so that an image with sky at the top keeps all threads
-// busy.
-uint interleaved_row(uint row, uint rows) {
-    uint first_half = (rows + 1u) / 2u;
-    return row < first_half ? 2u * row : 2u * (row - first_half) + 1u;
-}
 
 Pixel this_pixel() {
     uint group_row = interleaved_row(gl_WorkGroupID.y, gl_NumWorkGroups.y);

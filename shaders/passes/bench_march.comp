@@ -6,6 +6,7 @@
 // times.
 
 #include "lib/address.glsl"
+#include "lib/interleaved_row.glsl"
 #include "lib/invocation.glsl"
 
 #define VX_PUSH BenchMarchPush push;
@@ -16,9 +17,23 @@
 layout(scalar) readonly buffer Rays {
     Ray rays[];
 };
+layout(scalar) readonly buffer Starts {
+    float starts[];
+};
 layout(scalar) writeonly buffer BenchHits {
     BenchHit hits[];
 };
+
+// Whether the rays are those of a camera, in whole tiles, and start where the beams around these end.
+VX_SPECIALIZED(uint, has_beams, 0u);
+
+// Time since its entry into the world at which a ray starts. Rows of tiles come interleaved (bench_rays.h).
+float start_of(uint i, float entry) {
+    if (has_beams == 0u) return 0.0;
+    uint tile = i / (kBeamPixels * kBeamPixels);
+    uint row = interleaved_row(tile / push.beams.x, push.beams.y);
+    return starts[row * push.beams.x + tile % push.beams.x] - entry;
+}
 
 void main() {
     init_world();
@@ -31,7 +46,7 @@ void main() {
     hit.t = 0.0;
     hit.steps = 0u;
     if (entry.enters) {
-        MarchHit found = march(entry.ray, push.chunks);
+        MarchHit found = march_from(entry.ray, push.chunks, start_of(i, entry.t));
         hit.cell = found.cell;
         hit.face = found.face;
         hit.t = entry.t + found.t;

@@ -243,6 +243,7 @@ struct BenchHit {
 struct BenchMarchPush {
     uint count;    // rays
     ivec3 chunks;  // of the world, per axis
+    uvec2 beams;   // of the picture, per axis
 };
 
 VX_END

@@ -1,35 +1,18 @@
-// `voxilux bench march` with Embree in the comparison: the same rays, one at a time on one thread, as a
-// program without a GPU would trace them. Not a test: it is built where Embree is installed.
-
-#include <xmmintrin.h>
+// `voxilux bench march` with others in the contest for the same rays: the best that Embree does, ray by ray
+// or in packets, and the march itself as scalar C++ for this machine, each on one thread. Not a test: it is
+// built where Embree is installed.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 
 #include "bench/bench.h"
 #include "bench/embree_scene.h"
+#include "bench/native_march.h"
+#include "bench/rate_ratios.h"
 #include "exit_message.h"
-#include "world/world_view.h"  // gives camera.h the world that it marches
-
-#include "shared/camera.h"
 
 namespace voxilux {
 namespace {
-
-// Denormals count as zero while this lives, as Embree's manual asks. The march needs them.
-class FlushDenormals {
-  public:
-    FlushDenormals() { _mm_setcsr(before_ | kFlushToZero | kDenormalsAreZero); }
-    FlushDenormals(const FlushDenormals&) = delete;
-    FlushDenormals& operator=(const FlushDenormals&) = delete;
-    ~FlushDenormals() { _mm_setcsr(before_); }
-
-  private:
-    static constexpr unsigned kFlushToZero = 0x8000;
-    static constexpr unsigned kDenormalsAreZero = 0x0040;
-    unsigned before_ = _mm_getcsr();
-};
 
 struct RayList {
     RayKind kind;
@@ -37,142 +20,106 @@ struct RayList {
     std::vector<gpu::BenchHit> marched;  // what the march finds
 };
 
-enum class Query : std::uint8_t { intersect1, occluded1 };
-
 bool is_hit(const gpu::BenchHit& hit) {
     return hit.face != gpu::kFaceMiss;
 }
 
-gpu::BenchHit march_one(const MarchWorld& guide, const gpu::Ray& ray) {
-    const gpu::WorldEntry entry = gpu::enter_world(ray, guide.size());
-    if (!entry.enters) return {.face = gpu::kFaceMiss};
-    const gpu::MarchHit hit = gpu::march(guide, entry.ray, guide.chunks_size);
-    return {.cell = hit.cell, .face = hit.face, .t = entry.t + hit.t, .steps = hit.steps};
-}
-
 // Rays whose outcome differs from the march's. Embree's arithmetic is not exact: rays that graze an edge may
 // differ.
-std::uint64_t count_differences(Query query, std::span<const gpu::BenchHit> hits,
+std::uint64_t count_differences(bool any_hit, std::span<const gpu::BenchHit> hits,
                                 std::span<const gpu::BenchHit> marched) {
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        const bool same = query == Query::occluded1 || !is_hit(hits[i]) || !is_hit(marched[i]) ||
+        const bool same = any_hit || !is_hit(hits[i]) || !is_hit(marched[i]) ||
                           (hits[i].cell == marched[i].cell && hits[i].face == marched[i].face);
         if (is_hit(hits[i]) != is_hit(marched[i]) || !same) ++count;
     }
     return count;
 }
 
-class EmbreeBench {
+bool has_native_march(Traversal traversal) {
+    return traversal == Traversal::naadf || has_free_boxes(traversal);
+}
+
+// Contestants on one thread of the CPU.
+class CpuBench {
   public:
-    EmbreeBench(const BenchScene& scene, const MarchBenchOptions& options)
+    CpuBench(const BenchScene& scene, const MarchBenchOptions& options)
         : scene_(scene), embree_(scene.world) {
-        build_s_ = build_watch_.elapsed().cpu;
         const MarchWorld guide = build_march_world(scene.world);
         for (const RayKind kind : options.kinds) {
             RayList list{.kind = kind, .rays = bench_rays(scene, guide, kind, options.size, options.seed)};
-            for (const gpu::Ray& ray : list.rays)
-                list.marched.push_back(march_one(guide, ray));
+            list.marched.resize(list.rays.size());
+            march_native(guide, list.rays, list.marched);
             lists_.push_back(std::move(list));
         }
+        for (const Traversal traversal : options.traversals)
+            if (has_native_march(traversal)) worlds_.push_back(build_march_world(scene.world, traversal));
     }
 
-    // A row for each query and kind of rays; reports on standard error how many rays hit. The arguments must
-    // outlive this.
+    // A row for each structure or query of Embree and each kind of rays. They must not outlive this.
     std::vector<MarchContestant> contestants() {
         std::vector<MarchContestant> all;
-        for (const RayList& list : lists_)
-            all.push_back(contestant(Query::intersect1, list));
-        for (const RayList& list : lists_)
-            if (list.kind != RayKind::primary) all.push_back(contestant(Query::occluded1, list));
+        for (const MarchWorld& world : worlds_)
+            for (const RayList& list : lists_)
+                all.push_back(contestant(fmt::format("native.{}", name_of(world.traversal)),
+                                         world.size_bytes(), false, list,
+                                         [&world, &list](std::span<gpu::BenchHit> hits) {
+                                             march_native(world, list.rays, hits);
+                                         }));
+        for (const EmbreeQuery& query : embree_.queries())
+            for (const RayList& list : lists_)
+                if (!query.any_hit || list.kind != RayKind::primary)
+                    all.push_back(contestant(query.name(), embree_.bytes(), query.any_hit, list,
+                                             embree_.prepare(query, list.rays)));
         return all;
     }
 
   private:
-    MarchContestant contestant(Query query, const RayList& list) {
-        BenchRow row{.scene = scene_.name,
-                     .extent = scene_.extent,
-                     .traversal = query == Query::occluded1 ? "embree.occluded1" : "embree.intersect1",
-                     .rays = std::string(name_of(list.kind)),
-                     .count = list.rays.size(),
-                     .memory_bytes = embree_.bytes(),
-                     .build_s = build_s_,
-                     .checked = list.rays.size()};
-        if (list.rays.empty()) return {.row = row};
-        ask(query, list, 1);
-        row.mismatches = count_differences(query, hits_, list.marched);
-        fmt::print(stderr, "{} {} {} {}: {} hits, the march finds {}\n", row.scene, row.extent, row.traversal,
-                   row.rays, std::ranges::count_if(hits_, is_hit),
-                   std::ranges::count_if(list.marched, is_hit));
-        return {.row = row,
-                .run = [this, query, &list](std::uint32_t repeats) { return ask(query, list, repeats); }};
-    }
+    using Answer = EmbreeScene::Answer;
 
-    Seconds ask(Query query, const RayList& list, std::uint32_t repeats) {
+    MarchContestant contestant(const std::string& name, std::uint64_t memory_bytes, bool any_hit,
+                               const RayList& list, const Answer& answer) {
+        MarchContestant made{.row = {.scene = scene_.name,
+                                     .extent = scene_.extent,
+                                     .traversal = name,
+                                     .rays = std::string(name_of(list.kind)),
+                                     .count = list.rays.size(),
+                                     .memory_bytes = memory_bytes,
+                                     .checked = list.rays.size()}};
+        if (list.rays.empty()) return made;
         hits_.resize(list.rays.size());
-        const FlushDenormals flush;
-        const Stopwatch watch;
-        for (std::uint32_t i = 0; i < repeats; ++i) {
-            if (query == Query::occluded1)
-                embree_.find_occluded(list.rays, hits_);
-            else
-                embree_.intersect(list.rays, hits_);
-        }
-        return watch.elapsed();
+        answer(hits_);
+        made.row.mismatches = count_differences(any_hit, hits_, list.marched);
+        made.run = [this, &list, answer](std::uint32_t repeats) {
+            hits_.resize(list.rays.size());
+            const Stopwatch watch;
+            for (std::uint32_t i = 0; i < repeats; ++i)
+                answer(hits_);
+            return watch.elapsed();
+        };
+        return made;
     }
 
     const BenchScene& scene_;
-    Stopwatch build_watch_;  // starts before what it times
     EmbreeScene embree_;
-    double build_s_ = 0.0;
     std::vector<RayList> lists_;
+    std::vector<MarchWorld> worlds_;
     std::vector<gpu::BenchHit> hits_;
 };
 
-bool is_embree(const BenchRow& row) {
-    return row.traversal.starts_with("embree.");
-}
-
-// The rate of the row over the better one of Embree for the same rays.
-double rate_over_embree(const BenchRow& row, const std::vector<BenchRow>& rows) {
-    double best = 0.0;
-    for (const BenchRow& other : rows)
-        if (is_embree(other) && other.rays == row.rays) best = std::max(best, other.mrays_per_cpu_s);
-    return row.mrays_per_cpu_s / best;
-}
-
-// One line per structure: its rates per CPU second over Embree's, and their geometric mean.
-void print_ratios(const std::vector<BenchRow>& rows) {
-    for (auto row = rows.begin(); row != rows.end();) {
-        const auto end = std::find_if(
-            row, rows.end(), [&](const BenchRow& other) { return other.traversal != row->traversal; });
-        std::string line;
-        double logs = 0.0;
-        for (auto one = row; one != end; ++one) {
-            const double ratio = rate_over_embree(*one, rows);
-            line += fmt::format("  {} {:.2f}", one->rays, ratio);
-            logs += std::log(ratio);
-        }
-        if (!is_embree(*row) && row->reason.empty())
-            fmt::print(stderr, "{} {} {} over Embree:{}  mean {:.2f}\n", row->scene, row->extent,
-                       row->traversal, line, std::exp(logs / static_cast<double>(end - row)));
-        row = end;
-    }
-}
-
-std::vector<BenchRow> bench_both(const BenchScene& scene, const MarchBenchOptions& options, Device& device) {
+std::vector<BenchRow> bench_all(const BenchScene& scene, const MarchBenchOptions& options, Device& device) {
     MarchBench march(scene, options, device);
-    EmbreeBench embree(scene, options);
+    CpuBench cpu(scene, options);
     std::vector<MarchContestant> contestants = march.contestants();
-    std::ranges::move(embree.contestants(), std::back_inserter(contestants));
+    std::ranges::move(cpu.contestants(), std::back_inserter(contestants));
     run_contest(contestants, options.rounds);
-    const std::vector<BenchRow> rows = rows_of(contestants);
-    print_ratios(rows);
-    return rows;
+    fmt::print(stderr, "{}", describe_ratios(contestants));
+    return rows_of(contestants);
 }
 
 int run(int argc, char** argv) {
-    CLI::App app{"voxilux bench march with Embree in the contest, one ray at a time on one thread."};
+    CLI::App app{"voxilux bench march with Embree and plain C++ in the contest, on one thread."};
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     BenchMarchCommand command;
     Flags flags(app);
@@ -181,8 +128,9 @@ int run(int argc, char** argv) {
     MarchBenchOptions options = command.options;
     options.size = command.inputs.size;
     options.seed = command.inputs.seed;
+    options.has_beams = true;
     Device device = open_device({.selector = command.inputs.device});
-    bench_march_scenes(command, [&](const BenchScene& scene) { return bench_both(scene, options, device); });
+    bench_march_scenes(command, [&](const BenchScene& scene) { return bench_all(scene, options, device); });
     return 0;
 }
 

@@ -17,25 +17,6 @@ constexpr float kOcclusionReach = 32.0f;  // voxels
 constexpr int kTile = 8;                  // pixels
 constexpr std::array<std::string_view, kRayKinds.size()> kRayNames = {"primary", "ao", "long"};
 
-// The parameters that camera_ray reads.
-gpu::FrameParams camera_params(const BenchScene& scene, glm::ivec2 size, std::uint32_t seed) {
-    const glm::dvec3 local = scene.camera.position - glm::dvec3(scene.world.origin());
-    const glm::dvec3 cell = glm::floor(local);
-    const glm::dmat3 basis = camera_basis(scene.camera);
-    const double half_height = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360.0);
-    const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
-    gpu::FrameParams params{};
-    params.camera_cell = glm::ivec3(cell);
-    params.camera_fraction = glm::vec3(local - cell);
-    params.camera_right = glm::vec3(basis[0] * half_height * aspect);
-    params.camera_up = glm::vec3(basis[1] * half_height);
-    params.camera_forward = glm::vec3(basis[2]);
-    params.width = static_cast<gpu::uint>(size.x);
-    params.height = static_cast<gpu::uint>(size.y);
-    params.seed = seed;
-    return params;
-}
-
 // Calls visit(x, y) for the pixels of the image in the order of bench_rays.
 template <class Visit>
 void for_each_pixel(glm::ivec2 size, const Visit& visit) {
@@ -63,9 +44,30 @@ RayKind ray_kind_named(std::string_view name) {
     return item_named("rays", name, kRayKinds, [](RayKind kind) { return name_of(kind); });
 }
 
+gpu::FrameParams bench_frame(const BenchScene& scene, glm::ivec2 size, std::uint32_t seed) {
+    const glm::dvec3 local = scene.camera.position - glm::dvec3(scene.world.origin());
+    const glm::dvec3 cell = glm::floor(local);
+    const glm::dmat3 basis = camera_basis(scene.camera);
+    const double half_height = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360.0);
+    const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
+    gpu::FrameParams params{};
+    params.chunks = scene.world.chunks();
+    params.camera_cell = glm::ivec3(cell);
+    params.camera_fraction = glm::vec3(local - cell);
+    params.camera_right = glm::vec3(basis[0] * half_height * aspect);
+    params.camera_up = glm::vec3(basis[1] * half_height);
+    params.camera_forward = glm::vec3(basis[2]);
+    params.width = static_cast<gpu::uint>(size.x);
+    params.height = static_cast<gpu::uint>(size.y);
+    params.row_count = params.height;
+    params.column_count = params.width;
+    params.seed = seed;
+    return params;
+}
+
 std::vector<gpu::Ray> bench_rays(const BenchScene& scene, const MarchWorld& guide, RayKind kind,
                                  glm::ivec2 size, std::uint32_t seed) {
-    const gpu::FrameParams params = camera_params(scene, size, seed);
+    const gpu::FrameParams params = bench_frame(scene, size, seed);
     std::vector<gpu::Ray> rays;
     for_each_pixel(size, [&](glm::ivec2 pixel) {
         const auto x = static_cast<gpu::uint>(pixel.x);

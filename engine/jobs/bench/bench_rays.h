@@ -25,6 +25,9 @@ inline constexpr std::array kRayKinds = {RayKind::primary, RayKind::ao, RayKind:
 // The kind of that name; Error(usage) with the known names when there is none.
 [[nodiscard]] RayKind ray_kind_named(std::string_view name);
 
+// What the camera rays of a picture of `size` pixels and the beams around their tiles are made from.
+[[nodiscard]] gpu::FrameParams bench_frame(const BenchScene& scene, glm::ivec2 size, std::uint32_t seed);
+
 // The rays of a kind through an image of `size` pixels, local to the world, in the order in which a render
 // marches them: tiles of 8 x 8 pixels, 64 in a row, with rows of tiles dealt alternately to the two halves of
 // the list. Pixels without such a ray are left out. `guide` is any structure of the scene's world.

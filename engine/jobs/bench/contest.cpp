@@ -21,7 +21,8 @@ void MarchContestant::take_turn() {
     if (!run) return;
     const Seconds taken = run(repeats);
     const double million = static_cast<double>(row.count) * 1e-6 * repeats;
-    row.mrays_per_cpu_s = std::max(row.mrays_per_cpu_s, million / taken.cpu);
+    rates.push_back(million / taken.cpu);
+    row.mrays_per_cpu_s = std::max(row.mrays_per_cpu_s, rates.back());
     row.mrays_per_s = std::max(row.mrays_per_s, million / taken.wall);
 }
 

@@ -35,6 +35,7 @@ struct MarchContestant {
     BenchRow row;
     std::function<Seconds(std::uint32_t repeats)> run;
     std::uint32_t repeats = 1;  // per turn, because one run is too short to be timed
+    std::vector<double> rates;  // millions of rays per CPU second of each turn so far
 
     void warm_up();
     void take_turn();

@@ -17,6 +17,7 @@ struct MarchBenchOptions {
     Builder builder = Builder::cpu;
     glm::ivec2 size{640, 360};  // pixels
     int rounds = 5;             // each row takes the best
+    bool has_beams = false;     // camera rays also start where beams end, in rows of their own
     std::uint32_t seed = 0;
 };
 
@@ -40,13 +41,24 @@ class MarchBench {
 
     [[nodiscard]] RayList place_rays(RayKind kind, const std::vector<gpu::Ray>& rays,
                                      const DeviceLimits& limits);
-    [[nodiscard]] BenchRow row_of(const PlacedStructure& structure, const RayList& rays) const;
-    void judge(BenchRow& row, const PlacedStructure& structure, const RayList& rays);
-    Seconds run(const PlacedStructure& structure, const RayList& rays, std::uint32_t repeats);
-    static Recording record_march(const PlacedStructure& structure, const RayList& rays,
-                                  std::uint32_t repeats);
+    // Rays through a structure, from where beams end or from where they are.
+    struct March {
+        const PlacedStructure& structure;
+        const RayList& rays;
+        bool has_beams;
+    };
+    [[nodiscard]] bool can_start_at_beams(const PlacedStructure& structure, const RayList& rays) const;
+    [[nodiscard]] MarchContestant contestant(const March& march);
+    [[nodiscard]] BenchRow row_of(const March& march) const;
+    void judge(BenchRow& row, const March& march);
+    Seconds run(const March& march, std::uint32_t repeats);
+    [[nodiscard]] Recording record(const March& march, std::uint32_t repeats) const;
+    [[nodiscard]] Dispatch beam_dispatch(const PlacedStructure& structure, const std::string& starts,
+                                         Recording& recording) const;
 
     const BenchScene& scene_;
+    bool has_beams_;
+    gpu::FrameParams frame_;
     Executor executor_;
     std::vector<RayList> rays_;
     std::vector<PlacedStructure> structures_;

@@ -32,6 +32,25 @@ TEST(BenchMarch, every_structure_meets_what_the_plain_walk_meets) {
     }
 }
 
+// Five by three tiles, whose rows come in the order 0, 2, 1: a start taken for another tile's rays would be
+// seen.
+TEST(BenchMarch, camera_rays_that_start_where_beams_end_meet_the_same_in_fewer_steps) {
+    const BenchScene scene = procedural_scene(64, 1);
+    MarchBenchOptions options = small_bench({Traversal::naadf, Traversal::deep, Traversal::wide});
+    options.size = {40, 24};
+    options.kinds = {RayKind::primary};
+    options.has_beams = true;
+    const std::vector<BenchRow> rows = bench_march(scene, options, test_device());
+    ASSERT_EQ(rows.size(), 5u);
+    for (const std::size_t plain : {1u, 3u}) {
+        EXPECT_EQ(rows[plain + 1].traversal, rows[plain].traversal + ".beams");
+        EXPECT_EQ(rows[plain + 1].mismatches, 0u);
+        EXPECT_LT(rows[plain + 1].steps, 0.9 * rows[plain].steps);
+    }
+    options.size = {36, 24};  // tiles that are cut off have no beams
+    EXPECT_EQ(bench_march(scene, options, test_device()).size(), 3u);
+}
+
 TEST(BenchMarch, camera_that_sees_no_voxel_leaves_rows_without_rays) {
     BenchScene scene = procedural_scene(kMinExtent, 1);
     scene.camera.pitch_deg = 90.0;
