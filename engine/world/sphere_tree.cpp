@@ -1,10 +1,13 @@
 #include "world/sphere_tree.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
-#include "base/checked_cast.h"
+#include "base/assert.h"
 #include "base/error.h"
 #include "scene/lobe_weights.h"
 #include "world/sphere_view.h"

@@ -24,25 +24,41 @@ vec2 shares_left(Sphere shape, uint i, uint own, vec3 point, vec3 normal, vec2 r
     return vec2(1.0 - share_taken(shape, point, normal, radii.x), 1.0 - share_taken(shape, point, normal, radii.y));
 }
 
-// The product of these fractions over all spheres. A sphere covers a disc only where it comes within the
-// disc's radius.
-vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
+// The product of the shares that the list's spheres leave, in its order, found by the hierarchy: one walk for each sphere
+// that takes of the discs, and one that finds no more.
+vec2 product_by_tree(uint own, vec3 point, vec3 normal, vec2 radii) {
     vec2 shares = vec2(1.0);
-    if (!has_sphere_tree) {
-        for (uint i = 0u; i < sphere_count; ++i)
-            shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
-        return shares;
-    }
+    vec2 next_shares = vec2(1.0);
+    uint next = kNoSphere;
+    uint first = 0u;  // the spheres before have been multiplied
     BoxQuery query = point_query(point, max(radii.x, radii.y));
     SphereWalk walk = begin_walk(query);
     while (walk.group != 0u) {
         SphereNode node = load_sphere_node(node_of(walk, query));
         bool is_leaf = is_sphere_leaf(node);
-        vec2 left = shares_left(leaf_sphere(node), leaf_number(node), own, point, normal, radii);
-        shares *= is_leaf ? left : vec2(1.0);
+        uint number = leaf_number(node);
+        vec2 left = shares_left(leaf_sphere(node), number, own, point, normal, radii);
+        bool is_next = is_leaf && number >= first && number < next && min(left.x, left.y) < 1.0;
+        next = is_next ? number : next;
+        next_shares = is_next ? left : next_shares;
         walk = walk_on(walk, is_leaf ? 0u : children_met(node, query, 0.0));
+        if (walk.group == 0u && next != kNoSphere) {
+            shares *= next_shares;
+            first = next + 1u;
+            next = kNoSphere;
+            walk = begin_walk(query);
+        }
     }
-    count(kFaultLoopCut, are_loops_spent(2u + (walk.group & 1u)) ? 1u : 0u);
+    count(kFaultLoopCut, are_loops_spent(2u + (first & 1u)) ? 1u : 0u);
+    return shares;
+}
+
+// The product of all shares of two discs. A sphere takes from a disc only where it comes within the disc's radius.
+vec2 product_of_shares(uint own, vec3 point, vec3 normal, vec2 radii) {
+    if (has_sphere_tree) return product_by_tree(own, point, normal, radii);
+    vec2 shares = vec2(1.0);
+    for (uint i = 0u; i < sphere_count; ++i)
+        shares *= shares_left(sphere_table[i].shape, i, own, point, normal, radii);
     return shares;
 }
 

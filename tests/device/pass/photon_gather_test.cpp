@@ -331,6 +331,25 @@ TEST(PhotonGather, light_beside_a_wall_is_divided_by_the_share_that_the_wall_lea
     EXPECT_TRUE(same_light(found, test::run_splat(job)));
 }
 
+// Shares of many spheres, whose product depends on the order in its last bits.
+TEST(PhotonGather, spheres_that_a_hierarchy_finds_take_of_discs_in_the_order_of_the_list) {
+    PhotonJob job = random_job(31, {0, 0, 0}, 3.0, 4);
+    TestRandom random(32);
+    while (job.spheres.size() < gpu::kFewSpheres) {
+        const glm::dvec3 centre(random_vec(random, -3.0, 3.0));
+        job.spheres.push_back({gpu::sphere_anchored_near(centre, random.uniform(0.3, 2.0), {0, 0, 0}), 0});
+    }
+    const PhotonOutcome listed = test::run_photons(job);
+    PhotonJob turned = job;  // all but the four that points are on
+    std::reverse(turned.spheres.begin() + 4, turned.spheres.end());
+    EXPECT_FALSE(same_light(test::run_photons(turned), listed));
+    for (int i = 0; i < 20; ++i)
+        job.spheres.push_back({gpu::sphere_anchored_near({20.0, 20.0, 2.0 * i}, 0.5, {0, 0, 0}), 0});
+    ASSERT_TRUE(test::photon_plan(job).has_sphere_tree());
+    EXPECT_TRUE(same_light(test::run_photons(job), listed));
+    EXPECT_TRUE(same_light(test::run_splat(job), listed));
+}
+
 TEST(PhotonGather, workgroups_of_any_shape_give_the_same_bits) {
     const PhotonJob job = random_job(12, {0, 0, 0}, 6.0, 2);
     const PhotonOutcome want = test::run_photons(job);
