@@ -2,8 +2,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// First voxel that each ray of a list hits, entering the world as camera rays do: what `voxilux bench march`
-// times.
+// First voxel that each ray of a list meets: what `voxilux bench march` times.
 
 #include "lib/address.glsl"
 #include "lib/interleaved_row.glsl"
@@ -14,9 +13,8 @@
 #include "lib/world_access.glsl"
 #include "shared/camera.h"
 
-layout(scalar) readonly buffer Rays {
-    Ray rays[];
-};
+// As texels of one word, as passes read what others left (lib/hits.glsl says why).
+layout(r32ui) readonly uniform uimageBuffer Rays;
 layout(scalar) readonly buffer Starts {
     float starts[];
 };
@@ -35,11 +33,32 @@ float start_of(uint i, float entry) {
     return starts[row * push.beams.x + tile % push.beams.x] - entry;
 }
 
+// Whether the rays may start outside the world, as camera rays do.
+VX_SPECIALIZED(uint, have_entries, 0u);
+
+uint ray_word(uint i, uint k) {
+    return imageLoad(Rays, int(kRayWords * i + k)).x;
+}
+
+Ray load_ray(uint i) {
+    Ray ray;
+    ray.cell = ivec3(ray_word(i, 0u), ray_word(i, 1u), ray_word(i, 2u));
+    ray.fraction = uintBitsToFloat(uvec3(ray_word(i, 3u), ray_word(i, 4u), ray_word(i, 5u)));
+    ray.direction = uintBitsToFloat(uvec3(ray_word(i, 6u), ray_word(i, 7u), ray_word(i, 8u)));
+    ray.t_max = uintBitsToFloat(ray_word(i, 9u));
+    return ray;
+}
+
+WorldEntry entry_of(Ray ray) {
+    if (have_entries != 0u) return enter_world(ray, push.chunks << kChunkLog2);
+    return WorldEntry(ray, 0.0, true);
+}
+
 void main() {
     init_world();
     uint i = linear_id();
     if (i >= push.count) return;
-    WorldEntry entry = enter_world(rays[i], push.chunks << kChunkLog2);
+    WorldEntry entry = entry_of(load_ray(i));
     BenchHit hit;
     hit.cell = ivec3(-1);
     hit.face = kFaceMiss;

@@ -38,8 +38,6 @@ VX_CONST(float, kNeverCrossed, 1.0e30f);
 VX_CONST(float, kPlaneMargin, 0.015625f);
 // Steps of a march beyond the number of planes of the world: for entering, leaving, and the border box.
 VX_CONST(uint, kMarchSlack, 3u);
-// Planes that a ray may have crossed where its march starts: more than a world has.
-VX_CONST(int, kMaxPlanes, 1 << 24);
 // t_max of an unbounded ray; every crossing time is below.
 VX_CONST(float, kUnbounded, 3.0e38f);
 

@@ -74,13 +74,15 @@ VX_FN MarchAxes march_axes(Ray ray) {
     MarchAxes axes;
     axes.cell = ray.cell;
     axes.speed = speed * used;
-    axes.sign_mask =
-        ivec3(axes.speed.x > 0.0f && d.x < 0.0f ? -1 : 0, axes.speed.y > 0.0f && d.y < 0.0f ? -1 : 0,
-              axes.speed.z > 0.0f && d.z < 0.0f ? -1 : 0);
-    // By `used` and not by the speed, which may be -0: 1 / -0 is -infinity.
-    axes.inverse_direction =
-        vec3(used.x > 0.0f ? 1.0f / speed.x : kNeverCrossed, used.y > 0.0f ? 1.0f / speed.y : kNeverCrossed,
-             used.z > 0.0f ? 1.0f / speed.z : kNeverCrossed);
+    // Signs as bits of a product, for software devices make what is chosen by a comparison anew in each turn
+    // of the loop. A zero that counts as negative would be one with a sign: + 0 takes it away.
+    VX_PRECISE vec3 signs = d * used + 0.0f;
+    axes.sign_mask = ivec3(int(floatBitsToUint(signs.x)) >> 31, int(floatBitsToUint(signs.y)) >> 31,
+                           int(floatBitsToUint(signs.z)) >> 31);
+    // A pace of 1 where the axis is not used, since 1 / 0 is infinite; kNeverCrossed by a product as above.
+    VX_PRECISE vec3 inverse =
+        (1.0f / (speed * used + (1.0f - used))) * (used + (1.0f - used) * kNeverCrossed);
+    axes.inverse_direction = inverse;
     axes.offset = ray.fraction * used * vec3(-1 - 2 * axes.sign_mask);
     axes.direction_numbers = ivec3(1, 3, 5) + axes.sign_mask;
     axes.far_shift = axes.direction_numbers * int(kFarBits);
@@ -120,19 +122,19 @@ VX_FN ivec3 cell_behind(MarchAxes axes, ivec3 crossed) {
     return axes.cell + (crossed ^ axes.sign_mask) - axes.sign_mask;
 }
 
-// Crossings of each axis that come before crossing `axis` at `t`, given that `low` of them are known and
-// `high` are not exceeded. The estimate is low by at most one: kPlaneMargin exceeds its rounding error.
-VX_FN ivec3 planes_before(MarchAxes axes, float t, int axis, ivec3 low, ivec3 high) {
+// Crossings of each axis up to that of `axis` at `t`, which is one of them. The estimate is low by at most
+// one: kPlaneMargin exceeds its rounding error.
+VX_FN ivec3 planes_until(MarchAxes axes, float t, int axis) {
     const vec3 estimate = t * axes.speed - axes.offset - vec3(axes.sign_mask) - kPlaneMargin;
-    ivec3 n = clamp(ivec3(estimate), low, high);  // negative values are below `low` in any case
+    ivec3 n = ivec3(estimate);  // 0 also of what is slightly below
     const vec3 next = plane_times(axes, n + 1);
-    n.x += next.x < t || (next.x == t && 0 < axis) ? 1 : 0;
-    n.y += next.y < t || (next.y == t && 1 < axis) ? 1 : 0;
-    n.z += next.z < t ? 1 : 0;
+    n.x += next.x <= t ? 1 : 0;
+    n.y += next.y < t || (next.y == t && axis > 0) ? 1 : 0;
+    n.z += next.z < t || (next.z == t && axis > 1) ? 1 : 0;
     return n;
 }
 
-// Planes to cross on each axis to leave the empty box around `local`.
+// Planes to cross on each axis to leave the empty box around `local`, counted from the start.
 VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
     const uint ones = (1u << found.bits) - 1u;
     const uint payload = cell_payload(found.cell);
@@ -140,17 +142,15 @@ VX_FN ivec3 planes_to_exit(MarchCell found, ivec3 local, MarchAxes axes) {
         found.bits == kFarBits ? axes.far_shift : axes.direction_numbers + axes.direction_numbers;
     const ivec3 extent = ivec3(int((payload >> uint(shift.x)) & ones), int((payload >> uint(shift.y)) & ones),
                                int((payload >> uint(shift.z)) & ones));
-    const ivec3 passed = (local ^ axes.sign_mask) & ((1 << found.log2) - 1);
-    return ((extent + 1) << found.log2) - passed;
+    const ivec3 home = (local ^ axes.sign_mask) >> found.log2;  // cells along the ray
+    return ((home + extent + 1) << found.log2) - (axes.cell ^ axes.sign_mask);
 }
 
-// Planes that a ray from inside the world can cross. (With a limit shared by all rays, lavapipe would compile
-// the march anew for each dispatch.)
-VX_FN uint planes_ahead(MarchAxes axes, ivec3 size) {
-    const ivec3 ahead = ivec3(axes.sign_mask.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
-                              axes.sign_mask.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
-                              axes.sign_mask.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
-    return uint(max(ahead.x + ahead.y + ahead.z, 0));
+// Planes to cross on each axis to leave the world from inside.
+VX_FN ivec3 planes_to_border(MarchAxes axes, ivec3 size) {
+    return ivec3(axes.sign_mask.x < 0 ? axes.cell.x + 1 : size.x - axes.cell.x,
+                 axes.sign_mask.y < 0 ? axes.cell.y + 1 : size.y - axes.cell.y,
+                 axes.sign_mask.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
 }
 
 // The ray at its start, before the first step.
@@ -167,38 +167,46 @@ VX_FN MarchHit march_nothing(Ray ray) {
 }
 
 // The hit of march() for a ray that is known to hit no solid cell before the time `start`: it steps from
-// there. The loop has one way out and changes few values, because software devices blend each of them for all
-// invocations at each way out.
+// there, up to t_max or the crossing that leaves the world, whichever comes first. The loop has one way out
+// and changes few values, because software devices blend each of them for all invocations, at each way out.
+// (Its limit is not the same for all rays: that would be another bound of the loop for each world, and
+// lavapipe would compile the march anew for each dispatch.)
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
     MarchHit hit = march_nothing(ray);
-    const float from = hit.fault == kMarchFine ? max(start, 0.0f) : ray.t_max;
-    const uint limit = from < ray.t_max ? planes_ahead(axes, size) + kMarchSlack : 0u;
+    const ivec3 border = planes_to_border(axes, size);
+    NextCrossing last = first_crossing(plane_times(axes, border));
+    const float from = max(start, 0.0f);
+    const bool sets_out =
+        hit.fault == kMarchFine && !is_outside(ray.cell, size) && from < ray.t_max && from <= last.t;
+    const uint limit = sets_out ? uint(border.x + border.y + border.z) + kMarchSlack : 0u;
+    if (ray.t_max <= last.t) {
+        last.t = ray.t_max;
+        last.axis = 0;
+    }
+    // Crossings before `start` are those up to the float below it.
+    if (sets_out && from > 0.0f)
+        hit.crossed = planes_until(axes, uintBitsToFloat(floatBitsToUint(from) - 1u), 2);
     int axis = -1;
-    if (start > 0.0f && limit != 0u) {
-        hit.crossed = planes_before(axes, start, 0, ivec3(0), ivec3(kMaxPlanes));
-        hit.cell = cell_behind(axes, hit.crossed);
-    }
-    uint last = make_cell(kCellEmpty, 0u);
+    uint cell = make_cell(kCellEmpty, 0u);
     for (hit.steps = 0u; hit.steps < limit; ++hit.steps) {
-        const bool outside = is_outside(hit.cell, size);
-        const MarchCell found = find_cell(VX_WORLD_ARG outside ? ivec3(0) : hit.cell, chunks);
-        const ivec3 exit = hit.crossed + planes_to_exit(found, hit.cell, axes);
-        const NextCrossing next = first_crossing(plane_times(axes, exit));
-        last = found.cell;
-        if (outside || cell_state(last) == kCellSolid || !(next.t < ray.t_max)) break;
+        const ivec3 local = cell_behind(axes, hit.crossed);
+        const MarchCell found = find_cell(VX_WORLD_ARG local, chunks);
+        const NextCrossing next = first_crossing(plane_times(axes, planes_to_exit(found, local, axes)));
+        const bool is_last = !(next.t < last.t || (next.t == last.t && next.axis < last.axis));
+        cell = found.cell;
+        if (cell_state(cell) == kCellSolid || is_last) break;
         axis = next.axis;
-        const ivec3 n = planes_before(axes, next.t, axis, hit.crossed, exit - 1);
-        hit.crossed = ivec3(axis == 0 ? exit.x : n.x, axis == 1 ? exit.y : n.y, axis == 2 ? exit.z : n.z);
-        hit.cell = cell_behind(axes, hit.crossed);
         hit.t = next.t;
+        hit.crossed = planes_until(axes, hit.t, axis);
     }
+    hit.cell = cell_behind(axes, hit.crossed);
     if (hit.steps == limit && limit != 0u) {
         hit.fault = kMarchExhausted;
-    } else if (cell_state(last) == kCellSolid && !is_outside(hit.cell, size)) {
+    } else if (cell_state(cell) == kCellSolid) {
         hit.face = axis < 0 ? kFaceInside : uint(direction_number(axes, axis) ^ 1);
-        hit.material = cell_payload(last);
+        hit.material = cell_payload(cell);
     }
     return hit;
 }

@@ -12,6 +12,8 @@
 namespace voxilux {
 namespace {
 
+static_assert(sizeof(gpu::Ray) == sizeof(std::uint32_t) * gpu::kRayWords);
+
 constexpr std::uint64_t kJudgedCells = 20'000'000;  // about a second of cell-by-cell walking per kind of rays
 
 BufferProxy rays_buffer(RayKind kind, std::uint32_t count) {
@@ -44,11 +46,12 @@ MarchBench::RayList MarchBench::place_rays(RayKind kind, const std::vector<gpu::
                                            const DeviceLimits& limits) {
     const auto count = checked_cast<std::uint32_t>(rays.size(), "rays");
     const BufferProxy buffer = rays_buffer(kind, count);
-    if (buffer.size_bytes > limits.max_binding_bytes) {
-        throw Error(
-            ExitCode::out_of_memory,
-            fmt::format("{} {} rays take {} MiB, the device binds {} MiB; choose a smaller --size", count,
-                        name_of(kind), buffer.size_bytes >> 20, limits.max_binding_bytes >> 20));
+    const std::uint64_t most =
+        std::min<std::uint64_t>(limits.max_binding_bytes, limits.max_texels * sizeof(std::uint32_t));
+    if (buffer.size_bytes > most) {
+        throw Error(ExitCode::out_of_memory,
+                    fmt::format("{} {} rays take {} MiB, the device binds {} MiB; choose a smaller --size",
+                                count, name_of(kind), buffer.size_bytes >> 20, most >> 20));
     }
     Recording recording;
     recording.declare(buffer);
@@ -132,7 +135,8 @@ Recording MarchBench::record(const March& march, std::uint32_t repeats) const {
         .shader = "bench_march",
         .extent = {march.rays.count, 1, 1},
         .bindings = {{"Rays", inputs.name}, {"BenchHits", outputs.name}, {"Starts", starts.name}},
-        .constants = {{"has_beams", march.has_beams ? 1u : 0u}},
+        .constants = {{"has_beams", march.has_beams ? 1u : 0u},
+                      {"have_entries", march.rays.kind == RayKind::primary ? 1u : 0u}},
         .push = to_bytes(gpu::BenchMarchPush{
             .count = march.rays.count, .chunks = march.structure.chunks, .beams = beams})};
     point_to_structure(march.structure, recording, dispatch);
