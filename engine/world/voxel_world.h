@@ -82,6 +82,8 @@ class VoxelWorld {
     }
 
   private:
+    friend class Flattening;
+
     [[nodiscard]] std::size_t chunk_index(glm::ivec3 chunk_cell) const;
     // Where the number of the brick stands; a chunk is made where there is none.
     [[nodiscard]] std::uint32_t& brick_slot(glm::ivec3 brick_cell);
