@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "film/film_sums.h"
 #include "jobs/render_outcome.h"
@@ -49,6 +50,7 @@ struct RenderOptions {
     // From when times count, those of the report and the time limit: the loading of the scene may be part of
     // it.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+    std::vector<StepTime> steps;  // what came before
 
     // Whether outcomes have the film.
     [[nodiscard]] bool needs_film() const { return keeps_film || plan.wants_denoised; }

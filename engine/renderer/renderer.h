@@ -78,7 +78,7 @@ class Renderer {
     // Voxels that are edited.
     struct Editing {
         EditableVoxels voxels;
-        bool is_grown = false;  // the structure on the host has the boxes that grew on the device
+        bool is_grown = false;  // the structure on the host has the boxes that grow on the device
         bool is_stale = false;  // the structure is not that of the voxels
     };
 
@@ -102,6 +102,7 @@ class Renderer {
     std::optional<double> first_radius_;  // of photons, once a pilot has found it: one for all cameras
     Recording pending_;                   // what the device lacks
     std::vector<PassTime> upload_times_;  // that no step has told yet
+    std::vector<StepTime> built_;         // likewise
 };
 
 }  // namespace voxilux

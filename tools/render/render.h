@@ -45,7 +45,7 @@ Flag add_render_flags(Flags& flags, RenderCommand& command);
 [[nodiscard]] Checkpoint checkpoint_of(const RenderCommand& command);
 
 // The scene as a render takes it. --error without --spp takes samples until the error is reached.
-[[nodiscard]] Scene scene_to_render(const RenderCommand& command);
+[[nodiscard]] Scene scene_to_render(const RenderCommand& command, StepTimes* times = nullptr);
 
 // Whether they are some of the samples, and its EXR has their sums.
 [[nodiscard]] bool is_part(const RenderCommand& command);
