@@ -96,6 +96,7 @@ Scene open_standard_input(const LoadOptions& load) {
     if (!text.starts_with("VOX ")) return parse_scene(text, kName, load);
     const auto vox = read_vox(bytes);
     if (!vox) throw Error(ExitCode::input_refused, fmt::format("{}: {}", kName, vox.reason()));
+    if (load.times != nullptr) load.times->end_step("read");
     return scene_of_file(vox.value(), kName, load);
 }
 
@@ -104,20 +105,22 @@ Scene open_input(const SceneOptions& options, const LoadOptions& load, bool says
     if (options.input == kStandardStream) return open_standard_input(load);
     if (!is_importable(options.input)) return load_scene(options.input, load);
     const ImportedVoxels imported = import_voxels(options.input, options.grid);
+    if (load.times != nullptr) load.times->end_step("read");
     if (says_notes) print_message("note: {}\n", imported.note);
     return scene_of_file(imported.file, options.input, load);
 }
 
 }  // namespace
 
-Scene load_scene_with(const SceneOptions& options, bool says_notes) {
+Scene load_scene_with(const SceneOptions& options, bool says_notes, StepTimes* times) {
     // -D comes after the preset, so that it wins.
     std::vector<std::string> overrides;
     if (options.quality != nullptr) overrides = overrides_of(*options.quality);
     overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-    Scene scene =
-        open_input(options, {.overrides = overrides, .ignores_file_settings = options.ignores_file_settings},
-                   says_notes);
+    Scene scene = open_input(
+        options,
+        {.overrides = overrides, .ignores_file_settings = options.ignores_file_settings, .times = times},
+        says_notes);
     set_iterations_of_quality(options, scene);
     for (const auto& change : options.changes)
         change(scene.settings);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "voxelizer/parallel_blocks.h"
+#include "base/parallel_blocks.h"
 #include "voxelizer/thin_cover.h"
 #include "voxelizer/winding_number.h"
 

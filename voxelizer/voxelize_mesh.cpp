@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "voxelizer/parallel_blocks.h"
+#include "base/parallel_blocks.h"
 
 namespace voxilux {
 namespace {

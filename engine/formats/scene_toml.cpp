@@ -142,6 +142,10 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
     read_camera(in);
 }
 
+void end_step(const LoadOptions& options, const char* label) {
+    if (options.times != nullptr) options.times->end_step(label);
+}
+
 std::string lower_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension)
@@ -177,6 +181,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file, cons
     toml::table root = parse_toml(text, file.string());
     Scene scene;
     read_tree(root, file, options, scene);
+    end_step(options, "scene");
     return scene;
 }
 
@@ -186,12 +191,17 @@ Scene scene_of_file(const VoxFile& vox, const std::filesystem::path& file, const
     if (!options.ignores_file_settings) apply_vox_settings(vox, render_objects(vox), scene);
     toml::table root;
     read_tree(root, file, options, scene);
+    end_step(options, "scene");
     return scene;
 }
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
     const std::string extension = lower_extension(file);
-    if (extension == ".vox") return scene_of_file(load_vox(file), file, options);
+    if (extension == ".vox") {
+        const VoxFile vox = load_vox(file);
+        end_step(options, "read");
+        return scene_of_file(vox, file, options);
+    }
     if (extension != ".toml")
         throw Error(ExitCode::input_refused,
                     fmt::format("{}: unknown kind of scene; give a .vox or a .toml file", file.string()));

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/step_times.h"
 #include "scene/scene.h"
 #include "scene/vox_file.h"
 
@@ -15,6 +16,7 @@ struct LoadOptions {
     // The value is TOML, or else a string. Applied in order before anything is read.
     std::vector<std::string> overrides;
     bool ignores_file_settings = false;  // of a .vox file: how its author lit and framed it
+    StepTimes* times = nullptr;          // gets the steps of loading
     int frame = 0;  // that the instances of animated .vox files show; scene_at_frame gives the others
 };
 

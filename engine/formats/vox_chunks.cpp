@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 #include "scene/vox_graph.h"
 
@@ -49,22 +51,10 @@ void read_voxels(VoxReading& reading, VoxBytes& in) {
     VoxModel model{.size = *reading.size};
     const std::uint32_t count = in.count(kVoxelBytes, "voxels");
     const auto raw = in.bytes(std::size_t{count} * kVoxelBytes, "voxels");
-    model.voxels.reserve(count);
-    for (std::size_t i = 0; i < raw.size(); i += kVoxelBytes) {
-        const auto byte = [&](std::size_t k) { return std::to_integer<std::uint8_t>(raw[i + k]); };
-        model.voxels.push_back({byte(0), byte(1), byte(2), byte(3)});
-    }
-    count_oddities(model, reading.cells);
-    const std::size_t id = reading.file.models.size();
-    if (model.out_of_size > 0)
-        reading.warn(in.offset(),
-                     fmt::format("model {}: {} voxels outside its size are ignored", id, model.out_of_size));
-    if (model.duplicates > 0)
-        reading.warn(in.offset(),
-                     fmt::format("model {}: {} voxels replace earlier ones", id, model.duplicates));
-    if (model.index0 > 0)
-        reading.warn(in.offset(),
-                     fmt::format("model {}: {} voxels have the empty index 0", id, model.index0));
+    static_assert(sizeof(VoxVoxel) == kVoxelBytes && std::is_trivially_copyable_v<VoxVoxel>);
+    model.voxels.resize(count);
+    if (count > 0) std::memcpy(model.voxels.data(), raw.data(), raw.size());
+    reading.model_places.push_back({in.offset(), reading.file.warnings.size() + reading.dropped_warnings});
     reading.file.models.push_back(std::move(model));
 }
 
@@ -219,8 +209,13 @@ constexpr ChunkRule kRules[] = {
 }  // namespace
 
 void VoxReading::warn(std::size_t offset, std::string_view what) {
+    const bool is_kept = file.warnings.size() < kVoxMaxWarnings;
+    keep_warning(is_kept ? fmt::format("at byte {}: {}", offset, what) : std::string());
+}
+
+void VoxReading::keep_warning(std::string warning) {
     if (file.warnings.size() < kVoxMaxWarnings) {
-        file.warnings.push_back(fmt::format("at byte {}: {}", offset, what));
+        file.warnings.push_back(std::move(warning));
     } else {
         ++dropped_warnings;
     }

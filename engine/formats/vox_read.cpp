@@ -6,6 +6,7 @@
 #include "base/printable.h"
 #include "formats/vox_bytes.h"
 #include "formats/vox_chunks.h"
+#include "formats/vox_oddities.h"
 #include "scene/vox_graph.h"
 
 // The reader: one pass over the chunks, each parsed inside its own byte range. Nothing is allocated for a
@@ -88,6 +89,7 @@ void read_all(VoxReading& reading, std::span<const std::byte> bytes) {
     VoxBytes in(bytes, header.offset(), header.offset() + children, "MAIN");
     while (in.left() > 0)
         read_chunk(reading, bytes, in);
+    note_oddities(reading);
     if (in.offset() < bytes.size())
         reading.warn(in.offset(), fmt::format("{} bytes after MAIN are ignored", bytes.size() - in.offset()));
     if (reading.file.models.empty()) reading.warn(in.offset(), "no models");

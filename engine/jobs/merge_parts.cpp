@@ -88,7 +88,7 @@ void add_rows(Json& total, const Json& more, const char* key) {
             total.push_back(row);
             continue;
         }
-        for (const char* number : {"count", "ms"}) {
+        for (const char* number : {"count", "ms", "wall_s", "cpu_s"}) {
             if (row.contains(number) && row.at(number).is_number())
                 add_numbers(*known, {{number, row.at(number)}});
         }
@@ -105,6 +105,8 @@ void add_report(Json& total, const Json& more) {
     }
     if (total.contains("passes") && more.contains("passes"))
         add_rows(total["passes"], more.at("passes"), "label");
+    if (total.contains("steps") && more.contains("steps"))
+        add_rows(total["steps"], more.at("steps"), "label");
     if (total.contains("effects") && more.contains("effects"))
         add_rows(total["effects"], more.at("effects"), "name");
     if (total.contains("peak_rss_mib") && more.contains("peak_rss_mib"))

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "film/film_sums.h"
 #include "jobs/render_outcome.h"
@@ -50,6 +51,7 @@ struct RenderOptions {
     // Start of the times of the report and of the time limit, so that they can include the loading of the
     // scene.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+    std::vector<StepTime> steps;  // what came before
 
     // Whether outcomes include the film.
     [[nodiscard]] bool needs_film() const { return keeps_film || plan.wants_denoised; }

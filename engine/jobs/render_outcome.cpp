@@ -14,6 +14,7 @@ void add_step(const StepResult& step, const RenderPlan& plan, RenderStatistics& 
     if (plan.photons.runs()) statistics.work["photons_emitted"] += step.tiles * plan.photons.count();
     if (plan.rays.primary != 0) statistics.work["primary_rays"] += step.pixels;
     add_times(statistics.passes, step.passes);
+    add_step_times(statistics.steps, step.built);
     for (const PassTime& pass : step.passes)
         statistics.gpu_ms += pass.ms;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/step_times.h"
 #include "estimators/error_estimate.h"
 #include "film/film_sums.h"
 #include "formats/image.h"
@@ -27,7 +28,8 @@ struct RenderStatistics {
     double wall_s = 0.0;
     double cpu_s = 0.0;
     double peak_rss_mib = 0.0;
-    double load_s = 0.0;  // scene, world and structure, on the CPU
+    double load_s = 0.0;          // scene, world and structure, on the CPU
+    std::vector<StepTime> steps;  // of loading, in their order
     double first_pixel_s =
         0.0;  // from RenderOptions::started to the end of the first tile; 0 when there is none
     double gpu_ms = 0.0;

@@ -54,12 +54,20 @@ RenderOptions with_wishes(RenderOptions options) {
     return options;
 }
 
+Device open_timed(const DeviceRequest& request, std::vector<StepTime>& steps) {
+    StepTimes times;
+    Device device = open_device(request);
+    times.end_step("device");
+    add_step_times(steps, times.steps());
+    return device;
+}
+
 }  // namespace
 
 RenderSession::RenderSession(Scene scene, RenderOptions options)
     : options_(with_wishes(std::move(options))),
       player_(std::move(scene)),
-      device_(open_device(options_.device)),
+      device_(open_timed(options_.device, options_.steps)),
       renderer_(std::in_place, device_, options_.executor) {}
 
 RenderSession::~RenderSession() = default;
@@ -152,6 +160,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     const Clock::time_point start = std::exchange(has_started_, true) ? Clock::now() : options_.started;
     show(frame);
     const double load_s = seconds_since(start);
+    steps_before_ = std::exchange(options_.steps, {});
     RenderOptions options = options_;
     options.time_limit_s = time_limit_s;
     const bool is_first = !last_points_;
@@ -229,6 +238,7 @@ void RenderSession::complete(RenderOutcome& outcome, double load_s, Clock::time_
     RenderStatistics& statistics = outcome.statistics;
     statistics.device = device_.info();
     statistics.load_s = load_s;
+    statistics.steps.insert(statistics.steps.begin(), steps_before_.begin(), steps_before_.end());
     statistics.warnings = scene_->warnings;
     warn_about_camera(*scene_, renderer_->prepared(), statistics.warnings);
     statistics.wall_s = seconds_since(start);

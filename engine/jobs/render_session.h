@@ -71,6 +71,7 @@ class RenderSession {
     std::optional<std::vector<ErrorPoint>> last_points_;  // of the previous frame, since the last change
     std::optional<Forecast> forecast_;                    // of the first frame
     std::vector<NoiseShare> shares_;
+    std::vector<StepTime> steps_before_;  // the frame
     std::size_t messages_told_ = 0;
     bool has_started_ = false;
     bool is_changed_ = false;  // settings or request, since the last frame

@@ -100,6 +100,7 @@ void add_statistics(RenderStatistics& total, const RenderStatistics& frame) {
     total.cpu_s = frame.cpu_s;  // of the process so far
     total.peak_rss_mib = frame.peak_rss_mib;
     total.load_s += frame.load_s;
+    add_step_times(total.steps, frame.steps);
     total.gpu_ms += frame.gpu_ms;
     add_times(total.passes, frame.passes);
     for (const auto& [name, count] : frame.work)
@@ -169,6 +170,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["wall_s"] = statistics.wall_s;
     json["cpu_s"] = statistics.cpu_s;
     json["load_s"] = statistics.load_s;
+    json["steps"] = steps_json(statistics.steps);
     json["first_pixel_s"] = statistics.first_pixel_s;
     json["peak_rss_mib"] = statistics.peak_rss_mib;
     json["gpu_ms"] = statistics.gpu_ms;
@@ -188,6 +190,13 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
     return json;
+}
+
+Json steps_json(const std::vector<StepTime>& steps) {
+    Json rows = Json::array();
+    for (const StepTime& step : steps)
+        rows.push_back({{"label", step.label}, {"wall_s", step.time.wall}, {"cpu_s", step.time.cpu}});
+    return rows;
 }
 
 Json denoised_json(const Denoised& denoised) {

@@ -46,6 +46,9 @@ void add_frame(SequenceReport& report, std::int64_t frame, const std::vector<std
 [[nodiscard]] nlohmann::ordered_json denoised_json(const Denoised& denoised);
 [[nodiscard]] std::string denoised_text(const Denoised& denoised);
 
+// The report's `steps`.
+[[nodiscard]] nlohmann::ordered_json steps_json(const std::vector<StepTime>& steps);
+
 // The plan in the same terms, before anything ran.
 [[nodiscard]] nlohmann::ordered_json plan_json(const Scene& scene, const RenderPlan& plan);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/step_times.h"
 #include "film/film_sums.h"
 #include "frame/frame_state.h"
 #include "passes/display/display.h"
@@ -38,6 +39,7 @@ struct StepResult {
     std::uint64_t pixels = 0;   // that got a sample
     std::array<std::uint64_t, gpu::kCounterCount> counters{};
     std::vector<PassTime> passes;
+    std::vector<StepTime> built;  // what making and uploading worlds took since the step before
 };
 
 // Takes samples of one plan, tile by tile, on a device that holds the world: the only loop over dispatch

@@ -1,11 +1,13 @@
 #include "renderer/prepared_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "frame/footprint.h"
 #include "plan/choose_traversal.h"
 #include "scene/scene_camera.h"
 #include "shared/limits.h"
+#include "world/build_fields.h"
 #include "world/sphere_tree.h"
 
 namespace voxilux {
@@ -30,24 +32,34 @@ void leave_room(WorldFacts& world) {
 }  // namespace
 
 PreparedScene prepare_scene(const Scene& scene, const PlanRequest& request, const DeviceLimits& limits) {
+    StepTimes times;
     const SceneFacts facts = measure_scene(scene);
-    return prepare_scene(scene, facts, build_world(scene), request, limits);
+    times.end_step("facts");
+    const VoxelWorld world = build_world(scene);
+    times.end_step("flatten");
+    return prepare_scene(scene, facts, world, request, limits, std::move(times));
 }
 
 PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const VoxelWorld& world,
-                            const PlanRequest& request, const DeviceLimits& limits) {
-    PreparedScene prepared{.facts = facts};
+                            const PlanRequest& request, const DeviceLimits& limits, StepTimes times) {
+    PreparedScene prepared{.facts = facts, .times = std::move(times)};
     TraversalChoice choice;
     if (facts.has_voxels) {
         choice = choose_traversal(take_census(world), request.traversal, request.memory_budget_bytes, limits);
         prepared.march_world = build_unexpanded_world(world, choice.traversal);
+        prepared.times.end_step("structure");
     } else {
         prepared.march_world.origin = nearest_to_camera(scene);
         prepared.march_world.roots = {0};
     }
     const glm::ivec3 origin = prepared.march_world.origin;
+    if (limits.is_cpu) {
+        grow_boxes(prepared.march_world);
+        prepared.times.end_step("boxes");
+    }
     prepared.lights = find_lights(scene, facts.has_voxels ? &world : nullptr, origin);
     WorldFacts world_facts = measure_world(prepared.march_world);
+    if (limits.is_cpu) world_facts.growth = {};
     world_facts.traversal_reason = choice.reason;
     world_facts.lights = measure_lights(scene, prepared.lights, prepared.march_world.size(), origin);
     if (scene.spheres.size() + scene.ground.count() > gpu::kFewSpheres) {
@@ -57,6 +69,7 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
     }
     if (request.leaves_room) leave_room(world_facts);
     prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
+    prepared.times.end_step("plan");
     return prepared;
 }
 

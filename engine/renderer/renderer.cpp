@@ -55,9 +55,11 @@ void Renderer::set_voxels(const Scene& scene) {
 void Renderer::prepare_editable(const Scene& scene, const PlanRequest& request) {
     PlanRequest with_room = request;
     with_room.leaves_room = true;
+    StepTimes times;
     EditableVoxels voxels(scene);
-    PreparedScene next =
-        prepare_scene(scene, measure_scene(scene, voxels.facts()), voxels.world(), with_room, limits_);
+    times.end_step("flatten");
+    PreparedScene next = prepare_scene(scene, measure_scene(scene, voxels.facts()), voxels.world(), with_room,
+                                       limits_, std::move(times));
     editing_ = Editing{.voxels = std::move(voxels)};
     first_radius_.reset();
     is_framed_ = !scene.camera;
@@ -78,7 +80,8 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
     scene_ = without_voxels(scene);
     request_ = request;
     prepared_ = std::move(next);
-    if (editing_) editing_->is_grown = false;
+    if (editing_) editing_->is_grown = limits_.is_cpu;
+    add_step_times(built_, prepared_->times.steps());
     pending_ = {};
     record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
     start_plan(state);
@@ -146,7 +149,10 @@ void Renderer::restart(FilmPosition start) {
 
 void Renderer::upload() {
     if (pending_.commands().empty()) return;
+    StepTimes times;
     add_times(upload_times_, executor_.run(std::exchange(pending_, {})).passes);
+    times.end_step("upload");
+    add_step_times(built_, times.steps());
 }
 
 Executor& Renderer::executor() {
@@ -181,6 +187,7 @@ StepResult Renderer::with_uploads(StepResult step) {
     std::vector<PassTime> passes = std::exchange(upload_times_, {});
     add_times(passes, step.passes);
     step.passes = std::move(passes);
+    step.built = std::exchange(built_, {});
     return step;
 }
 

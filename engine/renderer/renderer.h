@@ -79,7 +79,7 @@ class Renderer {
     // Voxels that are edited.
     struct Editing {
         EditableVoxels voxels;
-        bool is_grown = false;  // the structure on the host has the boxes that grew on the device
+        bool is_grown = false;  // the structure on the host has the boxes that grow on the device
         bool is_stale = false;  // the structure does not match the voxels
     };
 
@@ -103,6 +103,7 @@ class Renderer {
     std::optional<double> first_radius_;  // of photons, once a pilot has found it: one for all cameras
     Recording pending_;                   // uploads that the device lacks
     std::vector<PassTime> upload_times_;  // that no step has reported yet
+    std::vector<StepTime> built_;         // likewise
 };
 
 }  // namespace voxilux

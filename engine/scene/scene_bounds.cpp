@@ -1,26 +1,31 @@
 #include "scene/scene_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel_blocks.h"
 
 namespace voxilux {
 namespace {
 
-// The smallest box around the cells of a model, in model space.
-Box model_bounds(const VoxelModel& model) {
-    Box bounds;
-    for (const Voxel& voxel : model.voxels) {
-        const glm::ivec3 cell(voxel.x, voxel.y, voxel.z);
-        bounds = united(bounds, {cell, cell + 1});
+constexpr std::size_t kVoxelsOfBoxThread = std::size_t{1} << 17;
+
+Box voxel_box(std::span<const Voxel> voxels) {
+    if (voxels.empty()) return {};
+    std::array<std::uint16_t, 3> low, high;
+    low.fill(std::numeric_limits<std::uint16_t>::max());
+    high.fill(0);
+    for (const Voxel& voxel : voxels) {
+        low = {std::min(low[0], voxel.x), std::min(low[1], voxel.y), std::min(low[2], voxel.z)};
+        high = {std::max(high[0], voxel.x), std::max(high[1], voxel.y), std::max(high[2], voxel.z)};
     }
-    for (const VoxelBox& box : model.boxes)
-        bounds = united(bounds, box.cells);
-    return bounds;
+    return {{low[0], low[1], low[2]}, glm::ivec3(high[0], high[1], high[2]) + 1};
 }
 
 // What world_cell computes, in 64 bits. With everything doubled v + 1/2 - pivot is an odd integer, a rotation
@@ -66,11 +71,21 @@ Box bounds_of(const Sphere& sphere) {
 
 }  // namespace
 
-Box voxel_bounds(std::span<const VoxelModel> models, std::span<const Instance> instances) {
-    std::vector<Box> local;
-    local.reserve(models.size());
+std::vector<Box> voxel_boxes(std::span<const VoxelModel> models) {
+    std::size_t voxels = 0;
     for (const VoxelModel& model : models)
-        local.push_back(model_bounds(model));
+        voxels += model.voxels.size();
+    std::vector<Box> boxes(models.size());
+    for_each_block(models.size(), threads_for(voxels, kVoxelsOfBoxThread),
+                   [&] { return [&](std::size_t i) { boxes[i] = voxel_box(models[i].voxels); }; });
+    return boxes;
+}
+
+Box voxel_bounds(std::span<const VoxelModel> models, std::span<const Instance> instances) {
+    std::vector<Box> local = voxel_boxes(models);
+    for (std::size_t i = 0; i < models.size(); ++i)
+        for (const VoxelBox& box : models[i].boxes)
+            local[i] = united(local[i], box.cells);
     Box box;
     for (const Instance& instance : instances) {
         VX_ASSERT(instance.model < models.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -10,6 +11,9 @@ namespace voxilux {
 
 // No voxel or sphere may reach further from the origin on any axis. Twice it still fits an int.
 inline constexpr int kMaxCoordinate = 1 << 30;
+
+// The smallest box around the voxels of each model, in its own space; what it has as boxes does not count.
+[[nodiscard]] std::vector<Box> voxel_boxes(std::span<const VoxelModel> models);
 
 // The smallest box around the filled cells of all instances, empty when there are none.
 // Throws Error(input_refused) when one lies beyond kMaxCoordinate.

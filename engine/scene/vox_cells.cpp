@@ -20,6 +20,10 @@ void count_oddities(VoxModel& model, VoxCells& cells) {
     cells.forget(model.voxels);
 }
 
+bool has_oddities(const VoxModel& model) {
+    return model.out_of_size != 0 || model.duplicates != 0 || model.index0 != 0;
+}
+
 std::vector<VoxVoxel> filled_voxels(const VoxModel& model, VoxCells& cells) {
     std::vector<VoxVoxel> filled;
     filled.reserve(model.voxels.size());

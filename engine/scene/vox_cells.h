@@ -39,6 +39,9 @@ class VoxCells {
 // Sets out_of_size, duplicates and index0 from the voxels. `cells` is empty before and after.
 void count_oddities(VoxModel& model, VoxCells& cells);
 
+// Whether some entries mean nothing, by these counts.
+[[nodiscard]] bool has_oddities(const VoxModel& model);
+
 // What the model's entries mean: those inside its size, for each cell the last one, without index 0. In file
 // order.
 [[nodiscard]] std::vector<VoxVoxel> filled_voxels(const VoxModel& model, VoxCells& cells);

@@ -48,8 +48,9 @@ struct VoxVoxel {
 };
 
 struct VoxModel {
-    glm::ivec3 size{0};             // each side in [1, kVoxMaxSide]
-    std::vector<VoxVoxel> voxels;   // as stored: see filled_voxels() for what they mean
+    glm::ivec3 size{0};            // each side in [1, kVoxMaxSide]
+    std::vector<VoxVoxel> voxels;  // as stored: see filled_voxels() for what they mean
+    // What is odd about them, as count_oddities() says.
     std::uint32_t out_of_size = 0;  // entries outside `size`
     std::uint32_t duplicates = 0;   // entries whose cell an earlier entry has named
     std::uint32_t index0 = 0;       // entries of the empty index

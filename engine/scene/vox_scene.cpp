@@ -4,8 +4,10 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "base/checked_cast.h"
+#include "base/parallel_blocks.h"
 #include "scene/vox_animation.h"
 #include "scene/vox_cells.h"
 #include "scene/vox_instances.h"
@@ -14,6 +16,7 @@
 namespace voxilux {
 namespace {
 
+constexpr std::size_t kVoxelsOfModelThread = std::size_t{1} << 17;
 constexpr std::size_t kMaxNameBytes = 64;  // a file may give one huge name to many models
 
 // The index in Scene::materials of each palette index, added when a voxel needs it. A material that is in the
@@ -25,13 +28,14 @@ class MaterialTable {
         slots_.fill(kNoModel);
     }
 
-    std::uint16_t slot(std::uint8_t index) {
-        if (slots_[index] == kNoModel) slots_[index] = add(looks_[index]);
-        return static_cast<std::uint16_t>(slots_[index]);
+    void add(std::uint8_t index) {
+        if (slots_[index] == kNoModel) slots_[index] = place_of(looks_[index]);
     }
+    // By palette index, of those that were added.
+    [[nodiscard]] const std::array<std::uint32_t, 256>& slots() const { return slots_; }
 
   private:
-    std::uint32_t add(const Material& look) {
+    std::uint32_t place_of(const Material& look) {
         auto& materials = scene_.materials;
         const auto same = std::find(materials.begin(), materials.end(), look);
         const auto position = static_cast<std::size_t>(same - materials.begin());
@@ -49,48 +53,95 @@ class MaterialTable {
     std::array<std::uint32_t, 256> slots_{};
 };
 
-std::vector<Voxel> scene_voxels(const std::vector<VoxVoxel>& filled, MaterialTable& table) {
-    std::vector<Voxel> voxels;
-    voxels.reserve(filled.size());
-    for (const VoxVoxel& v : filled)
-        voxels.push_back({v.x, v.y, v.z, table.slot(v.index)});
-    return voxels;
-}
-
 std::string model_name(const VoxFile& file, const VoxInstance& instance) {
     const std::string name(instance_name(file, instance).substr(0, kMaxNameBytes));
     return name.empty() ? fmt::format("model {}", instance.model) : name;
 }
 
-// The index in Scene::models of each model of the file, added when an instance first shows it; kNoModel for
-// an empty one.
-class ModelTable {
+// What a model shows.
+class FilledModel {
   public:
-    ModelTable(Scene& scene, const VoxFile& file)
-        : scene_(scene), file_(file), materials_(scene, file), slots_(file.models.size()) {}
+    FilledModel(const VoxModel& model, VoxCells& cells) : size_(model.size), voxels_(model.voxels) {
+        if (has_oddities(model)) voxels_ = repaired_ = filled_voxels(model, cells);
+        std::array<bool, 256> is_known{};
+        for (const VoxVoxel& voxel : voxels_) {
+            if (!std::exchange(is_known[voxel.index], true)) indices_.push_back(voxel.index);
+        }
+    }
 
-    std::uint32_t slot(const VoxInstance& instance) {
-        auto& known = slots_[instance.model];
-        if (!known) known = add(instance);
-        return *known;
+    FilledModel(const FilledModel&) = delete;
+    FilledModel& operator=(const FilledModel&) = delete;
+
+    [[nodiscard]] bool empty() const { return voxels_.empty(); }
+    // Of the palette, in the order of their first voxels.
+    [[nodiscard]] const std::vector<std::uint8_t>& indices() const { return indices_; }
+
+    // With the material of each index.
+    void store(VoxelModel& model, const std::array<std::uint32_t, 256>& materials) const {
+        model.size = size_;
+        model.voxels.reserve(voxels_.size());
+        for (const VoxVoxel& v : voxels_)
+            model.voxels.push_back({v.x, v.y, v.z, static_cast<std::uint16_t>(materials[v.index])});
     }
 
   private:
-    std::uint32_t add(const VoxInstance& instance) {
-        const VoxModel& model = file_.models[instance.model];
-        const auto filled = filled_voxels(model, cells_);
-        if (filled.empty()) return kNoModel;
-        scene_.models.push_back({.name = model_name(file_, instance),
-                                 .size = model.size,
-                                 .voxels = scene_voxels(filled, materials_)});
-        return checked_cast<std::uint32_t>(scene_.models.size() - 1, "models of the scene");
+    glm::ivec3 size_;
+    std::vector<VoxVoxel> repaired_;
+    std::span<const VoxVoxel> voxels_;
+    std::vector<std::uint8_t> indices_;
+};
+
+// Adds the models that instances show to a scene, in the order in which they are first shown; none for an
+// empty one.
+class ModelTable {
+  public:
+    ModelTable(Scene& scene, const VoxFile& file, std::span<const VoxInstance> instances)
+        : file_(file), slots_(file.models.size(), kNoModel) {
+        const std::vector<const VoxInstance*> shown = first_shown(instances);
+        std::size_t voxels = 0;
+        for (const VoxInstance* const instance : shown)
+            voxels += file.models[instance->model].voxels.size();
+        const unsigned threads = threads_for(voxels, kVoxelsOfModelThread);
+        std::vector<std::optional<FilledModel>> filled(shown.size());
+        for_each_block(shown.size(), threads, [&] {
+            return [&, cells = VoxCells()](std::size_t i) mutable {
+                filled[i].emplace(file.models[shown[i]->model], cells);
+            };
+        });
+        MaterialTable materials(scene, file);
+        std::vector<std::pair<std::size_t, std::size_t>> added;  // positions in `filled` and in the scene
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            if (filled[i]->empty()) continue;
+            for (const std::uint8_t index : filled[i]->indices())
+                materials.add(index);
+            slots_[shown[i]->model] = checked_cast<std::uint32_t>(scene.models.size(), "models of the scene");
+            added.emplace_back(i, scene.models.size());
+            scene.models.push_back({.name = model_name(file, *shown[i])});
+        }
+        for_each_block(added.size(), threads, [&] {
+            return [&](std::size_t i) {
+                filled[added[i].first]->store(scene.models[added[i].second], materials.slots());
+            };
+        });
     }
 
-    Scene& scene_;
+    [[nodiscard]] std::uint32_t slot(const VoxInstance& instance) const { return slots_[instance.model]; }
+
+  private:
+    // Of each model that is shown the first visible instance.
+    [[nodiscard]] std::vector<const VoxInstance*> first_shown(std::span<const VoxInstance> instances) const {
+        std::vector<bool> is_shown(file_.models.size(), false);
+        std::vector<const VoxInstance*> first;
+        for (const VoxInstance& instance : instances) {
+            if (instance.hidden || is_shown[instance.model]) continue;
+            is_shown[instance.model] = true;
+            first.push_back(&instance);
+        }
+        return first;
+    }
+
     const VoxFile& file_;
-    MaterialTable materials_;
-    VoxCells cells_;
-    std::vector<std::optional<std::uint32_t>> slots_;
+    std::vector<std::uint32_t> slots_;  // in Scene::models
 };
 
 // The visible instances of a file, as instances of the scene's models; `model_of` gives the model of each.
@@ -118,7 +169,7 @@ std::vector<Instance> shown_instances(const std::vector<VoxInstance>& placed,
 std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int frame) {
     const auto placed = vox_instances(file, frame).value_or_throw(ExitCode::input_refused);
     scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
-    ModelTable table(scene, file);
+    const ModelTable table(scene, file, placed);
     return shown_instances(
         placed, [&](const VoxInstance& instance) { return table.slot(instance); },
         [&](std::uint32_t model) { return scene.models[model].voxels.size(); });
@@ -126,10 +177,13 @@ std::vector<Instance> add_vox_models(Scene& scene, const VoxFile& file, int fram
 
 AnimatedVox add_animated_vox(Scene& scene, const VoxFile& file) {
     scene.warnings.insert(scene.warnings.end(), file.warnings.begin(), file.warnings.end());
-    ModelTable table(scene, file);
-    AnimatedVox added{.graph = graph_of(file)};
+    std::vector<VoxInstance> all;
     for (std::size_t i = 0; i < file.models.size(); ++i)
-        added.models.push_back(table.slot({.model = checked_cast<std::uint32_t>(i, "model")}));
+        all.push_back({.model = checked_cast<std::uint32_t>(i, "model")});
+    const ModelTable table(scene, file, all);
+    AnimatedVox added{.graph = graph_of(file)};
+    for (const VoxInstance& one : all)
+        added.models.push_back(table.slot(one));
     return added;
 }
 

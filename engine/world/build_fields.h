@@ -24,6 +24,9 @@ void build_unexpanded(const VoxelWorld& world, MarchWorld& built);
 // Grows the boxes of such a level; those of all larger cells must have grown before.
 void grow_level(MarchWorld& built, int log2);
 
+// Grows the boxes of all levels of an unexpanded structure.
+void grow_boxes(MarchWorld& built);
+
 // A level with cells whose boxes grow.
 struct GrowingLevel {
     int log2 = 0;

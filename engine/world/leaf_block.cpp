@@ -1,18 +1,11 @@
 #include "world/leaf_block.h"
 
+#include "base/parallel_blocks.h"
+
 namespace voxilux {
 namespace {
 
-// `mask` gives the filled voxels of a brick by its number.
-template <class Mask>
-BrickSurroundings look_around(const VoxelWorld& world, glm::ivec3 cell, const Mask& mask) {
-    BrickSurroundings filled{};
-    for (int i = 0; i < 27; ++i) {
-        const std::uint32_t number = world.brick_number(cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
-        if (number != VoxelWorld::kNoBrick) filled[static_cast<std::size_t>(i)] = mask(number);
-    }
-    return filled;
-}
+constexpr std::size_t kBricksAtOnce = 4096;
 
 }  // namespace
 
@@ -23,18 +16,44 @@ std::uint64_t filled_mask(const VoxelWorld::Brick& brick) {
     return mask;
 }
 
-FilledMasks::FilledMasks(const VoxelWorld& world) : world_(world) {
-    masks_.reserve(world.brick_count());
-    for (std::uint32_t number = 0; number < world.brick_count(); ++number)
-        masks_.push_back(filled_mask(world.brick(number)));
+std::vector<std::uint64_t> filled_masks(const VoxelWorld& world) {
+    std::vector<std::uint64_t> masks(world.brick_count());
+    for_each_part(masks.size(), kBricksAtOnce, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i)
+            masks[i] = filled_mask(world.brick(static_cast<std::uint32_t>(i)));
+    });
+    return masks;
 }
 
-BrickSurroundings FilledMasks::around(glm::ivec3 cell) const {
-    return look_around(world_, cell, [&](std::uint32_t number) { return masks_[number]; });
+ChunkSurroundings::ChunkSurroundings(const VoxelWorld& world, const std::vector<std::uint64_t>& masks,
+                                     glm::ivec3 chunk_cell) {
+    std::size_t i = 0;
+    for (int z = -1; z <= 4; ++z)
+        for (int y = -1; y <= 4; ++y)
+            for (int x = -1; x <= 4; ++x, ++i) {
+                const std::uint32_t number = world.brick_number(chunk_cell * 4 + glm::ivec3(x, y, z));
+                if (number != VoxelWorld::kNoBrick) masks_[i] = masks[number];
+            }
+}
+
+BrickSurroundings ChunkSurroundings::around(glm::ivec3 place) const {
+    BrickSurroundings filled;
+    for (int i = 0; i < 27; ++i) {
+        const glm::ivec3 at = place + glm::ivec3(i % 3, i / 3 % 3, i / 9);
+        filled[static_cast<std::size_t>(i)] =
+            masks_[static_cast<std::size_t>(at.x + kEdge * (at.y + kEdge * at.z))];
+    }
+    return filled;
 }
 
 BrickSurroundings surroundings_of(const VoxelWorld& world, glm::ivec3 cell) {
-    return look_around(world, cell, [&](std::uint32_t number) { return filled_mask(world.brick(number)); });
+    BrickSurroundings filled{};
+    for (int i = 0; i < 27; ++i) {
+        const std::uint32_t number = world.brick_number(cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+        if (number != VoxelWorld::kNoBrick)
+            filled[static_cast<std::size_t>(i)] = filled_mask(world.brick(number));
+    }
+    return filled;
 }
 
 LeafBlock leaf_block(const VoxelWorld::Brick& brick, const std::array<std::uint16_t, 64>& boxes) {

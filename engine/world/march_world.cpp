@@ -55,8 +55,7 @@ MarchWorld build_unexpanded_world(const VoxelWorld& world, Traversal traversal) 
 
 MarchWorld build_march_world(const VoxelWorld& world, Traversal traversal) {
     MarchWorld built = build_unexpanded_world(world, traversal);
-    for (const int log2 : growing_levels(traversal))
-        grow_level(built, log2);
+    grow_boxes(built);
     return built;
 }
 

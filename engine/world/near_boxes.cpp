@@ -49,12 +49,22 @@ std::uint64_t moved(const Row& row, std::size_t axis, int offset) {
     return ((row.middle << (-offset * stride)) & ~outside) | ((row.low >> ((4 + offset) * stride)) & outside);
 }
 
+// The same along z, where shifts alone drop what leaves the brick.
+std::uint64_t moved_by_layers(const std::array<std::uint64_t, 3>& bricks, int offset) {
+    if (offset == 0) return bricks[1];
+    const int stride = kStride[2];
+    if (offset > 0) return bricks[1] >> (offset * stride) | bricks[2] << ((4 - offset) * stride);
+    return bricks[1] << (-offset * stride) | bricks[0] >> ((4 + offset) * stride);
+}
+
 constexpr std::size_t at(int offset) {
     return static_cast<std::size_t>(offset + kReach);
 }
 
-// filled[z][y][x]: for each cell whether the cell at that offset is filled.
-using Offsets = std::array<std::array<std::array<std::uint64_t, kSpan>, kSpan>, kSpan>;
+constexpr std::array<int, 3> kOffsetStride = {1, kSpan, kSpan* kSpan};
+
+// For each cell whether the cell at an offset is filled; x fastest.
+using Offsets = std::array<std::uint64_t, std::size_t{kSpan} * kSpan * kSpan>;
 
 Offsets at_all_offsets(const BrickSurroundings& filled) {
     Offsets offsets;
@@ -68,50 +78,59 @@ Offsets at_all_offsets(const BrickSurroundings& filled) {
             for (std::size_t z = 0; z < 3; ++z)
                 along_xy[z] = moved({along_x[z][0], along_x[z][1], along_x[z][2]}, 1, y);
             for (int z = -kReach; z <= kReach; ++z)
-                offsets[at(z)][at(y)][at(x)] = moved({along_xy[0], along_xy[1], along_xy[2]}, 2, z);
+                offsets[at(x) + kSpan * (at(y) + kSpan * at(z))] = moved_by_layers(along_xy, z);
         }
     }
     return offsets;
 }
 
-// Bit c of reach[direction][k] says that the box of cell c reaches more than k cells in that direction.
-using Reach = std::array<std::array<std::uint64_t, kReach>, 6>;
+// For each axis and each offset along it the cells whose box holds it.
+using BoxCells = std::array<std::array<std::uint64_t, kSpan>, 3>;
 
-// Cells whose box holds the offset along the axis.
-std::uint64_t holds(const Reach& reach, std::size_t axis, int offset) {
-    if (offset == 0) return ~std::uint64_t{0};
-    const std::size_t direction = 2 * axis + (offset > 0 ? 1 : 0);
-    return reach[direction][static_cast<std::size_t>(offset > 0 ? offset : -offset) - 1];
-}
-
-// Cells for which the slab at `offset` along `axis`, as wide as their box, holds a filled cell. Boxes reach
-// at most `round` cells.
-std::uint64_t blocked(const Offsets& filled, const Reach& reach, std::size_t axis, int offset, int round) {
+// Those of the cells `grown` for which the slab at `offset` along `axis`, as wide as their box, holds a
+// filled cell. Boxes reach at most `round` cells.
+std::uint64_t blocked(const Offsets& filled, const BoxCells& reach, std::uint64_t grown, std::size_t axis,
+                      int offset, int round) {
     const std::size_t side = axis == 0 ? 1 : 0;
     const std::size_t other = axis == 2 ? 1 : 2;
+    const std::uint64_t* const slab = &filled[filled.size() / 2] + kOffsetStride[axis] * offset;
     std::uint64_t hit = 0;
-    std::array<int, 3> to{};
-    to[axis] = offset;
-    for (to[other] = -round; to[other] <= round; ++to[other]) {
+    for (int i = -round; i <= round; ++i) {
+        const std::uint64_t* const line = slab + kOffsetStride[other] * i;
         std::uint64_t in_line = 0;
-        for (to[side] = -round; to[side] <= round; ++to[side])
-            in_line |= filled[at(to[2])][at(to[1])][at(to[0])] & holds(reach, side, to[side]);
-        hit |= in_line & holds(reach, other, to[other]);
+        for (int k = -round; k <= round; ++k)
+            in_line |= line[kOffsetStride[side] * k] & reach[side][at(k)];
+        hit |= in_line & reach[other][at(i)];
     }
-    return hit;
+    return grown & hit;
 }
 
-std::array<std::uint16_t, 64> pack(const Reach& reach) {
+// The eight bits of each byte as eight numbers.
+constexpr std::array<std::array<std::uint16_t, 8>, 256> kSpread = [] {
+    std::array<std::array<std::uint16_t, 8>, 256> spread{};
+    for (std::size_t byte = 0; byte < 256; ++byte)
+        for (std::size_t i = 0; i < 8; ++i)
+            spread[byte][i] = static_cast<std::uint16_t>(byte >> i & 1);
+    return spread;
+}();
+
+std::array<std::uint16_t, 64> pack(const BoxCells& reach) {
     std::array<std::uint64_t, 12> bits;  // of the packed distances, low bit of a direction first
-    for (std::size_t direction = 0; direction < 6; ++direction) {
-        const auto& [first, second, third] = reach[direction];
-        bits[2 * direction] = (first & ~second) | third;
-        bits[2 * direction + 1] = second;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const std::size_t up : {0u, 1u}) {
+            const auto cells = [&](int distance) { return reach[axis][at(up != 0 ? distance : -distance)]; };
+            bits[2 * (2 * axis + up)] = (cells(1) & ~cells(2)) | cells(3);
+            bits[2 * (2 * axis + up) + 1] = cells(2);
+        }
     }
     std::array<std::uint16_t, 64> boxes{};
-    for (std::size_t bit = 0; bit < bits.size(); ++bit)
-        for (std::size_t i = 0; i < 64; ++i)
-            boxes[i] = static_cast<std::uint16_t>(boxes[i] | (((bits[bit] >> i) & 1u) << bit));
+    for (std::size_t byte = 0; byte < 8; ++byte) {
+        for (std::size_t bit = 0; bit < bits.size(); ++bit) {
+            const auto& spread = kSpread[bits[bit] >> (8 * byte) & 0xFF];
+            for (std::size_t i = 0; i < 8; ++i)
+                boxes[8 * byte + i] = static_cast<std::uint16_t>(boxes[8 * byte + i] | spread[i] << bit);
+        }
+    }
     return boxes;
 }
 
@@ -120,14 +139,16 @@ std::array<std::uint16_t, 64> pack(const Reach& reach) {
 std::array<std::uint16_t, 64> near_boxes(const BrickSurroundings& filled) {
     const Offsets offsets = at_all_offsets(filled);
     const std::uint64_t empty = ~filled[13];
-    Reach reach{};
+    BoxCells reach{};
+    for (auto& along : reach)
+        along[at(0)] = ~std::uint64_t{0};
     for (int round = 1; round <= kReach; ++round) {
         for (std::size_t direction = 0; direction < 6; ++direction) {
-            const int offset = direction % 2 == 0 ? -round : round;
-            const std::uint64_t grown =
-                round == 1 ? empty : reach[direction][static_cast<std::size_t>(round - 2)];
-            reach[direction][static_cast<std::size_t>(round - 1)] =
-                grown & ~blocked(offsets, reach, direction / 2, offset, round);
+            const std::size_t axis = direction / 2;
+            const int sign = direction % 2 == 0 ? -1 : 1;
+            const std::uint64_t grown = empty & reach[axis][at(sign * (round - 1))];
+            reach[axis][at(sign * round)] =
+                grown & ~blocked(offsets, reach, grown, axis, sign * round, round);
         }
     }
     return pack(reach);

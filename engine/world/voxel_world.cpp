@@ -149,20 +149,4 @@ WorldGrid grid_around(const Box& box, std::uint64_t limit_chunks) {
     return {origin, chunks};
 }
 
-VoxelWorld build_world(const Scene& scene, std::uint64_t limit_chunks) {
-    const WorldGrid grid = grid_around(voxel_bounds(scene), limit_chunks);
-    VoxelWorld world(grid.origin, grid.chunks);
-    for (const Instance& instance : scene.instances) {
-        const VoxelModel& model = scene.models[instance.model];
-        for (const Voxel& voxel : model.voxels)
-            world.set(world_cell(instance, model.size, {voxel.x, voxel.y, voxel.z}) - grid.origin,
-                      voxel.material);
-        for (const VoxelBox& box : model.boxes) {
-            const Box cells = world_cells(instance, model.size, box.cells);
-            world.fill({cells.lo - grid.origin, cells.hi - grid.origin}, box.material);
-        }
-    }
-    return world;
-}
-
 }  // namespace voxilux

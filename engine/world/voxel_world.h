@@ -83,6 +83,8 @@ class VoxelWorld {
     }
 
   private:
+    friend class Flattening;
+
     [[nodiscard]] std::size_t chunk_index(glm::ivec3 chunk_cell) const;
     // The slot that holds the number of the brick; its chunk is made where there is none.
     [[nodiscard]] std::uint32_t& brick_slot(glm::ivec3 brick_cell);

@@ -90,7 +90,9 @@ int run_render(const RenderCommand& command) {
     std::vector<std::string> outputs = files_to_write(command, checkpoint.pictures.files);
     outputs.push_back(command.report.json);
     check_outputs(outputs, {command.scene.input});
-    Scene scene = scene_to_render(command);
+    StepTimes times;
+    Scene scene = scene_to_render(command, &times);
+    options.steps = times.steps();
     const FrameList frames = frames_to_render(command.scene, scene);
     if (!command.report.quiet) print_frame_note(command.scene, scene);
     const std::uint64_t hash = frames.is_sequence ? sample_hash(scene) : 0;

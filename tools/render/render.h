@@ -46,7 +46,7 @@ Flag add_render_flags(Flags& flags, RenderCommand& command);
 
 // The scene with the sample count of the flags: --error without --spp takes samples until the error is
 // reached.
-[[nodiscard]] Scene scene_to_render(const RenderCommand& command);
+[[nodiscard]] Scene scene_to_render(const RenderCommand& command, StepTimes* times = nullptr);
 
 // Whether only some of the samples are rendered, so that the EXR holds their sums.
 [[nodiscard]] bool is_part(const RenderCommand& command);

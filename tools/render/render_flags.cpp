@@ -156,8 +156,8 @@ Checkpoint checkpoint_of(const RenderCommand& command) {
     return checkpoint;
 }
 
-Scene scene_to_render(const RenderCommand& command) {
-    Scene scene = load_scene_with(command.scene, !command.report.quiet);
+Scene scene_to_render(const RenderCommand& command, StepTimes* times) {
+    Scene scene = load_scene_with(command.scene, !command.report.quiet, times);
     if (command.error_target && !command.scene.spp) scene.settings.spp = kMaxSamplesForError;
     return scene;
 }

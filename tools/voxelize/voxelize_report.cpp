@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "jobs/memory_forecast.h"
+#include "jobs/report.h"
 
 namespace voxilux {
 namespace {
@@ -50,13 +51,6 @@ Json palette_json(const VoxelPalette& palette) {
             {"radiances_off", error.radiances_off}};
 }
 
-Json steps_json(const StepTimes& times) {
-    Json steps = Json::array();
-    for (const StepTimes::Step& step : times.steps())
-        steps.push_back({{"label", step.label}, {"wall_s", step.time.wall}, {"cpu_s", step.time.cpu}});
-    return steps;
-}
-
 }  // namespace
 
 std::string describe(const VoxelizeFacts& facts) {
@@ -78,7 +72,7 @@ std::string describe(const VoxelizeFacts& facts) {
         facts.palette.entries().size(), looks_of(facts.palette), error.mean, error.p95);
     text += fmt::format("time      {:.2f} s wall, {:.2f} s CPU, {:.0f} MiB at most\n", total.wall, total.cpu,
                         peak_rss_mib());
-    for (const StepTimes::Step& step : facts.times.steps())
+    for (const StepTime& step : facts.times.steps())
         text += fmt::format("step      {:<9} {:8.2f} s wall {:8.2f} s CPU\n", step.label, step.time.wall,
                             step.time.cpu);
     text += fmt::format("wrote     {}: {} models, {:.1f} MiB\n", printable(facts.output, kUncut),
@@ -108,7 +102,7 @@ Json report_json(const VoxelizeFacts& facts) {
             {"models", facts.written.models},
             {"bytes", facts.written.bytes},
             {"palette", palette_json(facts.palette)},
-            {"steps", steps_json(facts.times)},
+            {"steps", steps_json(facts.times.steps())},
             {"warnings", facts.warnings}};
 }
 

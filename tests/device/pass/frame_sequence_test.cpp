@@ -72,9 +72,9 @@ std::vector<std::string> different_channels(const Image& a, const Image& b) {
     return names;
 }
 
-bool grew_a_world(const RenderOutcome& outcome) {
-    return std::ranges::find(outcome.statistics.passes, "world.grow", &PassTime::label) !=
-           outcome.statistics.passes.end();
+bool built_a_world(const RenderOutcome& outcome) {
+    const std::vector<StepTime>& steps = outcome.statistics.steps;
+    return std::ranges::find(steps, "structure", &StepTime::label) != steps.end();
 }
 
 struct Sequenced {
@@ -115,17 +115,17 @@ INSTANTIATE_TEST_SUITE_P(scenes, FrameSequence,
 
 TEST(FrameSequenceOf, camera_that_moves_uploads_no_world) {
     RenderSession session(turning_scene(), validated());
-    EXPECT_TRUE(grew_a_world(session.render(1, {})));
-    EXPECT_FALSE(grew_a_world(session.render(2, {})));
-    EXPECT_FALSE(grew_a_world(session.render(9, {})));
+    EXPECT_TRUE(built_a_world(session.render(1, {})));
+    EXPECT_FALSE(built_a_world(session.render(2, {})));
+    EXPECT_FALSE(built_a_world(session.render(9, {})));
 }
 
 TEST(FrameSequenceOf, world_is_uploaded_when_a_voxel_moves) {
     RenderSession session(walking_scene(), validated());
-    std::string grown;
+    std::string built;
     for (std::int64_t frame = 0; frame < 6; ++frame)
-        grown += grew_a_world(session.render(frame, {})) ? 'x' : '.';
-    EXPECT_EQ(grown, "x.xx..");  // a key at 2, another model from 3
+        built += built_a_world(session.render(frame, {})) ? 'x' : '.';
+    EXPECT_EQ(built, "x.xx..");  // a key at 2, another model from 3
 }
 
 // The plan lists what one picture alone needs, so it must hold for the last frame of many, too.

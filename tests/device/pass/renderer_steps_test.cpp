@@ -279,8 +279,8 @@ void expect_device_holds(Renderer& renderer, const MarchWorld& world) {
     }
 }
 
-bool grew_a_world(const StepResult& step) {
-    return std::ranges::find(step.passes, "world.grow", &PassTime::label) != step.passes.end();
+bool built_a_world(const StepResult& step) {
+    return std::ranges::find(step.built, "structure", &StepTime::label) != step.built.end();
 }
 
 class RendererEdits : public testing::TestWithParam<Traversal> {};
@@ -291,7 +291,7 @@ TEST_P(RendererEdits, device_has_the_words_of_the_edited_structure) {
     PlanRequest request = with_aov();
     request.traversal = GetParam();
     Renderer renderer(test_device(), poisoned());
-    EXPECT_TRUE(grew_a_world(prepared(renderer, scene, request).step_tile()));
+    EXPECT_TRUE(built_a_world(prepared(renderer, scene, request).step_tile()));
     std::vector<BoxEdit> edits;
     for (int i = 0; i < 6; ++i) {
         const glm::ivec3 low(-7 + 2 * i, -6 + 2 * i, i);
@@ -299,7 +299,7 @@ TEST_P(RendererEdits, device_has_the_words_of_the_edited_structure) {
         if (i == 4) edits.back().material.reset();
         renderer.edit(std::span(&edits.back(), 1));
         expect_device_holds(renderer, renderer.prepared().march_world);
-        EXPECT_EQ(grew_a_world(renderer.step_tile()), !has_free_boxes(GetParam())) << "edit " << i;
+        EXPECT_EQ(built_a_world(renderer.step_tile()), !has_free_boxes(GetParam())) << "edit " << i;
         EXPECT_EQ(film_after(renderer, 1), fresh_film(edited_scene(scene, edits), 1, request))
             << "edit " << i;
     }
@@ -346,7 +346,7 @@ TEST(RendererEdit, more_than_there_is_room_for_ends_as_a_fresh_render) {
         edits.push_back({.box = {low, low + 1}, .material = static_cast<std::uint32_t>(i % 2)});
     }
     renderer.edit(edits);
-    EXPECT_TRUE(grew_a_world(renderer.step(0.0)));
+    EXPECT_TRUE(built_a_world(renderer.step(0.0)));
     EXPECT_EQ(film_after(renderer, 1), fresh_film(edited_scene(scene, edits), 1));
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "formats/vox_read.h"
@@ -122,6 +124,41 @@ TEST(VoxReader, warnings_are_bounded_and_the_rest_counted) {
     const VoxFile file = read_good(chunks);
     EXPECT_EQ(file.warnings.size(), kVoxMaxWarnings + 1);
     EXPECT_EQ(file.warnings.back(), fmt::format("and {} more warnings", 1000 - kVoxMaxWarnings));
+}
+
+// Models are looked at after all chunks are read; what is odd about them is told where they stand.
+TEST(VoxReader, warnings_come_in_the_order_of_what_they_are_about) {
+    const std::string odd = size_chunk(1, 1, 1) + voxels_chunk({{0, 0, 0, 1}, {0, 0, 0, 0}, {1, 0, 0, 2}});
+    const std::string imap = chunk("IMAP", "");
+    const VoxFile file = read_good(imap + odd + imap + imap + odd + imap);
+    std::vector<std::string> told;
+    for (const std::string& warning : file.warnings)
+        told.push_back(warning.substr(warning.find(": ") + 2));
+    const std::string ignored = "IMAP has 0 bytes, not 256: ignored";
+    const auto of_model = [](int id) {
+        return std::vector<std::string>{fmt::format("model {}: 1 voxels outside its size are ignored", id),
+                                        fmt::format("model {}: 1 voxels replace earlier ones", id),
+                                        fmt::format("model {}: 1 voxels have the empty index 0", id)};
+    };
+    std::vector<std::string> expected{ignored};
+    std::ranges::copy(of_model(0), std::back_inserter(expected));
+    expected.insert(expected.end(), 2, ignored);
+    std::ranges::copy(of_model(1), std::back_inserter(expected));
+    expected.push_back(ignored);
+    EXPECT_EQ(told, expected);
+}
+
+TEST(VoxReader, warnings_of_models_count_among_those_that_are_kept) {
+    const std::string odd = size_chunk(1, 1, 1) + voxels_chunk({{0, 0, 0, 0}});
+    std::string chunks;
+    for (int i = 0; i < 50; ++i)
+        chunks += chunk("IMAP", "") + odd + chunk("IMAP", "");
+    const VoxFile file = read_good(chunks);
+    ASSERT_EQ(file.warnings.size(), kVoxMaxWarnings + 1);
+    EXPECT_EQ(file.warnings.back(), fmt::format("and {} more warnings", 150 - kVoxMaxWarnings));
+    for (std::size_t i = 0; i < kVoxMaxWarnings; ++i)
+        EXPECT_EQ(file.warnings[i].find(fmt::format("model {}:", i / 3)) != std::string::npos, i % 3 == 1)
+            << i;
 }
 
 struct RefusedVox {

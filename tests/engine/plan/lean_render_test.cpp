@@ -40,8 +40,8 @@ using Names = std::set<std::string>;
 TEST(LeanRender, sun_below_the_horizon_leaves_no_command_buffer_or_pipeline) {
     for (const char* scene : {"night", "overcast"}) {
         const LeanRun run = run_lean(scene);
-        EXPECT_EQ(run.shaders, (Names{"world_grow", "primary_beam", "primary_march", "path_start",
-                                      "path_trace", "film_add", "aov_position"}));
+        EXPECT_EQ(run.shaders, (Names{"primary_beam", "primary_march", "path_start", "path_trace", "film_add",
+                                      "aov_position"}));
         EXPECT_EQ(run.pipelines, run.shaders.size()) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "sun")) << scene;
         EXPECT_FALSE(any_starts_with(run.buffers, "film.sun")) << scene;

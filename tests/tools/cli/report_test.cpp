@@ -22,8 +22,8 @@ TEST(Report, render_has_exactly_its_keys) {
                                      "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
                                      "error", "forecast", "faults",
                                      // Beyond the contract:
-                                     "samples", "stopped", "load_s", "first_pixel_s", "notes", "warnings",
-                                     "traversal", "occlusion", "photons", "next_minute"}));
+                                     "samples", "stopped", "load_s", "steps", "first_pixel_s", "notes",
+                                     "warnings", "traversal", "occlusion", "photons", "next_minute"}));
     EXPECT_EQ(report["command"], "render");
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
@@ -35,7 +35,7 @@ TEST(Report, render_has_exactly_its_keys) {
                                      "rounds", "decided_by"}));
     EXPECT_EQ(keys_of(report["forecast"]), (std::set<std::string>{"low_s", "high_s"}));
     EXPECT_EQ(keys_of(report["traversal"]), (std::set<std::string>{"name", "reason"}));
-    ASSERT_EQ(report["passes"].size(), 8u);
+    ASSERT_EQ(report["passes"].size(), 7u);
     for (const Json& pass : report["passes"])
         EXPECT_EQ(keys_of(pass), (std::set<std::string>{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
@@ -62,6 +62,22 @@ TEST(Report, numbers_are_plausible_and_faults_are_zero) {
     EXPECT_GE(report["faults"].size(), 4u);
     for (const auto& [name, count] : report["faults"].items())
         EXPECT_EQ(count, 0) << name;
+}
+
+TEST(Report, steps_of_loading_are_told_in_their_order) {
+    const ScratchFolder scratch;
+    const Json report = json_of(small_render(scratch, {"--json", "-"}));
+    std::vector<std::string> labels;
+    double sum = 0.0;
+    for (const Json& step : report["steps"]) {
+        EXPECT_EQ(keys_of(step), (std::set<std::string>{"label", "wall_s", "cpu_s"}));
+        labels.push_back(step["label"]);
+        sum += step["wall_s"].get<double>();
+    }
+    EXPECT_EQ(labels, (std::vector<std::string>{"scene", "device", "facts", "flatten", "structure", "boxes",
+                                                "plan", "upload"}));
+    EXPECT_GT(sum, 0.0);
+    EXPECT_LE(sum, report["first_pixel_s"]);
 }
 
 // The time of an effect is that of its passes. An effect without a pass has none.
