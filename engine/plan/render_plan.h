@@ -143,7 +143,7 @@ struct RenderPlan {
     [[nodiscard]] bool is_denoised() const { return sums_guides && part.empty(); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const {
-        return any(&Technique::needs_pilot) && !settings.photons.radius;
+        return photons.runs() && any(&Technique::needs_pilot) && !settings.photons.radius;
     }
     [[nodiscard]] std::uint64_t tile_pixels() const {
         return std::uint64_t{tile_rows} * static_cast<std::uint64_t>(settings.size.x);
@@ -175,6 +175,10 @@ struct PlanRequest {
 // the device is another question: see footprint().
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
+
+// Whether photons of such a plan serve caustics alone and may start towards mirrors and glass, so that the
+// facts of its world should tell where (LightFacts::aims).
+[[nodiscard]] bool aims_photons(const Scene& scene, const SceneFacts& facts, const PlanRequest& request);
 
 // Variants of a plan, by the rules that made it. Of the first two no picture is made: they have neither AOVs
 // nor sums of squares or bias.

@@ -50,6 +50,14 @@ struct StoredPhoton {
     uint rank;  // among those of the bucket, in order of arrival
 };
 
+// Marked cells of a grid, towards which photons start (photon_aim.h).
+struct AimMap {
+    uint first;  // of them, in the list of all maps
+    uint count;
+    vec2 low;   // corner of the grid, across and along
+    vec2 cell;  // size of a cell
+};
+
 // Words of 64 bits that shaders read and write them by.
 VX_CONST(uint, kSortedWords, 3u);
 VX_CONST(uint, kStoredWords, 4u);
