@@ -39,6 +39,9 @@ std::string describe(const RenderPlan& plan) {
                             plan.photons.count(), runs_text(plan.photons), plan.photons.capacity,
                             plan.needs_pilot() ? "from a pilot" : fmt::format("{:.4g}", plan.photons.radius),
                             plan.settings.photons.alpha);
+    if (plan.photons.aims)
+        text += fmt::format("          towards mirrors and glass: {:.2g} % of all light\n",
+                            100.0 * plan.photons.power / (plan.photons.power + plan.photons.power_left_out));
     if (plan.paths.runs())
         text +=
             fmt::format("paths     {} per invocation, {} round(s)\n", plan.paths.per_lane, plan.paths.rounds);

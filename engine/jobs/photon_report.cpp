@@ -8,6 +8,8 @@ nlohmann::ordered_json photons_json(const RenderPlan& plan) {
     nlohmann::ordered_json json = {{"per_iteration", plan.photons.count()},
                                    {"of_lamps", plan.photons.emitter_photons},
                                    {"of_sun", plan.photons.sun_photons},
+                                   {"power", plan.photons.power},
+                                   {"power_left_out", plan.photons.power_left_out},
                                    {"runs", plan.photons.run_count()},
                                    {"capacity", plan.photons.capacity}};
     const bool is_known = plan.photons.radius > 0.0;

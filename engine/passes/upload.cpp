@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "passes/photons/photon_trace.h"
 #include "passes/plane.h"
 #include "passes/sky/sky.h"
 #include "passes/world.h"
@@ -60,6 +61,7 @@ void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::iv
         const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);
         recording.upload(materials_buffer(plan, recording), std::as_bytes(std::span(materials)));
     }
+    record_photon_aims(plan, lights.aims, recording);
     const bool paths_aim = plan.paths.runs() && plan.has(Effect::emission) && plan.world.lights.count != 0;
     if (!plan.has(Effect::direct) && plan.photons.emitter_photons == 0 && !paths_aim) return;
     recording.upload(lights_buffer(plan, recording), std::as_bytes(std::span(lights.records)));

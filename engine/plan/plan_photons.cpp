@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/checked_cast.h"
 #include "shared/light.h"
 #include "shared/photon_types.h"
 
@@ -32,9 +33,45 @@ constexpr std::uint64_t kCellsPerPixel = 4;  // twice as many buckets gain nothi
 // deviation of the sum over all photons is far below a half.
 constexpr double kStoreMargin = 1.5;
 constexpr double kMaxStored = 64.0;
-// Covers the rounding of a photon's power on the device, four products: no photon may seem to exceed the
-// maximum.
+// Over the rounding of a photon's power on the device, six products: no photon may seem to pass the most.
 constexpr double kPowerMargin = 1.0 + 0x1p-20;
+// Of the power of all photons: to leave out less gains nothing (lab/notes/photons.md).
+constexpr double kLeastLeftOut = 0.1;
+
+// What photons carry, W.
+struct PhotonSources {
+    glm::dvec3 sun{0.0};
+    double emitters = 0.0;      // of red, green and blue together
+    glm::dvec3 max_power{0.0};  // as LightFacts::max_power
+
+    [[nodiscard]] double of_sun() const { return sun.x + sun.y + sun.z; }
+    [[nodiscard]] double total() const { return of_sun() + emitters; }
+};
+
+PhotonSources sources_of(const PhotonNeeds& needs, double sun_area, double power,
+                         const glm::dvec3& max_power) {
+    PhotonSources sources;
+    if (needs.has_sun) sources.sun = glm::dvec3(needs.sun_irradiance) * sun_area;
+    if (needs.has_emitters) sources.emitters = power;
+    sources.max_power = max_power;
+    return sources;
+}
+
+// From anywhere, and aimed where that leaves out much.
+PhotonSources choose_sources(const PhotonNeeds& needs, PhotonPlan& plan) {
+    const LightFacts& lights = needs.lights;
+    const double disc_area = std::numbers::pi * lights.sun_disc.radius * lights.sun_disc.radius;
+    const PhotonSources all = sources_of(needs, disc_area, lights.power, lights.max_power);
+    plan.power = all.total();
+    if (!lights.aims) return all;
+    const PhotonSources aimed =
+        sources_of(needs, lights.aims->sun_area, lights.aims->power, lights.aims->max_power);
+    if (aimed.total() > (1.0 - kLeastLeftOut) * all.total()) return all;
+    plan.aims = true;
+    plan.power = aimed.total();
+    plan.power_left_out = all.total() - aimed.total();
+    return aimed;
+}
 
 double stored_per_photon(double max_albedo, const PhotonSettings& settings, bool keeps_indirect) {
     if (!keeps_indirect) return 1.0;
@@ -78,6 +115,14 @@ std::uint32_t gather_lanes(const DeviceLimits& limits) {
     return limits.is_cpu ? std::min(limits.subgroup_size, kMaxGatherLanes) : 0;
 }
 
+AimFacts measure_aims(const PhotonAims& aims) {
+    return {.maps = checked_cast<std::uint32_t>(aims.maps.size(), "maps of photons"),
+            .cells = checked_cast<std::uint32_t>(aims.cells.size(), "cells of photons"),
+            .power = aims.power,
+            .max_power = aims.max_power,
+            .sun_area = aims.sun_area};
+}
+
 LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec3 world_size,
                           glm::ivec3 origin) {
     LightFacts facts{.count = static_cast<std::uint32_t>(lights.records.size()),
@@ -95,15 +140,12 @@ LightFacts measure_lights(const Scene& scene, const LightList& lights, glm::ivec
 PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs,
                         const DeviceLimits& limits) {
     PhotonPlan plan;
-    const double sun_area = std::numbers::pi * needs.lights.sun_disc.radius * needs.lights.sun_disc.radius;
-    const glm::dvec3 sun_power = glm::dvec3(needs.sun_irradiance) * sun_area;
-    const double sun = needs.has_sun ? sun_power.x + sun_power.y + sun_power.z : 0.0;
-    const double emitters = needs.has_emitters ? needs.lights.power : 0.0;
-    if (!(sun + emitters > 0.0)) return plan;
+    const PhotonSources sources = choose_sources(needs, plan);
+    if (!(sources.total() > 0.0)) return {};
     const double met = stored_per_photon(needs.max_albedo, settings, needs.keeps_indirect);
     const double room = static_cast<double>(limits.max_binding_bytes) / sizeof(gpu::StoredPhoton);
     const std::uint32_t wanted = wanted_photons(settings, needs.pixels, room / met);
-    plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sun / (sun + emitters))));
+    plan.sun_photons = static_cast<std::uint32_t>(std::lround(wanted * (sources.of_sun() / sources.total())));
     plan.emitter_photons = wanted - plan.sun_photons;
     plan.at_once = photons_at_once(wanted, met, needs.store_bytes);
     const std::uint32_t per_lane = limits.is_cpu ? photons_per_lane(needs, met) : 1;
@@ -116,9 +158,9 @@ PhotonPlan plan_photons(const PhotonSettings& settings, const PhotonNeeds& needs
     plan.capacity = static_cast<std::uint32_t>(std::min(slots, room));
     plan.buckets = bucket_count(plan.capacity, needs.pixels);
     if (plan.emitter_photons != 0)
-        plan.max_power = needs.lights.max_power / static_cast<double>(plan.emitter_photons);
+        plan.max_power = sources.max_power / static_cast<double>(plan.emitter_photons);
     if (plan.sun_photons != 0)
-        plan.max_power = glm::max(plan.max_power, sun_power / static_cast<double>(plan.sun_photons));
+        plan.max_power = glm::max(plan.max_power, sources.sun / static_cast<double>(plan.sun_photons));
     plan.max_power *= kPowerMargin;
     return plan;
 }

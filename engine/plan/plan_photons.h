@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <glm/glm.hpp>
 
@@ -10,6 +11,18 @@
 
 namespace voxilux {
 
+// What a plan needs to know of where photons start that are to meet mirrors or glass first.
+struct AimFacts {
+    std::uint32_t maps = 0;
+    std::uint32_t cells = 0;  // of all maps
+    double power = 0.0;       // as those of LightFacts
+    glm::dvec3 max_power{0.0};
+    double sun_area = 0.0;  // voxels^2
+
+    bool operator==(const AimFacts&) const = default;
+};
+[[nodiscard]] AimFacts measure_aims(const PhotonAims& aims);
+
 // What a plan needs to know of the emitters.
 struct LightFacts {
     std::uint32_t count = 0;
@@ -17,6 +30,7 @@ struct LightFacts {
     glm::dvec3 max_power{0.0};  // of all photons together, if each were as strong as the strongest
     SunDisc sun_disc;
     double extent = 0.0;  // largest magnitude of a coordinate that a photon can meet, local to the world
+    std::optional<AimFacts> aims;  // where photons serve caustics alone
 
     bool operator==(const LightFacts&) const = default;
 };
@@ -34,6 +48,9 @@ struct PhotonPlan {
     std::uint32_t slots_at_once = 0;  // of these that an invocation reserves together
     std::uint32_t buckets = 0;        // that they are sorted into, a power of two
     std::uint32_t gather_lanes = 0;  // invocations of a subgroup that fetch photons; 0: only the device knows
+    bool aims = false;               // they start where they can meet mirrors or glass first
+    double power = 0.0;              // of all of them, W: of red, green and blue together
+    double power_left_out = 0.0;     // W, of what cannot meet mirrors or glass first
     glm::dvec3 max_power{0.0};       // of one photon, W
     double radius = 0.0;             // of the first iteration, voxels; 0: a pilot has to find it
 

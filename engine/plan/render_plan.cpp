@@ -252,6 +252,16 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     return plan;
 }
 
+bool aims_photons(const Scene& scene, const SceneFacts& facts, const PlanRequest& request) {
+    if (!scene.settings.photons.aim) return false;
+    RenderPlan plan;
+    plan.settings = scene.settings;
+    plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
+    plan.has_specular_spheres = facts.has_specular_spheres;
+    decide_techniques(plan);
+    return plan.is_by_photons(Effect::caustics) && !plan.is_by_photons(Effect::indirect);
+}
+
 RenderPlan plan_without(RenderPlan plan, Effect effect) {
     const auto leave_out = [&](Effect one) { plan.effects[static_cast<std::size_t>(one)].on = false; };
     if (effect == Effect::indirect && plan.is_by_paths(Effect::caustics)) leave_out(Effect::caustics);

@@ -146,7 +146,7 @@ struct RenderPlan {
     [[nodiscard]] bool is_denoised() const { return sums_guides && part.empty(); }
     // Whether the render itself has to find the first radius of photons.
     [[nodiscard]] bool needs_pilot() const {
-        return any(&Technique::needs_pilot) && !settings.photons.radius;
+        return photons.runs() && any(&Technique::needs_pilot) && !settings.photons.radius;
     }
     [[nodiscard]] std::uint64_t tile_pixels() const {
         return std::uint64_t{tile_rows} * static_cast<std::uint64_t>(settings.size.x);
@@ -179,6 +179,10 @@ struct PlanRequest {
 // plan_within_memory().
 [[nodiscard]] RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
                                      const PlanRequest& request, const DeviceLimits& limits);
+
+// Whether photons of such a plan serve caustics alone and may start towards mirrors and glass, so that the
+// facts of its world should tell where (LightFacts::aims).
+[[nodiscard]] bool aims_photons(const Scene& scene, const SceneFacts& facts, const PlanRequest& request);
 
 // Variants of a plan, made by the same rules. No image is made of the first two, which have neither AOVs nor
 // sums of squares or bias.

@@ -62,6 +62,7 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
     if (limits.is_cpu) world_facts.growth = {};
     world_facts.traversal_reason = choice.reason;
     world_facts.lights = measure_lights(scene, prepared.lights, prepared.march_world.size(), origin);
+    aim_photons(scene, facts, origin, request, prepared.lights, world_facts.lights);
     if (scene.spheres.size() + scene.ground.count() > gpu::kFewSpheres) {
         const std::vector<gpu::SphereNode> tree = build_sphere_tree(sphere_records(scene, origin));
         world_facts.sphere_nodes = tree.size();
@@ -71,6 +72,15 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
     prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
     prepared.times.end_step("plan");
     return prepared;
+}
+
+void aim_photons(const Scene& scene, const SceneFacts& facts, glm::ivec3 origin, const PlanRequest& request,
+                 LightList& lights, LightFacts& measured) {
+    lights.aims = {};
+    measured.aims.reset();
+    if (!aims_photons(scene, facts, request)) return;
+    lights.aims = find_photon_aims(scene, lights, origin);
+    measured.aims = measure_aims(lights.aims);
 }
 
 }  // namespace voxilux

@@ -28,4 +28,9 @@ struct PreparedScene {
                                           const VoxelWorld& world, const PlanRequest& request,
                                           const DeviceLimits& limits, StepTimes times = {});
 
+// Finds where photons start towards mirrors and glass, if the plan may use it, and tells `measured`; else the
+// lights keep no such thing.
+void aim_photons(const Scene& scene, const SceneFacts& facts, glm::ivec3 origin, const PlanRequest& request,
+                 LightList& lights, LightFacts& measured);
+
 }  // namespace voxilux

@@ -120,7 +120,10 @@ void Renderer::replan(Scene scene, const PlanRequest& request) {
     const bool had_voxels = prepared_->plan.has(Effect::voxels);
     // The boxes of the structure on the host may have grown, but an upload needs an unexpanded one.
     if (!had_voxels && editing_) return adopt(prepare_again(scene, request), scene, request);
-    RenderPlan plan = plan_within_memory(scene, prepared_->facts, prepared_->plan.world, request, limits_);
+    WorldFacts world = prepared_->plan.world;
+    aim_photons(scene, prepared_->facts, prepared_->march_world.origin, request, prepared_->lights,
+                world.lights);
+    RenderPlan plan = plan_within_memory(scene, prepared_->facts, world, request, limits_);
     upload();
     request_ = request;
     scene_ = std::move(scene);

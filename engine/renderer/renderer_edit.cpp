@@ -60,6 +60,7 @@ bool Renderer::edit_structure(std::span<const VoxelEdit> cells) {
     const SceneFacts facts = measure_scene(scene_, voxels.facts());
     LightList lights = find_lights(scene_, &voxels.world(), built.origin);
     world.lights = measure_lights(scene_, lights, built.size(), built.origin);
+    aim_photons(scene_, facts, built.origin, request_, lights, world.lights);
     prepared_->plan = plan_within_memory(scene_, facts, world, request_, limits_);
     prepared_->facts = facts;
     prepared_->lights = std::move(lights);

@@ -16,6 +16,7 @@ struct PhotonSettings {
     bool classic = false;          // per-pixel radii (Hachisuka 2008), which shrink as photons arrive
     bool roulette = true;          // ends paths by chance, without bias; false: after `depth` surfaces
     std::uint32_t depth = 24;      // surfaces on a path without roulette
+    bool aim = true;               // those of caustics alone start towards mirrors and glass
     bool caustics = true;          // false: nothing finds them, technique `none`
     bool indirect = true;          // likewise indirect light
 

@@ -134,7 +134,7 @@ void visit_settings(AoSettings& settings, auto&& visit) {
 }
 
 void visit_settings(PhotonSettings& settings, auto&& visit) {
-    auto& [count, radius, alpha, scatter, classic, roulette, depth, caustics, indirect] = settings;
+    auto& [count, radius, alpha, scatter, classic, roulette, depth, aim, caustics, indirect] = settings;
     visit({"count", {0, PhotonSettings::kMaxCount}, "in an iteration; 0: one for each pixel"}, count);
     visit({"radius", above(0, 65536), "of the first iteration, voxels; absent: chosen"}, radius);
     visit({"alpha", above(0, 1), "exponent of the radius' decline; 1: it stays"}, alpha);
@@ -142,6 +142,7 @@ void visit_settings(PhotonSettings& settings, auto&& visit) {
     visit({"classic", {}, "a radius for each pixel, which shrinks as photons arrive"}, classic);
     visit({"roulette", {}, "chance ends paths, without bias; false: `depth` does"}, roulette);
     visit({"depth", {1, 4096}, "surfaces on a path without roulette"}, depth);
+    visit({"aim", {}, "where they serve caustics alone, they start towards mirrors and glass"}, aim);
     visit({"caustics", {}, "false: nothing finds them, as with the technique `none`"}, caustics);
     visit({"indirect", {}, "likewise indirect light"}, indirect);
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
 #include "shared/light.h"
 #include "shared/world_cell.h"
+#include "world/specular_boxes.h"
 
 namespace voxilux {
 namespace {
@@ -107,6 +109,8 @@ LightList find_lights(const Scene& scene, const VoxelWorld* world, glm::ivec3 or
         lights.list.power += power;
     measure_power(scene, lights);
     lights.list.sun_disc = sun_disc(scene, world, origin);
+    if (!lights.list.records.empty() || gpu::brightness(sunlight(scene)) > 0.0f)
+        lights.list.specular = find_specular(scene, world, origin);
     return std::move(lights.list);
 }
 

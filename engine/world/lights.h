@@ -5,6 +5,7 @@
 #include "scene/alias_table.h"
 #include "scene/scene.h"
 #include "shared/gpu_types.h"
+#include "world/photon_aims.h"
 #include "world/voxel_world.h"
 
 namespace voxilux {
@@ -24,6 +25,8 @@ struct LightList {
     double power = 0.0;                     // r + g + b of radiance times etendue, summed
     glm::dvec3 max_power{0.0};              // per channel, the maximum of radiance times etendue / pdf
     SunDisc sun_disc;                       // radius 0 where there is nothing to light
+    std::vector<RoundedBox> specular;       // mirrors and glass that light may meet
+    PhotonAims aims;                        // empty where the plan has no use for them
 };
 
 // Faces that touch glass count: glass lets light out. Throws Error(input_refused) for 2^24 emitters and more,

@@ -11,6 +11,7 @@ layout(r32ui) readonly uniform uimageBuffer LightTable;  // kAliasWords per Alia
 
 // An emitter, and the probability with which it was selected.
 struct DrawnLight {
+    uint number;  // in the list
     LightParts parts;
     ivec3 cell;
     vec3 emission;
@@ -35,6 +36,7 @@ DrawnLight sample_light(uint bits, float u) {
     uint i = alias_choice(load_alias(bucket), bucket, u);
     DrawnLight drawn;
     uvec4 light = imageLoad(Lights, int(i));
+    drawn.number = i;
     drawn.cell = ivec3(light.xyz);
     drawn.parts = light_parts(light.w);
     drawn.pdf = load_alias(i).pdf;

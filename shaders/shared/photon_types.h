@@ -50,6 +50,14 @@ struct StoredPhoton {
     uint rank;  // index within the bucket, in order of arrival
 };
 
+// Marked cells of a grid, towards which photons start (photon_aim.h).
+struct AimMap {
+    uint first;  // of them, in the list of all maps
+    uint count;
+    vec2 low;   // corner of the grid, across and along
+    vec2 cell;  // size of a cell
+};
+
 // Their sizes in 64-bit words, by which shaders read and write them.
 VX_CONST(uint, kSortedWords, 3u);
 VX_CONST(uint, kStoredWords, 4u);

@@ -63,15 +63,18 @@ VX_FN vec3 cosine_hemisphere(vec2 u) {
     return vec3(disk.x, disk.y, sqrt(z2));
 }
 
-// Cosine-weighted direction from a face 0..5 of a cell; the component along the face normal is at least
-// 2^-12.
-VX_FN vec3 cosine_on_face(uint face, vec2 u) {
-    vec3 local = cosine_hemisphere(u);
+// A direction around +z as one around the normal of a face 0..5 of a cell.
+VX_FN vec3 off_face(uint face, vec3 local) {
     float out_of_face = (face & 1u) == 0u ? -local.z : local.z;
     uint axis = face >> 1u;
     if (axis == 0u) return vec3(out_of_face, local.x, local.y);
     if (axis == 1u) return vec3(local.y, out_of_face, local.x);
     return vec3(local.x, local.y, out_of_face);
+}
+
+// Cosine-weighted direction off a face 0..5 of a cell; the component along the face normal is at least 2^-12.
+VX_FN vec3 cosine_on_face(uint face, vec2 u) {
+    return off_face(face, cosine_hemisphere(u));
 }
 
 // Right-handed orthonormal axes; cross(tangent, bitangent) = normal.

@@ -109,6 +109,8 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(PhotonParams, half_area_radius), VX_MEMBER(PhotonParams, capacity),
                   VX_MEMBER(PhotonParams, first_photon), VX_MEMBER(PhotonParams, photons),
                   VX_MEMBER(PhotonParams, iteration), VX_MEMBER(PhotonParams, alpha)),
+        VX_LAYOUT(AimMap, VX_MEMBER(AimMap, first), VX_MEMBER(AimMap, count), VX_MEMBER(AimMap, low),
+                  VX_MEMBER(AimMap, cell)),
         VX_LAYOUT(PixelRadius, VX_MEMBER(PixelRadius, squared), VX_MEMBER(PixelRadius, photons)),
         VX_LAYOUT(PhotonPoint, VX_MEMBER(PhotonPoint, position), VX_MEMBER(PhotonPoint, surface),
                   VX_MEMBER(PhotonPoint, pixel)),

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedText{
             "key", "[photons]\nphotons = 1\n",
             "s.toml:2:1: unknown key 'photons' in [photons]; known: 'count', 'radius', 'alpha', 'scatter', "
-            "'classic', 'roulette', 'depth', 'caustics', 'indirect'"}),
+            "'classic', 'roulette', 'depth', 'aim', 'caustics', 'indirect'"}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
