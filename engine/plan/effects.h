@@ -18,13 +18,14 @@ enum class Effect : std::uint8_t {
     ao,
     sun,
     sky,
+    aerial,
     emission,
     direct,
     caustics,
     indirect,
     aov
 };
-inline constexpr std::size_t kEffectCount = 11;
+inline constexpr std::size_t kEffectCount = 12;
 
 // What the user says of an effect; automatic leaves it to the scene.
 enum class Switch : std::uint8_t { automatic, on, off };

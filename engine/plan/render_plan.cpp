@@ -88,6 +88,7 @@ void check_paths(const RenderPlan& plan) {
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
     plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres);
+    if (plan.has_atmosphere()) plan.techniques.push_back(choose_sky_technique(plan.settings));
     plan.paths_find_sun_caustics =
         plan.has(Effect::caustics) &&
         (plan.is_by_paths(Effect::caustics) ||
@@ -118,9 +119,6 @@ void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     plan.tile_rows = std::min(plan.film_tile_rows, max_rows);  // groups may be one row high
 }
 
-// Share of light below which the air between surfaces is not worth a word.
-constexpr float kVisibleHaze = 0.001f;
-
 void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
                                   static_cast<std::uint64_t>(plan.settings.size.y) * plan.samples();
@@ -130,15 +128,13 @@ void count_rays(RenderPlan& plan) {
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
-void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
-    if (plan.has_atmosphere()) {
-        const float lost = haze(scene, glm::length(glm::dvec3(facts.extent)));
-        if (lost >= kVisibleHaze)
-            plan.notes.push_back(
-                fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
-                            100.0f * lost));
-    }
+void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     const bool is_polished = facts.has_glass || facts.has_metal;
+    if (plan.has_aerial() && is_polished)
+        plan.notes.emplace_back(
+            "the air is seen before first hits, not between mirrors or glass and what they show");
+    if (plan.traces_air() && !plan.paths.runs() && (!plan.has(Effect::ao) || plan.ao.uses_cells()))
+        plan.notes.emplace_back("no rays look for the sky's light at surfaces, which is that of its tables");
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("light of the sky reaches surfaces past glass and mirrors as through a wall");
     if (plan.has(Effect::sun) && plan.paths_find_sun_caustics && plan.has_specular_spheres)
@@ -245,7 +241,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     decide_sums(plan, request);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
-    add_notes(plan, scene, facts);
+    add_notes(plan, facts);
     return plan;
 }
 
@@ -266,7 +262,7 @@ RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // the count of a pixel is that of its photons
     plan = plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
-    for (const Effect one : {Effect::ao, Effect::sky, Effect::direct})
+    for (const Effect one : {Effect::ao, Effect::sky, Effect::aerial, Effect::direct})
         plan.effects[static_cast<std::size_t>(one)].on = false;
     plan.paths = {};
     return plan;

@@ -12,6 +12,7 @@ struct FilmInputs {
     SpecularPlanes seen;
     Plane ao;
     Plane sky;  // of an atmosphere: what misses see, and what hits receive over pi; else a constant
+    Plane air;  // light that the air before the first hits adds
     Plane sun;
     Plane direct;          // irradiance / pi, of emitters
     PhotonPlanes photons;  // irradiance, of photons
