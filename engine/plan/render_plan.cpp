@@ -130,6 +130,7 @@ void count_rays(RenderPlan& plan) {
 
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     const bool is_polished = facts.has_glass || facts.has_metal;
+    if (plan.has_aerial()) plan.notes.emplace_back("the scene throws no shadow into the air before it");
     if (plan.has_aerial() && is_polished)
         plan.notes.emplace_back(
             "the air is seen before first hits, not between mirrors or glass and what they show");
