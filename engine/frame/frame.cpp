@@ -1,5 +1,6 @@
 #include "frame/frame.h"
 
+#include "passes/aerial/aerial.h"
 #include "passes/ao/ao.h"
 #include "passes/film/aov.h"
 #include "passes/film/film_add.h"
@@ -105,6 +106,9 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
     const Plane hits = plan.has(Effect::spheres) ? record_sphere_trace(plan, tile, voxels, rec) : voxels;
     const SpecularPlanes seen = plan.has(Effect::specular) ? record_specular_trace(plan, tile, hits, rec)
                                                            : SpecularPlanes{hits, constant_value(1.0f, rec)};
+    const AerialPlanes air = plan.has_aerial()
+                                 ? record_aerial_trace(plan, tile, hits, seen.weights, rec)
+                                 : AerialPlanes{.weights = seen.weights, .light = constant_value(0.0f, rec)};
     const SkyPlanes sky = record_sky(plan, tile, seen.hits, ao_step(plan, params, number), rec);
     const Plane sun =
         plan.has(Effect::sun) ? record_sun_trace(plan, tile, seen.hits, rec) : constant_value(0.0f, rec);
@@ -113,9 +117,10 @@ void record_frame(const RenderPlan& plan, const DispatchTile& tile, gpu::FramePa
     const Plane sent = plan.paths.runs() ? record_paths(plan, tile, seen.hits, direct, rec) : direct;
     const PhotonPlanes photons = record_photons(plan, tile, seen.hits, sample + 1, rec);
     const FilmInputs inputs{.first_hits = hits,
-                            .seen = seen,
+                            .seen = {seen.hits, air.weights},
                             .ao = sky.ao,
                             .sky = sky.light,
+                            .air = air.light,
                             .sun = sun,
                             .direct = sent,
                             .photons = photons};

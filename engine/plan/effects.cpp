@@ -57,6 +57,22 @@ Verdict verdict_of_sky(const SceneFacts& facts, const EffectRequest&) {
     return {true, true, facts.has_atmosphere ? "an atmosphere scatters sunlight" : "constant sky radiance"};
 }
 
+// Share of light below which the air between camera and surfaces is not worth its time.
+constexpr float kVisibleHaze = 0.001f;
+
+Verdict verdict_of_aerial(const SceneFacts& facts, const EffectRequest&) {
+    if (!facts.has_atmosphere) return {false, false, "the sky is no atmosphere"};
+    if (!facts.has_sky) return {false, false, "the atmosphere has no sun"};
+    if (!facts.has_voxels && !facts.has_spheres) return {false, false, "nothing is seen through the air"};
+    const float percent = 100.0f * facts.haze;
+    const std::string share =
+        percent < 10.0f ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);
+    const std::string takes =
+        fmt::format("the air before the farthest surface takes {} % of its light", share);
+    if (facts.haze < kVisibleHaze) return {true, false, takes + ", which nobody sees"};
+    return {true, true, takes};
+}
+
 Verdict verdict_of_emission(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_emitters) return {false, false, "no used material emits"};
     return {true, true, "emissive materials are seen directly"};
@@ -106,6 +122,7 @@ constexpr std::array<EffectRow, kEffectCount> kEffects = {{
     {Effect::ao, "ao", verdict_of_ao},
     {Effect::sun, "sun", verdict_of_sun},
     {Effect::sky, "sky", verdict_of_sky},
+    {Effect::aerial, "aerial", verdict_of_aerial},
     {Effect::emission, "emission", verdict_of_emission},
     {Effect::direct, "direct", verdict_of_direct},
     {Effect::caustics, "caustics", verdict_of_caustics},
@@ -125,7 +142,7 @@ EffectState decide(const EffectRow& row, const SceneFacts& facts, const EffectRe
     return {row.effect, verdict.possible && verdict.called_for, verdict.reason, verdict.by_choice};
 }
 
-// Light that is not emitted, or meets no mirror, needs no further effects.
+// Light that has not been let out, or finds no mirror, needs no photons, and without a sky there is no air.
 void drop_unlit(const EffectRequest& request, EffectStates& states) {
     const auto state = [&](Effect effect) -> EffectState& {
         return states[static_cast<std::size_t>(effect)];
@@ -133,6 +150,7 @@ void drop_unlit(const EffectRequest& request, EffectStates& states) {
     const auto drop = [&](Effect effect, const char* reason) {
         if (state(effect).on) state(effect) = {effect, false, reason, true};
     };
+    if (!state(Effect::sky).on) drop(Effect::aerial, "the sky is switched off");
     if (!state(Effect::specular).on) drop(Effect::caustics, "mirrors and glass are switched off");
     const bool sky_lights = request.traces_paths && state(Effect::sky).on;
     if (state(Effect::emission).on) return;

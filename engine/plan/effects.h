@@ -19,13 +19,14 @@ enum class Effect : std::uint8_t {
     ao,
     sun,
     sky,
+    aerial,
     emission,
     direct,
     caustics,
     indirect,
     aov
 };
-inline constexpr std::size_t kEffectCount = 12;
+inline constexpr std::size_t kEffectCount = static_cast<std::size_t>(Effect::aov) + 1;
 
 // The user's choice for an effect; automatic leaves it to the scene.
 enum class Switch : std::uint8_t { automatic, on, off };

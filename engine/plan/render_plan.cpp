@@ -89,6 +89,7 @@ void check_paths(const RenderPlan& plan) {
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
     plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres);
+    if (plan.has_atmosphere()) plan.techniques.push_back(choose_sky_technique(plan.settings));
     plan.paths_find_sun_caustics =
         plan.has(Effect::caustics) &&
         (plan.is_by_paths(Effect::caustics) ||
@@ -119,9 +120,6 @@ void split_image(RenderPlan& plan, std::uint32_t max_rows) {
     plan.tile_rows = std::min(plan.film_tile_rows, max_rows);  // groups may be one row high
 }
 
-// Fraction of light lost in the air of the scene from which on a note says so.
-constexpr float kVisibleHaze = 0.001f;
-
 void count_rays(RenderPlan& plan) {
     const std::uint64_t samples = static_cast<std::uint64_t>(plan.settings.size.x) *
                                   static_cast<std::uint64_t>(plan.settings.size.y) * plan.samples();
@@ -131,15 +129,14 @@ void count_rays(RenderPlan& plan) {
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
-void add_notes(RenderPlan& plan, const Scene& scene, const SceneFacts& facts) {
-    if (plan.has_atmosphere()) {
-        const float lost = haze(scene, glm::length(glm::dvec3(facts.extent)));
-        if (lost >= kVisibleHaze)
-            plan.notes.push_back(
-                fmt::format("the air across the scene takes up to {:.2g} % of the light, which is left out",
-                            100.0f * lost));
-    }
+void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     const bool is_polished = facts.has_glass || facts.has_metal;
+    if (plan.has_aerial()) plan.notes.emplace_back("the scene throws no shadow into the air before it");
+    if (plan.has_aerial() && is_polished)
+        plan.notes.emplace_back(
+            "the air is seen before first hits, not between mirrors or glass and what they show");
+    if (plan.traces_air() && !plan.paths.runs() && (!plan.has(Effect::ao) || plan.ao.uses_cells()))
+        plan.notes.emplace_back("no rays look for the sky's light at surfaces, which is that of its tables");
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("glass and mirrors block the light of the sky as walls do");
     if (plan.has(Effect::sun) && plan.paths_find_sun_caustics && plan.has_specular_spheres)
@@ -248,7 +245,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     decide_sums(plan, request);
     split_image(plan, limits.max_groups[1]);
     count_rays(plan);
-    add_notes(plan, scene, facts);
+    add_notes(plan, facts);
     return plan;
 }
 
@@ -279,7 +276,7 @@ RenderPlan plan_counting(RenderPlan plan, double radius) {
     plan.settings.photons.scatter = false;
     plan.settings.photons.alpha = 1.0;  // with a constant radius, a pixel's count is that of its photons
     plan = plan_without(plan_with_radius(std::move(plan), radius), Effect::aov);
-    for (const Effect one : {Effect::ao, Effect::sky, Effect::direct})
+    for (const Effect one : {Effect::ao, Effect::sky, Effect::aerial, Effect::direct})
         plan.effects[static_cast<std::size_t>(one)].on = false;
     plan.paths = {};
     return plan;

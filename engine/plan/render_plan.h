@@ -99,6 +99,9 @@ struct RenderPlan {
         return has(Effect::spheres) && sphere_count > gpu::kFewSpheres;
     }
     [[nodiscard]] bool has_atmosphere() const { return has(Effect::sky) && sky_resolution != 0; }
+    [[nodiscard]] bool has_aerial() const { return has_atmosphere() && has(Effect::aerial); }
+    // Whether each ray that leaves the scene traces the air by a path, instead of a look-up.
+    [[nodiscard]] bool traces_air() const { return has_atmosphere() && settings.traces_air; }
     // Whether a technique of the plan has a property, such as &Technique::shares_samples.
     template <class Property>
     [[nodiscard]] bool any(Property property) const {

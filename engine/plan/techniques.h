@@ -61,6 +61,9 @@ struct ChosenTechnique {
                                                              const RenderSettings& settings,
                                                              bool has_specular_spheres);
 
+// That of the light of an atmosphere.
+[[nodiscard]] ChosenTechnique choose_sky_technique(const RenderSettings& settings);
+
 // The request with those effects off for which the settings choose `none`, unless the request switches them
 // on.
 [[nodiscard]] EffectRequest with_techniques(EffectRequest request, const RenderSettings& settings);

@@ -56,7 +56,8 @@ gpu::SkyParams sky_params(const Scene& scene) {
             .disc_height = disc_height(scene.sun),
             .sun_direction = scene.sun.direction(),
             .irradiance = scene.sun.on ? scene.sun.irradiance : glm::vec3(0.0f),
-            .resolution = sky.resolution};
+            .resolution = sky.resolution,
+            .km_per_voxel = sky.metres_per_voxel / kKilometre};
 }
 
 glm::vec3 sunlight(const Scene& scene) {

@@ -35,6 +35,7 @@ struct SceneFacts {
     bool has_reflectors = false;        // a used material that is not black
     bool has_specular_spheres = false;  // of glass or metal
 
+    float haze = 0.0f;        // share of the farthest surface's light that an atmosphere takes before it
     double max_albedo = 0.0;  // largest channel of a used material that is not all mirror and glass
 
     // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.

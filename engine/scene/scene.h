@@ -180,6 +180,7 @@ struct RenderSettings {
     float ao_radius = 32.0f;    // voxels
     std::uint32_t seed = 0;
     Sequence sequence = Sequence::sobol;
+    bool traces_air = false;  // for the light of an atmosphere, instead of tables
     AoSettings ao;
     PhotonSettings photons;
     PathSettings paths;

@@ -109,14 +109,16 @@ struct CameraKeySettings {
 // visit_settings(settings, visit) calls visit(const Setting&, member) for each row of a section.
 
 void visit_settings(RenderSettings& settings, auto&& visit) {
-    auto& [size, spp, ao_rays, ao_radius, seed, sequence, ao, photons, paths] =
-        settings;  // these three are sections
+    auto& [size, spp, ao_rays, ao_radius, seed, sequence, traces_air, ao, photons, paths] =
+        settings;  // the last three are sections
     visit({"size", {1, 65535}, "width and height, pixels"}, size);
     visit({"spp", {1, 4294967295}, "samples per pixel"}, spp);
     visit({"ao_rays", {1, 65535}, "occlusion rays per sample"}, ao_rays);
     visit({"ao_radius", above(0, 65536), "reach of occlusion rays, voxels"}, ao_radius);
     visit({"seed", kWhole, "of every random stream"}, seed);
     visit({"sequence", {}, "sample sequence", kSequenceNames}, sequence);
+    visit({"traces_air", {}, "true: paths find the light of an atmosphere, as `sky=reference` does"},
+          traces_air);
 }
 
 void visit_settings(AoSettings& settings, auto&& visit) {

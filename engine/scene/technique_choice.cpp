@@ -54,6 +54,11 @@ void choose_indirect_paths(RenderSettings& settings) {
     settings.paths.plain = kPlain;
 }
 
+template <bool kTraced>
+void choose_sky(RenderSettings& settings) {
+    settings.traces_air = kTraced;
+}
+
 constexpr std::array kChoices{
     TechniqueChoice{"ao", "auto", choose_ao<AoMethod::automatic>},
     TechniqueChoice{"ao", "brute", choose_ao<AoMethod::brute>},
@@ -71,6 +76,8 @@ constexpr std::array kChoices{
     TechniqueChoice{"indirect", "paths", choose_indirect_paths<false>},
     TechniqueChoice{"indirect", "reference", choose_indirect_paths<true>},
     TechniqueChoice{"indirect", "none", choose_none<kIndirect>},
+    TechniqueChoice{"sky", "tables", choose_sky<false>},
+    TechniqueChoice{"sky", "reference", choose_sky<true>},
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ VX_SPECIALIZED(uint, sun_stride, 1u);
 VX_SPECIALIZED(uint, direct_stride, 1u);
 VX_SPECIALIZED(uint, photons_stride, 1u);
 VX_SPECIALIZED(uint, weights_stride, 1u);
+VX_SPECIALIZED(uint, aerial_stride, 0u);  // 0: the air before surfaces is left out
 VX_SPECIALIZED(uint, has_emission, 1u);
 
 layout(rgba32ui) readonly uniform uimageBuffer Hits;
@@ -28,6 +29,7 @@ layout(rgba32ui) readonly uniform uimageBuffer Sun;
 layout(rgba32ui) readonly uniform uimageBuffer Direct;
 layout(rgba32ui) readonly uniform uimageBuffer Photons;
 layout(rgba32ui) readonly uniform uimageBuffer Weights;
+layout(rgba32ui) readonly uniform uimageBuffer AerialLight;
 
 // 0 for a miss, whose material is undefined.
 uint material_of(Hit hit) {
@@ -45,6 +47,7 @@ struct Group {
     vec4 ao;
     vec4 sun;
     vec3 direct[kGroupPixels];
+    vec3 air[kGroupPixels];  // what the air before hits adds
 };
 
 // Sets the hits and loads their materials. Pixels outside count as misses.
@@ -82,6 +85,9 @@ Group load_group(uint at, uint first, uint end) {
     group.direct = VX_GROUP_VECTORS(Direct, at, direct_stride);
     group.photons = VX_GROUP_VECTORS(Photons, at, photons_stride);
     group.weights = VX_GROUP_VECTORS(Weights, at, weights_stride);
+    if (aerial_stride != 0u) {
+        group.air = VX_GROUP_VECTORS(AerialLight, at, aerial_stride);
+    }
     return group;
 }
 
@@ -95,7 +101,8 @@ vec3 radiance(Group group, uint k) {
         if (hit.face == kFaceSphereInside) emission = vec3(0.0);
         radiance = emission + group.albedo[k] * (group.sky[k] + sunlight + emitter_light);
     }
-    return radiance * group.weights[k];
+    radiance *= group.weights[k];
+    return aerial_stride != 0u ? radiance + group.air[k] : radiance;
 }
 
 #endif

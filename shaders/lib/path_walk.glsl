@@ -179,15 +179,18 @@ void take_emission(inout Walk walk, PathHit found) {
     walk.light += emission * (walk.kind == kRayOn ? carried : aimed);
 }
 
-vec3 sky_seen(vec3 direction) {
-    return has_atmosphere != 0u ? sky_radiance(sky, direction) : constant_sky;
+vec3 sky_seen(Walk walk) {
+    if (has_atmosphere == 0u) return constant_sky;
+    SampleKey key = sample_of_frame;
+    key.stream = walk.stream;
+    return sky_along(walk.ray.direction, key, 1u + walk.surfaces);
 }
 
 // Adds the light of what a ray has hit.
 void take_light(inout Walk walk, PathHit found) {
     if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
     if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
-    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky_seen(walk.ray.direction);
+    if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky_seen(walk);
     if (walk.kind != kRayOn && walk.is_straight)
         walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
     if (!has_glints || walk.is_straight) return;

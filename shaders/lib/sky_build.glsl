@@ -2,12 +2,10 @@
 #ifndef VX_SKY_BUILD_GLSL
 #define VX_SKY_BUILD_GLSL
 
-layout(scalar) readonly buffer Scatter {
-    uint scatter[];
-};
+layout(rgba32ui) readonly uniform uimageBuffer Scatter;
 
-uint load_scatter(uint i) {
-    return scatter[i];
+uvec4 load_scatter(uint i) {
+    return imageLoad(Scatter, int(i));
 }
 
 #define VX_SKY_PARAM

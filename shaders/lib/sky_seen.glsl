@@ -10,7 +10,7 @@ VX_SPECIALIZED(uint, misses_have_direction, 0u);
 // Includes the sun's disc.
 vec3 seen_sky(Pixel pixel, Hit miss) {
     vec3 direction = misses_have_direction != 0u ? miss.fraction : camera_ray_of(pixel).direction;
-    return sky_radiance(sky, direction) + sun_disc_radiance(sky, direction);
+    return sky_along(direction, pixel_key(pixel), 0u) + sun_disc_radiance(sky, direction);
 }
 
 #endif

@@ -17,6 +17,7 @@
 
 VX_SPECIALIZED(uint, hits_stride, 1u);
 VX_SPECIALIZED(uint, ao_stride, 1u);
+VX_SPECIALIZED(uint, paths_find_sky, 0u);  // at surfaces
 
 layout(scalar) readonly buffer Hits {
     Hit hits[];
@@ -45,7 +46,7 @@ void main() {
     vec3 light = vec3(0.0);
     if (!is_surface(hit)) {
         light = seen_sky(pixel, hit);
-    } else if (hit.face != kFaceInside) {
+    } else if (paths_find_sky == 0u && hit.face != kFaceInside) {
         light = open_irradiance(surface_normal(hit)) * ao[pixel.index * ao_stride];
     }
     sky_light[pixel.index] = light;

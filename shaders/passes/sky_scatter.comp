@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
     SkyScatterPush push;
 };
 layout(scalar) writeonly buffer NextScatter {
-    uint next_scatter[];
+    uvec4 next_scatter[];
 };
 
 void main() {
@@ -22,6 +22,6 @@ void main() {
     if (i >= kScatterTexels) return;
     SkyHarmonics texel = scatter_texel(push.air, scatter_height(i / kScatterCosines),
                                        scatter_cosine(i % kScatterCosines), push.is_first != 0u);
-    for (uint word = 0u; word < kTexelWords; ++word)
-        next_scatter[kTexelWords * i + word] = scatter_word(texel, word);
+    for (uint pair = 0u; pair < kTexelPairs; ++pair)
+        next_scatter[kTexelPairs * i + pair] = scatter_pair(texel, pair);
 }

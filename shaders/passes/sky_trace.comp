@@ -72,7 +72,7 @@ void main() {
         for (uint i = 0u; i < ao_rays; ++i) {
             SkyRay ray = sky_ray(hit, occlusion_point(stream, ray_number(first, i)));
             if (ray.weight <= 0.0 || is_occluded(ray_from(hit, ray.direction, frame.ao_radius), own)) continue;
-            light += ray.weight * sky_radiance(sky, ray.direction);
+            light += ray.weight * sky_along(ray.direction, pixel_key(pixel), 1u + i);
             open += ray.weight;
         }
         light /= float(ao_rays);

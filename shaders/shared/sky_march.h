@@ -15,7 +15,7 @@
 #ifndef VX_SKY_MARCH_H
 #define VX_SKY_MARCH_H
 
-#include "atmosphere.h"
+#include "air_ray.h"
 #include "sky_view.h"
 
 VX_BEGIN
@@ -34,24 +34,6 @@ VX_CONST_LIST(float, kGaussNode, 6) = {0.0337652429f, 0.1693953068f, 0.380690407
                                        0.6193095930f, 0.8306046932f, 0.9662347571f};
 VX_CONST_LIST(float, kGaussWeight, 6) = {0.0856622462f, 0.1803807865f, 0.2339569673f,
                                          0.2339569673f, 0.1803807865f, 0.0856622462f};
-
-// A ray through the air, by the quantities that its light depends on.
-struct AirRay {
-    float height;     // of the start, [0, kAirTop]
-    float cosine;     // to the vertical there
-    float sun;        // the sun's cosine to the vertical there
-    float sun_angle;  // cosine of the angle between the ray and the sun
-};
-
-// The same ray from a point on it.
-VX_FN AirRay ray_after(AirRay ray, float t) {
-    if (t <= 0.0f) return ray;
-    const float r = kGroundRadius + ray.height;
-    ray.height = min(height_after(ray.height, ray.cosine, t), kAirTop);
-    ray.cosine = clamp((r * ray.cosine + t) / (kGroundRadius + ray.height), -1.0f, 1.0f);
-    ray.sun = clamp((r * ray.sun + t * ray.sun_angle) / (kGroundRadius + ray.height), -1.0f, 1.0f);
-    return ray;
-}
 
 struct AirLight {
     vec3 rayleigh;  // scattered once, by air, divided by its phase function
@@ -76,14 +58,13 @@ VX_FN float scatter_cosine(uint column) {
     return min(kScatterMiddle + kScatterWidth * u / (1.0f - abs(u)), 1.0f);
 }
 
-// Two harmonics of a texel are three words of half floats.
 VX_FN SkyHarmonics scatter_entry(VX_SKY_PARAM uint texel, float weight) {
     SkyHarmonics entry;
-    for (uint pair = 0u; pair < kSkyHarmonics / 2u; ++pair) {
-        const uint first = 3u * (texel * (kSkyHarmonics / 2u) + pair);
-        const vec2 a = unpackHalf2x16(load_scatter(VX_SKY_ARG first));
-        const vec2 b = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 1u));
-        const vec2 c = unpackHalf2x16(load_scatter(VX_SKY_ARG first + 2u));
+    for (uint pair = 0u; pair < kTexelPairs; ++pair) {
+        const uvec4 words = load_scatter(VX_SKY_ARG kTexelPairs * texel + pair);
+        const vec2 a = unpackHalf2x16(words.x);
+        const vec2 b = unpackHalf2x16(words.y);
+        const vec2 c = unpackHalf2x16(words.z);
         entry.c[2u * pair] = weight * vec3(a.x, a.y, b.x);
         entry.c[2u * pair + 1u] = weight * vec3(b.y, c.x, c.y);
     }
@@ -159,78 +140,67 @@ VX_FN vec3 air_cuts(AirRay ray, float end) {
     return vec3(min(turn, into), max(min(turn, out_of), into), max(turn, out_of));
 }
 
-struct RayNode {
-    float way;     // fraction of a section of the ray
-    float weight;  // fraction of it that the node represents
-};
-
-// Nodes are densest where the air is: at the start of rising sections, at both ends of the others.
-VX_FN RayNode ray_node(uint number, uint panels, bool rises) {
+// Node `number` of a stretch of the ray.
+VX_FN AirNode gauss_node(uint number, uint panels, bool rises) {
     const uint panel = number / kGaussNodes;
     const uint place = number - panel * kGaussNodes;
-    const float u = (float(panel) + kGaussNode[place]) / float(panels);
-    const float slope = rises ? 2.0f * u : 6.0f * u * (1.0f - u);
-    RayNode node;
-    node.way = rises ? u * u : u * u * (3.0f - 2.0f * u);
-    node.weight = slope * (kGaussWeight[place] / float(panels));
-    return node;
+    return air_node((float(panel) + kGaussNode[place]) / float(panels), kGaussWeight[place] / float(panels),
+                    rises);
+}
+
+VX_FN AirLight no_light() {
+    AirLight light;
+    light.rayleigh = light.mie = light.multiple = light.ground = light.scatters = vec3(0.0f);
+    return light;
+}
+
+// Adds what a place on the way scatters, which stands for `length` of it. moments: mie_moments.
+VX_FN AirLight gather(VX_SKY_PARAM Air air, AirRay ray, AirWay way, float t, float length, vec3 moments,
+                      bool has_table, AirLight light) {
+    const float r = kGroundRadius + ray.height;
+    const float height = height_after(ray.height, ray.cosine, t);
+    const float cosine = clamp((r * ray.cosine + t) / (kGroundRadius + height), -1.0f, 1.0f);
+    const float sun = clamp((r * ray.sun + t * ray.sun_angle) / (kGroundRadius + height), -1.0f, 1.0f);
+    const vec3 reaches = length * passes_from(air, ray, way, t, height, cosine);
+    const vec3 density = air_densities(height);
+    const vec3 rayleigh = air.rayleigh * density.x;
+    const float aerosol = air.mie * density.y;
+    const vec3 sunlight = reaches * transmittance_out(air, height, sun);
+    light.rayleigh += sunlight * rayleigh;
+    light.mie += sunlight * aerosol;
+    light.scatters += reaches * (rayleigh + vec3(aerosol));
+    if (!has_table) return light;
+    const float horizontal = sqrt(max(1.0f - sun * sun, 1e-8f));
+    light.multiple +=
+        reaches * scattered_light(scatter_lookup(VX_SKY_ARG height, sun), cosine,
+                                  (ray.sun_angle - cosine * sun) / horizontal, rayleigh + vec3(aerosol),
+                                  vec3(aerosol * moments.y), 0.1f * rayleigh + vec3(aerosol * moments.z));
+    return light;
 }
 
 // The march. `panels` sets the number of nodes. Without a table only the sun lights air and ground.
 VX_FN AirLight march_air(VX_SKY_PARAM Air air, AirRay ray, uint panels, bool has_table) {
-    const float h = ray.height;
-    const float r = kGroundRadius + h;
-    const bool is_ground = hits_ground(h, ray.cosine);
-    const float end = is_ground ? distance_to_ground(h, ray.cosine)
-                                : distance_to_rise(h, ray.cosine, max(kAirTop - h, 0.0f));
-    const float lowest = -r * ray.cosine;
-    const vec3 cuts = air_cuts(ray, end);
-    const vec3 start_columns = columns_up(h, abs(ray.cosine));
-    const vec3 lowest_columns =
-        ray.cosine < 0.0f && !is_ground ? columns_up(lowest_height(h, ray.cosine), 0.0f) : vec3(0.0f);
-    const vec3 mie = mie_moments(air.mie_g);
-    AirLight light;
-    light.rayleigh = light.mie = light.multiple = light.ground = light.scatters = vec3(0.0f);
+    const AirWay way = way_of(ray);
+    const vec3 cuts = air_cuts(ray, way.end);
+    const vec3 moments = mie_moments(air.mie_g);
+    const float lowest = -(kGroundRadius + ray.height) * ray.cosine;
+    AirLight light = no_light();
     float to = 0.0f;
     for (uint stretch = 0u; stretch < 4u; ++stretch) {
         const float from = to;
-        to = stretch == 0u ? cuts.x : (stretch == 1u ? cuts.y : (stretch == 2u ? cuts.z : end));
+        to = stretch == 0u ? cuts.x : (stretch == 1u ? cuts.y : (stretch == 2u ? cuts.z : way.end));
         if (to <= from) continue;
         const bool rises = from >= lowest;
         for (uint node = 0u; node < kGaussNodes * panels; ++node) {
-            const RayNode at = ray_node(node, panels, rises);
-            const float t = from + (to - from) * at.way;
-            const float weight = (to - from) * at.weight;
-            const float height = height_after(h, ray.cosine, t);
-            const float cosine = clamp((r * ray.cosine + t) / (kGroundRadius + height), -1.0f, 1.0f);
-            const float sun =
-                clamp((r * ray.sun + t * ray.sun_angle) / (kGroundRadius + height), -1.0f, 1.0f);
-            const vec3 part = columns_up(height, abs(cosine));
-            const vec3 columns = ray.cosine >= 0.0f ? start_columns - part
-                                 : (cosine <= 0.0f || is_ground)
-                                     ? part - start_columns
-                                     : 2.0f * lowest_columns - start_columns - part;
-            const vec3 reaches = weight * air_transmittance(air, max(columns, vec3(0.0f)));
-            const vec3 density = air_densities(height);
-            const vec3 rayleigh = air.rayleigh * density.x;
-            const float aerosol = air.mie * density.y;
-            const vec3 sunlight = reaches * transmittance_out(air, height, sun);
-            light.rayleigh += sunlight * rayleigh;
-            light.mie += sunlight * aerosol;
-            light.scatters += reaches * (rayleigh + vec3(aerosol));
-            if (!has_table) continue;
-            const float horizontal = sqrt(max(1.0f - sun * sun, 1e-8f));
-            light.multiple += reaches * scattered_light(scatter_lookup(VX_SKY_ARG height, sun), cosine,
-                                                        (ray.sun_angle - cosine * sun) / horizontal,
-                                                        rayleigh + vec3(aerosol), vec3(aerosol * mie.y),
-                                                        0.1f * rayleigh + vec3(aerosol * mie.z));
+            const AirNode at = gauss_node(node, panels, rises);
+            light = gather(VX_SKY_ARG air, ray, way, from + (to - from) * at.way, (to - from) * at.weight,
+                           moments, has_table, light);
         }
     }
-    if (is_ground) {
-        const float steep = clamp(-(r * ray.cosine + end) / kGroundRadius, 0.0f, 1.0f);
-        const float sun = clamp((r * ray.sun + end * ray.sun_angle) / kGroundRadius, -1.0f, 1.0f);
-        light.ground = air_transmittance(air, max(columns_up(0.0f, steep) - start_columns, vec3(0.0f))) *
-                       ground_radiance(VX_SKY_ARG air, sun, has_table);
+    if (way.is_ground) {
+        const AirRay there = ray_to_ground(ray, way);
+        light.ground = passes_from(air, ray, way, way.end, 0.0f, there.cosine) *
+                       ground_radiance(VX_SKY_ARG air, there.sun, has_table);
     }
     light.multiple = max(light.multiple, vec3(0.0f));
     return light;

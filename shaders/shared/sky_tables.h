@@ -11,8 +11,6 @@ VX_BEGIN
 // Directions in which a texel gathers: elevations on either side of the horizon, denser towards it, times
 // azimuths on one side of the sun, denser towards it. Products of four Gauss points.
 VX_CONST(uint, kScatterRays, 32u);
-VX_CONST_LIST(float, kFourNode, 4) = {0.0694318442f, 0.3300094782f, 0.6699905218f, 0.9305681558f};
-VX_CONST_LIST(float, kFourWeight, 4) = {0.1739274226f, 0.3260725774f, 0.3260725774f, 0.1739274226f};
 // A direction in the frame of the harmonics.
 struct ScatterRay {
     float cosine;  // to the vertical
@@ -79,13 +77,12 @@ VX_FN SkyHarmonics scatter_texel(VX_SKY_PARAM Air air, float h, float sun, bool 
     return sum;
 }
 
-// A word of a texel as the table stores it.
-VX_FN uint scatter_word(SkyHarmonics texel, uint word) {
-    const uint first = 2u * word;  // index among the texel's 18 numbers
-    const uint second = first + 1u;
-    const float a = texel.c[first / 3u][first % 3u];
-    const float b = texel.c[second / 3u][second % 3u];
-    return packHalf2x16(kScatterScale * vec2(a, b));
+// A pair of harmonics as the table keeps it.
+VX_FN uvec4 scatter_pair(SkyHarmonics texel, uint pair) {
+    const vec3 a = kScatterScale * texel.c[2u * pair];
+    const vec3 b = kScatterScale * texel.c[2u * pair + 1u];
+    return uvec4(packHalf2x16(vec2(a.x, a.y)), packHalf2x16(vec2(a.z, b.x)), packHalf2x16(vec2(b.y, b.z)),
+                 0u);
 }
 
 struct ViewTexel {

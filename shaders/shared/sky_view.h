@@ -6,7 +6,7 @@
 #ifndef VX_SKY_VIEW_H
 #define VX_SKY_VIEW_H
 
-#include "atmosphere.h"
+#include "air_ray.h"
 
 VX_BEGIN
 
@@ -19,6 +19,7 @@ struct SkyParams {
     vec3 sun_direction;  // unit
     vec3 irradiance;     // of a surface above the air that faces the sun
     uint resolution;     // rows above the horizon; half as many below, and half as many columns
+    float km_per_voxel;
 };
 
 // The table of the light that arrives anywhere in the air (sky_march.h).
@@ -29,8 +30,9 @@ VX_CONST(uint, kScatterHeights, 6u);   // of the table, from the ground up
 VX_CONST(float, kScatterTop, 50.0f);   // km; above, too little air is left to scatter what arrives
 VX_CONST(uint, kScatterCosines, 24u);  // of the sun
 VX_CONST(uint, kScatterTexels, kScatterHeights* kScatterCosines);
-VX_CONST(uint, kTexelWords, kSkyHarmonics * 3u / 2u);
-VX_CONST(uint, kScatterWords, kScatterTexels* kTexelWords);
+// Two harmonics are six half floats: three words of four, which lavapipe loads at once.
+VX_CONST(uint, kTexelPairs, kSkyHarmonics / 2u);
+VX_CONST(uint, kScatterPairs, kScatterTexels* kTexelPairs);
 // Numbers are kept multiplied by this: half floats lose bits below 6e-5, and the sky of deep dusk is darker.
 VX_CONST(float, kScatterScale, 1024.0f);
 // Rounds after the first. A round multiplies the missing light by the fraction that scatters again, a third
@@ -68,6 +70,15 @@ VX_FN float distance_to_air(float h, float cosine) {
     const float c = (h - kAirTop) * (2.0f * kGroundRadius + h + kAirTop);
     const float square = b * b - c;
     return b < 0.0f && square >= 0.0f ? c / (sqrt(square) - b) : -1.0f;
+}
+
+VX_FN AirRay air_ray_of(SkyParams sky, vec3 direction) {
+    AirRay ray;
+    ray.height = sky.height;
+    ray.cosine = clamp(direction.z, -1.0f, 1.0f);
+    ray.sun = sky.sun_direction.z;
+    ray.sun_angle = clamp(dot(direction, sky.sun_direction), -1.0f, 1.0f);
+    return ray;
 }
 
 // Position in a table with texels at both ends.

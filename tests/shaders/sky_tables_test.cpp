@@ -9,72 +9,29 @@
 #include <gtest/gtest.h>
 
 #include "shared/sampling.h"
+#include "support/hard_airs.h"
 #include "support/sky_model.h"
 
 namespace voxilux {
 namespace {
 
 using glm::vec3;
+using test::earth;
+using test::hard_airs;
+using test::HardAir;
 using test::ScatterTable;
-
-gpu::Air earth() {
-    return {
-        {5.802e-3f, 13.558e-3f, 33.1e-3f}, {0.65e-3f, 1.881e-3f, 0.085e-3f}, 3.996e-3f, 4.44e-3f, 0.8f, 0.3f};
-}
+using test::sky_of;
 
 const ScatterTable& earths_table() {
     static const ScatterTable scatter = test::scatter_table(earth());
     return scatter;
 }
 
-gpu::SkyParams sky_of(const gpu::Air& air, float height, float sun_elevation_deg, gpu::uint resolution = 16) {
-    const float e = sun_elevation_deg * std::numbers::pi_v<float> / 180.0f;
-    return {.air = air,
-            .height = height,
-            .horizon = gpu::horizon_elevation(height),
-            .top = height > gpu::kAirTop ? gpu::tangent_elevation(height, height - gpu::kAirTop)
-                                         : std::numbers::pi_v<float> / 2.0f,
-            .disc_height = gpu::cone_height(0.00465f),
-            .sun_direction = {std::cos(e), 0.0f, std::sin(e)},
-            .irradiance = vec3(1.0f),
-            .resolution = resolution};
-}
-
-struct HardAir {
-    const char* name;
-    gpu::Air air;
-};
-
-std::vector<HardAir> hard_airs() {
-    std::vector<HardAir> airs;
-    const auto add = [&](const char* name, auto&& change) {
-        gpu::Air air = earth();
-        change(air);
-        airs.push_back({name, air});
-    };
-    add("the Earth's", [](gpu::Air&) {});
-    add("no air", [](gpu::Air& a) { a.rayleigh = vec3(0.0f); });
-    add("no aerosol", [](gpu::Air& a) { a.mie = a.mie_extinction = 0.0f; });
-    add("ozone alone", [](gpu::Air& a) { a.rayleigh = vec3(0.0f), a.mie = a.mie_extinction = 0.0f; });
-    add("black ground", [](gpu::Air& a) { a.ground_albedo = 0.0f; });
-    add("white ground", [](gpu::Air& a) { a.ground_albedo = 1.0f; });
-    add("g 0.99", [](gpu::Air& a) { a.mie_g = 0.99f; });
-    add("g -0.99", [](gpu::Air& a) { a.mie_g = -0.99f; });
-    add("100 times as dense", [](gpu::Air& a) {
-        a.rayleigh *= 100.0f, a.ozone *= 100.0f, a.mie *= 100.0f, a.mie_extinction *= 100.0f;
-    });
-    return airs;
-}
-
-// Heights, km: on the ground, just above it, at the top of the air and in space.
-constexpr float kHeights[] = {0.0f, 0.0001f, 0.2f, 99.99f, 100.0f, 400.0f};
-constexpr float kSuns[] = {-90.0f, -18.0f, -5.0f, 0.0f, 0.5f, 90.0f};
-
 TEST(SkyTables, every_hard_case_is_finite_and_not_negative) {
     for (const HardAir& hard : hard_airs()) {
         const ScatterTable scatter = test::scatter_table(hard.air, 1);
-        for (const float height : kHeights) {
-            for (const float sun : kSuns) {
+        for (const float height : test::kHardHeights) {
+            for (const float sun : test::kHardSuns) {
                 for (const vec3& texel : test::view_table(scatter, sky_of(hard.air, height, sun))) {
                     for (int c = 0; c < 3; ++c) {
                         ASSERT_TRUE(std::isfinite(texel[c])) << hard.name << ' ' << height << ' ' << sun;

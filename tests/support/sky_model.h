@@ -10,7 +10,7 @@
 
 namespace voxilux::gpu {
 
-inline uint load_scatter(const std::vector<std::uint32_t>& scatter, uint i) {
+inline uvec4 load_scatter(const std::vector<uvec4>& scatter, uint i) {
     return scatter[i];
 }
 inline float load_share(const std::vector<float>& shares, uint i) {
@@ -22,7 +22,7 @@ inline vec3 load_view(const std::vector<vec3>& view, uint i) {
 
 }  // namespace voxilux::gpu
 
-#define VX_SKY_PARAM const std::vector<std::uint32_t>&scatter,
+#define VX_SKY_PARAM const std::vector<::voxilux::gpu::uvec4>&scatter,
 #define VX_SKY_ARG scatter,
 #define VX_VIEW_PARAM const std::vector<::voxilux::gpu::vec3>&view,
 #define VX_VIEW_ARG view,
@@ -40,19 +40,19 @@ inline vec3 load_view(const std::vector<vec3>& view, uint i) {
 
 namespace voxilux::test {
 
-using ScatterTable = std::vector<std::uint32_t>;
+using ScatterTable = std::vector<glm::uvec4>;
 
 // Rounds after the first.
 inline ScatterTable scatter_table(const gpu::Air& air, gpu::uint rounds = gpu::kScatterRounds) {
-    ScatterTable read(gpu::kScatterWords, 0);
-    ScatterTable write(gpu::kScatterWords);
+    ScatterTable read(gpu::kScatterPairs, glm::uvec4(0));
+    ScatterTable write(gpu::kScatterPairs);
     for (gpu::uint round = 0; round <= rounds; ++round) {
         for (gpu::uint i = 0; i < gpu::kScatterTexels; ++i) {
             const gpu::SkyHarmonics texel =
                 gpu::scatter_texel(read, air, gpu::scatter_height(i / gpu::kScatterCosines),
                                    gpu::scatter_cosine(i % gpu::kScatterCosines), round == 0);
-            for (gpu::uint word = 0; word < gpu::kTexelWords; ++word)
-                write[gpu::kTexelWords * i + word] = gpu::scatter_word(texel, word);
+            for (gpu::uint pair = 0; pair < gpu::kTexelPairs; ++pair)
+                write[gpu::kTexelPairs * i + pair] = gpu::scatter_pair(texel, pair);
         }
         std::swap(read, write);
     }

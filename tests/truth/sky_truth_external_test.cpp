@@ -9,11 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/file.h"
-#include "scene/atmosphere.h"
 #include "shared/sampling.h"
-#include "support/shared_data.h"
 #include "support/sky_model.h"
+#include "truth/sky_oracle.h"
 
 namespace voxilux {
 namespace {
@@ -22,32 +20,8 @@ using glm::dvec3;
 using glm::vec3;
 using nlohmann::json;
 
-const json& oracle() {
-    static const json data = [] {
-        const std::vector<std::byte> bytes =
-            read_file(shared_data() / "oracle" / "sky_expected.json", std::size_t{1} << 24);
-        return json::parse(reinterpret_cast<const char*>(bytes.data()),
-                           reinterpret_cast<const char*>(bytes.data()) + bytes.size());
-    }();
-    return data;
-}
-
-dvec3 colour(const json& list) {
-    return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
-}
-
-gpu::SkyParams sky_at(double altitude_km, double sun_deg) {
-    Scene scene;
-    scene.sky.model = SkyModel::atmosphere;
-    scene.sky.altitude_m = static_cast<float>(altitude_km * 1000.0);
-    scene.sun.azimuth_deg = 0.0f;
-    scene.sun.elevation_deg = static_cast<float>(sun_deg);
-    scene.sun.irradiance = vec3(1.0f);
-    return sky_params(scene);
-}
-
 const test::ScatterTable& scatter() {
-    static const test::ScatterTable table = test::scatter_table(sky_at(0.0, 0.0).air);
+    static const test::ScatterTable table = test::scatter_table(test::sky_at(0.0, 0.0).air);
     return table;
 }
 
@@ -80,9 +54,9 @@ const std::map<double, Limits> kLimits{
 
 TEST(SkyTruthExternal, transmittance_is_within_a_thousandth) {
     SKIP_WITHOUT_SHARED_DATA();
-    const gpu::Air air = sky_at(0.0, 0.0).air;
+    const gpu::Air air = test::sky_at(0.0, 0.0).air;
     int compared = 0;
-    for (const json& row : oracle().at("transmittance")) {
+    for (const json& row : test::sky_oracle().at("transmittance")) {
         const auto h = row.at("altitude_km").get<float>();
         const double zenith = row.at("zenith_deg").get<double>() * 3.14159265358979323846 / 180.0;
         const auto cosine = static_cast<float>(std::cos(zenith));
@@ -93,7 +67,7 @@ TEST(SkyTruthExternal, transmittance_is_within_a_thousandth) {
                       gpu::columns_up(h, -cosine);
         }
         const vec3 passes = gpu::air_transmittance(air, columns);
-        const dvec3 expected = colour(row.at("transmittance"));
+        const dvec3 expected = test::colour_of(row.at("transmittance"));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(double{passes[c]}, expected[c], 1e-3 * expected[c]) << row.dump();
         ++compared;
@@ -102,9 +76,9 @@ TEST(SkyTruthExternal, transmittance_is_within_a_thousandth) {
 }
 
 void for_each_view(auto&& visit) {
-    for (const json& row : oracle().at("cases")) {
+    for (const json& row : test::sky_oracle().at("cases")) {
         const double sun = row.at("sun_elevation_deg").get<double>();
-        const gpu::SkyParams sky = sky_at(row.at("altitude_km").get<double>(), sun);
+        const gpu::SkyParams sky = test::sky_at(row.at("altitude_km").get<double>(), sun);
         for (const json& view : row.at("views"))
             visit(sky, sun, view);
     }
@@ -120,7 +94,7 @@ TEST(SkyTruthExternal, first_order_is_within_a_hundredth_in_every_direction) {
         const gpu::AirRay ray = ray_of(sky, view);
         const vec3 once =
             test::first_order(sky, ray, gpu::march_air(scatter(), sky.air, ray, gpu::kFinePanels, false));
-        const dvec3 expected = colour(view.at("order1"));
+        const dvec3 expected = test::colour_of(view.at("order1"));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(double{once[c]}, expected[c], 0.01 * expected[c]) << view.dump();
     });
@@ -129,16 +103,16 @@ TEST(SkyTruthExternal, first_order_is_within_a_hundredth_in_every_direction) {
 // Errors of the tables of `rounds` as the renderer looks them up, by the sun's elevation.
 std::map<double, dvec3> errors_of_all_orders(const test::ScatterTable& scattered, gpu::uint resolution) {
     std::map<double, RelativeErrors> errors;
-    for (const json& row : oracle().at("cases")) {
+    for (const json& row : test::sky_oracle().at("cases")) {
         const double sun = row.at("sun_elevation_deg").get<double>();
-        gpu::SkyParams sky = sky_at(row.at("altitude_km").get<double>(), sun);
+        gpu::SkyParams sky = test::sky_at(row.at("altitude_km").get<double>(), sun);
         sky.resolution = resolution;
         const std::vector<vec3> table = test::view_table(scattered, sky);
         for (const json& view : row.at("views")) {
             if (view.at("hits_ground").get<bool>()) continue;
             errors[sun].add(test::looked_up(table, sky, view.at("elevation_deg").get<double>(),
                                             view.at("azimuth_deg").get<double>()),
-                            colour(view.at("all")));
+                            test::colour_of(view.at("all")));
         }
     }
     std::map<double, dvec3> percent;
@@ -169,14 +143,14 @@ TEST(SkyTruthExternal, all_orders_are_better_than_the_converged_approximation_an
 // The geometric series alone, and aerosol that absorbs as a misprint in the literature says.
 TEST(SkyTruthExternal, poorer_models_are_caught) {
     SKIP_WITHOUT_SHARED_DATA();
-    gpu::Air misprinted = sky_at(0.0, 0.0).air;
+    gpu::Air misprinted = test::sky_at(0.0, 0.0).air;
     EXPECT_GT(over_limits(errors_of_all_orders(test::scatter_table(misprinted, 0), 64)), 0);
     misprinted.mie_extinction = 3.996e-3f + 4.4e-3f;
     const auto is_off = [&](const gpu::SkyParams& sky, double, const json& view) {
         const gpu::AirRay ray = ray_of(sky, view);
         const vec3 once =
             test::first_order(sky, ray, gpu::march_air(scatter(), misprinted, ray, gpu::kFinePanels, false));
-        return std::abs(double{once.x} / colour(view.at("order1")).x - 1.0) > 0.01 ? 1 : 0;
+        return std::abs(double{once.x} / test::colour_of(view.at("order1")).x - 1.0) > 0.01 ? 1 : 0;
     };
     int off = 0;
     for_each_view(
@@ -197,13 +171,13 @@ dvec3 diffuse_irradiance_of(const gpu::SkyParams& sky) {
 
 TEST(SkyTruthExternal, ground_irradiance_is_within_2_percent) {
     SKIP_WITHOUT_SHARED_DATA();
-    for (const json& row : oracle().at("ground_irradiance")) {
+    for (const json& row : test::sky_oracle().at("ground_irradiance")) {
         const double sun = row.at("sun_elevation_deg").get<double>();
-        const gpu::SkyParams sky = sky_at(0.0, sun);
-        const dvec3 diffuse = diffuse_irradiance_of(sky), expected = colour(row.at("diffuse"));
+        const gpu::SkyParams sky = test::sky_at(0.0, sun);
+        const dvec3 diffuse = diffuse_irradiance_of(sky), expected = test::colour_of(row.at("diffuse"));
         const vec3 direct =
             gpu::transmittance_out(sky.air, 0.0f, sky.sun_direction.z) * std::max(sky.sun_direction.z, 0.0f);
-        const dvec3 expected_direct = colour(row.at("direct"));
+        const dvec3 expected_direct = test::colour_of(row.at("direct"));
         // In deep dusk the table is coarse compared with how fast the light falls with the sun.
         const double tolerance = sun < -4.0 ? 0.05 : 0.02;
         for (int c = 0; c < 3; ++c) {

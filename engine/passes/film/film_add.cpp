@@ -32,6 +32,7 @@ gpu::FilmAddPush pixels_of(const RenderPlan& plan, const DispatchTile& tile) {
 std::vector<Constant> shading_constants(const RenderPlan& plan, const FilmInputs& inputs) {
     return {{"hits_stride", inputs.seen.hits.stride},
             {"weights_stride", inputs.seen.weights.stride},
+            {"aerial_stride", inputs.air.stride},
             {"ao_stride", inputs.ao.stride},
             {"sky_stride", inputs.sky.stride},
             {"paths_find_sky", plan.paths.runs() ? 1u : 0u},
@@ -68,6 +69,7 @@ Dispatch shading_dispatch(const RenderPlan& plan, const DispatchTile& tile, cons
                          {"FirstHits", inputs.first_hits.buffer},
                          {"Hits", inputs.seen.hits.buffer},
                          {"Weights", inputs.seen.weights.buffer},
+                         {"AerialLight", inputs.air.buffer},
                          {"Ao", inputs.ao.buffer},
                          {"SkyLight", inputs.sky.buffer},
                          {"Sun", inputs.sun.buffer},

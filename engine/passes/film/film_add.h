@@ -12,6 +12,7 @@ struct FilmInputs {
     SpecularPlanes seen;
     Plane ao;
     Plane sky;  // of an atmosphere, else a constant: radiance of misses, irradiance / pi at hits
+    Plane air;  // light that the air before the first hits adds
     Plane sun;
     Plane direct;          // irradiance / pi, of emitters
     PhotonPlanes photons;  // irradiance, of photons

@@ -52,6 +52,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
     dispatch.constants.insert(
         dispatch.constants.end(),
         {{"has_atmosphere", plan.has_atmosphere() ? 1u : 0u},
+         {"traces_air", plan.traces_air() ? 1u : 0u},
          {"has_sun", plan.has(Effect::sun) ? 1u : 0u},
          {"has_emitters", has_emitters ? 1u : 0u},
          {"has_specular", plan.has(Effect::specular) ? 1u : 0u},

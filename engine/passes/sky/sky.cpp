@@ -1,5 +1,8 @@
 #include "passes/sky/sky.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "scene/atmosphere.h"
 #include "shared/sampling.h"
 #include "shared/sky_bins.h"
@@ -7,24 +10,28 @@
 namespace voxilux {
 namespace {
 
-std::string params_buffer(Recording& recording) {
-    return declare<gpu::SkyParams>(recording, "sky.params", 1, Lifetime::persistent);
+// Whether anything looks the sky up. Paths through the air that paths between surfaces end in do not.
+bool needs_tables(const RenderPlan& plan) {
+    return !plan.traces_air() || !plan.paths.runs();
 }
 
 std::string view_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!needs_tables(plan)) return placeholder_buffer(recording);
     return declare<gpu::vec3>(recording, "sky.view",
                               std::uint64_t{gpu::kViewColours} * gpu::view_texels(plan.sky_resolution),
                               Lifetime::persistent);
 }
 
-std::string faces_buffer(Recording& recording) {
+std::string faces_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!needs_tables(plan)) return placeholder_buffer(recording);
     return declare<gpu::vec3>(recording, "sky.faces", gpu::kFaceCount, Lifetime::persistent);
 }
 
-// Rounds read one buffer and write the other. Returns the name of the last one written.
-std::string record_sky_scatter(const gpu::Air& air, Recording& recording) {
-    std::string read = declare<gpu::uint>(recording, "sky.scatter", gpu::kScatterWords);
-    std::string write = declare<gpu::uint>(recording, "sky.next_scatter", gpu::kScatterWords);
+// Rounds read one buffer and write the other.
+void record_sky_scatter(const RenderPlan& plan, const gpu::Air& air, Recording& recording) {
+    static_assert(gpu::kScatterRounds % 2 == 0);  // so that the last one writes "sky.scatter"
+    std::string read = declare<gpu::uvec4>(recording, "sky.next_scatter", gpu::kScatterPairs);
+    std::string write = scatter_buffer(plan, recording);
     recording.clear(read);
     for (gpu::uint round = 0; round <= gpu::kScatterRounds; ++round) {
         recording.dispatch({.label = "sky.scatter",
@@ -34,7 +41,6 @@ std::string record_sky_scatter(const gpu::Air& air, Recording& recording) {
                             .push = to_bytes(gpu::SkyScatterPush{air, round == 0 ? 1u : 0u})});
         std::swap(read, write);
     }
-    return read;
 }
 
 std::string shares_buffer(Recording& recording) {
@@ -49,7 +55,7 @@ void record_sky_shares(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "sky.bins",
                         .shader = "sky_bins",
                         .extent = {gpu::kSkyBins * gpu::kSkyBins, 1, 1},
-                        .bindings = {{"Sky", params_buffer(recording)},
+                        .bindings = {{"Sky", sky_params_buffer(recording)},
                                      {"SkyView", view_buffer(plan, recording)},
                                      {"SkyBins", bins}}});
     recording.dispatch({.label = "sky.columns",
@@ -67,33 +73,47 @@ void record_sky_faces(const RenderPlan& plan, Recording& recording) {
     recording.dispatch({.label = "sky.faces",
                         .shader = "sky_faces",
                         .extent = {gpu::kFaceCount, 1, 1},
-                        .bindings = {{"Sky", params_buffer(recording)},
+                        .bindings = {{"Sky", sky_params_buffer(recording)},
                                      {"SkyView", view_buffer(plan, recording)},
-                                     {"SkyFaces", faces_buffer(recording)}}});
+                                     {"SkyFaces", faces_buffer(plan, recording)}}});
 }
 
-Constant direction_constant(const RenderPlan& plan) {
-    return {"misses_have_direction", plan.has(Effect::specular) ? 1u : 0u};
+// Of the passes that see the sky.
+std::vector<Constant> seen_constants(const RenderPlan& plan) {
+    return {{"misses_have_direction", plan.has(Effect::specular) ? 1u : 0u},
+            {"traces_air", plan.traces_air() ? 1u : 0u}};
 }
 
 }  // namespace
 
+std::string sky_params_buffer(Recording& recording) {
+    return declare<gpu::SkyParams>(recording, "sky.params", 1, Lifetime::persistent);
+}
+
+std::string scatter_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!needs_tables(plan)) return placeholder_buffer(recording);
+    const Lifetime lifetime = plan.has_aerial() ? Lifetime::persistent : Lifetime::transient;
+    return declare<gpu::uvec4>(recording, "sky.scatter", gpu::kScatterPairs, lifetime);
+}
+
 std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording) {
     if (!plan.has_atmosphere())
         return {{"Sky", constant_sky_buffer(recording)}, {"SkyView", placeholder_buffer(recording)}};
-    return {{"Sky", params_buffer(recording)}, {"SkyView", view_buffer(plan, recording)}};
+    return {{"Sky", sky_params_buffer(recording)}, {"SkyView", view_buffer(plan, recording)}};
 }
 
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording) {
     if (!plan.has_atmosphere()) return;
     gpu::SkyParams sky = sky_params(scene);
     sky.resolution = plan.sky_resolution;
-    recording.upload(params_buffer(recording), to_bytes(sky));
-    const std::string scatter = record_sky_scatter(sky.air, recording);
+    recording.upload(sky_params_buffer(recording), to_bytes(sky));
+    if (!needs_tables(plan)) return;
+    record_sky_scatter(plan, sky.air, recording);
     recording.dispatch({.label = "sky.view",
                         .shader = "sky_view",
                         .extent = {gpu::view_texels(plan.sky_resolution), 1, 1},
-                        .bindings = {{"Scatter", scatter}, {"SkyView", view_buffer(plan, recording)}},
+                        .bindings = {{"Scatter", scatter_buffer(plan, recording)},
+                                     {"SkyView", view_buffer(plan, recording)}},
                         .push = to_bytes(sky)});
     if (traces_sky(plan)) {
         record_sky_shares(plan, recording);
@@ -118,7 +138,7 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"SphereTree", sphere_tree_buffer(plan, recording)},
-                                   {"Sky", params_buffer(recording)},
+                                   {"Sky", sky_params_buffer(recording)},
                                    {"SkyView", view_buffer(plan, recording)},
                                    {"SkyShares", shares_buffer(recording)},
                                    {"Hits", hits.buffer},
@@ -127,7 +147,7 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                       .constants = surface_constants(plan)};
     dispatch.constants.push_back({"hits_stride", hits.stride});
     dispatch.constants.push_back({"ao_rays", plan.settings.ao_rays});
-    dispatch.constants.push_back(direction_constant(plan));
+    std::ranges::copy(seen_constants(plan), std::back_inserter(dispatch.constants));
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return planes;
@@ -136,23 +156,25 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
 Plane record_sky_resolve(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits, const Plane& ao,
                          Recording& recording) {
     const Plane light{declare_plane<gpu::vec3>(plan, "sky.light", recording)};
+    std::vector<Constant> constants{sequence_constant(plan),
+                                    projection_constant(plan),
+                                    {"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
+                                    {"hits_stride", hits.stride},
+                                    {"ao_stride", ao.stride},
+                                    {"paths_find_sky", plan.paths.runs() ? 1u : 0u}};
+    std::ranges::copy(seen_constants(plan), std::back_inserter(constants));
     recording.dispatch({.label = "sky.resolve",
                         .shader = "sky_resolve",
                         .extent = pixel_extent(plan, tile),
                         .bindings = {{"Frame", frame_buffer(recording)},
                                      {"Spheres", spheres_buffer(plan, recording)},
-                                     {"Sky", params_buffer(recording)},
+                                     {"Sky", sky_params_buffer(recording)},
                                      {"SkyView", view_buffer(plan, recording)},
-                                     {"SkyFaces", faces_buffer(recording)},
+                                     {"SkyFaces", faces_buffer(plan, recording)},
                                      {"Hits", hits.buffer},
                                      {"Ao", ao.buffer},
                                      {"SkyLight", light.buffer}},
-                        .constants = {sequence_constant(plan),
-                                      projection_constant(plan),
-                                      {"sphere_count", plan.has(Effect::spheres) ? plan.sphere_count : 0u},
-                                      {"hits_stride", hits.stride},
-                                      {"ao_stride", ao.stride},
-                                      direction_constant(plan)}});
+                        .constants = std::move(constants)});
     return light;
 }
 

@@ -9,6 +9,10 @@ namespace voxilux {
 // placeholders where there is no atmosphere.
 [[nodiscard]] std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording);
 
+// The parameters of an atmosphere, and the table of the light that arrives anywhere in its air.
+[[nodiscard]] std::string sky_params_buffer(Recording& recording);
+[[nodiscard]] std::string scatter_buffer(const RenderPlan& plan, Recording& recording);
+
 // Builds, once for all frames under this sun, what an atmosphere looks like from the scene: its parameters,
 // the table of its radiance, and the distributions from which rays towards it are drawn or, where no such
 // rays are traced, the irradiance of the six faces. Records nothing where the plan has no atmosphere.

@@ -23,6 +23,13 @@ SceneFacts without(bool SceneFacts::*need) {
     return facts;
 }
 
+SceneFacts in_air(float haze) {
+    SceneFacts facts = rich();
+    facts.has_atmosphere = true;
+    facts.haze = haze;
+    return facts;
+}
+
 SceneFacts without_surfaces() {
     SceneFacts facts = without(&SceneFacts::has_voxels);
     facts.has_spheres = false;
@@ -82,6 +89,11 @@ TEST(Effects, every_row_gives_its_reason) {
         {"sun nothing", state(Effect::sun, without_surfaces()), false, "there is nothing to light"},
         {"sky needed", state(Effect::sky, rich()), true, "constant sky radiance"},
         {"sky", state(Effect::sky, without(&SceneFacts::has_sky)), false, "the sky is black"},
+        {"aerial needed", state(Effect::aerial, in_air(0.001f)), true,
+         "the air before the farthest surface takes 0.1 % of its light"},
+        {"aerial thin", state(Effect::aerial, in_air(0.0009f)), false,
+         "the air before the farthest surface takes 0.09 % of its light, which nobody sees"},
+        {"aerial", state(Effect::aerial, rich()), false, "the sky is no atmosphere"},
         {"emission needed", state(Effect::emission, rich()), true, "emissive materials are seen directly"},
         {"emission", state(Effect::emission, without(&SceneFacts::has_emitters)), false,
          "no used material emits"},
@@ -177,6 +189,13 @@ TEST(Effects, photons_need_emitters_or_sun_that_are_on) {
     EXPECT_TRUE(get(dull, Effect::indirect).on);
 }
 
+TEST(Effects, air_is_not_seen_where_the_sky_is_switched_off) {
+    const EffectRequest request{.switches = {{Effect::sky, Switch::off}}};
+    const EffectState air = decide_effects(in_air(0.5f), request)[static_cast<std::size_t>(Effect::aerial)];
+    EXPECT_FALSE(air.on);
+    EXPECT_TRUE(air.by_choice);
+}
+
 TEST(Effects, impossible_effect_cannot_be_switched_on) {
     const SceneFacts nothing;
     for (std::size_t i = 0; i < kEffectCount; ++i) {
@@ -200,7 +219,7 @@ TEST(Effects, unknown_effect_is_a_usage_error_that_names_the_known_ones) {
         EXPECT_STREQ(error.what(),
                      "--effect: there is no effect 'shadows'; known are lens, voxels, spheres, specular, ao, "
                      "sun, sky, "
-                     "emission, direct, caustics, indirect, aov");
+                     "aerial, emission, direct, caustics, indirect, aov");
     }
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "engine/plan/plan_scenes.h"
@@ -39,6 +40,32 @@ TEST(ForcedEffect, occlusion_under_a_black_sky_changes_no_bit) {
     EXPECT_EQ(differing_values(render(scene, test::exr_request()), render(scene, forced)), 0);
 }
 
+// Of the light of the image. Too little for the plan to switch it on.
+double share_of_air(const Scene& scene) {
+    const Image with = render(scene, test::with_switch(PlanRequest{}, Effect::aerial, Switch::on));
+    const Image without = render(scene, test::with_switch(PlanRequest{}, Effect::aerial, Switch::off));
+    double change = 0.0, light = 0.0;
+    for (const char* channel : {"R", "G", "B"}) {
+        const std::vector<float>& x = with.channels.at(channel).pixels;
+        const std::vector<float>& y = without.channels.at(channel).pixels;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            change += std::abs(double{x[i]} - double{y[i]});
+            light += double{y[i]};
+        }
+    }
+    return change / light;
+}
+
+TEST(ForcedEffect, air_that_the_plan_leaves_out_changes_less_than_a_thousandth) {
+    for (const char* name : {"noon", "dusk", "blue_hour"}) {
+        const Scene scene = small_scene(name);
+        ASSERT_FALSE(test::plan_of(scene, PlanRequest{}).has(Effect::aerial)) << name;
+        EXPECT_LT(share_of_air(scene), 1e-3) << name;
+        EXPECT_GT(share_of_air(scene), 0.0) << name;
+    }
+    EXPECT_GT(share_of_air(small_scene("far_hills")), 0.05);
+}
+
 TEST(ForcedEffect, extra_channels_change_no_bit_of_the_colour) {
     const Scene scene = small_scene("mixed");
     const PlanRequest forced = test::with_switch(PlanRequest{}, Effect::aov, Switch::on);
@@ -56,7 +83,7 @@ TEST(ForcedEffect, unneeded_effect_is_impossible_or_tested_here) {
         for (std::size_t i = 0; i < kEffectCount; ++i) {
             const auto effect = static_cast<Effect>(i);
             if (plan.has(effect) || effect == Effect::ao || effect == Effect::aov ||
-                effect == Effect::indirect)
+                effect == Effect::indirect || effect == Effect::aerial)
                 continue;
             EXPECT_EQ(test::plan_of(scene, test::with_switch(PlanRequest{}, effect, Switch::on)), plan)
                 << name << ": " << name_of(effect);
@@ -88,6 +115,7 @@ INSTANTIATE_TEST_SUITE_P(effects, NeededEffect,
                          testing::Values(Needed{"overcast", Effect::voxels},
                                          Needed{"spheres", Effect::spheres}, Needed{"slit", Effect::ao},
                                          Needed{"black_sky", Effect::sun}, Needed{"overcast", Effect::sky},
+                                         Needed{"far_hills", Effect::aerial},
                                          Needed{"emitters", Effect::emission}));
 
 }  // namespace

@@ -96,6 +96,7 @@ const std::vector<Traces>& traces_of_effects() {
         {Effect::specular, {"specular.", "specular_"}},
         {Effect::ao, {"ao.", "ao_", "film.ao."}},
         {Effect::sun, {"sun.", "sun_", "film.sun."}},
+        {Effect::aerial, {"aerial.", "aerial_"}},
         {Effect::direct, {"direct.", "direct_"}},
         {Effect::aov, {"aov.", "aov_", "film.albedo.", "film.normal.", "film.position.", "film.depth."}},
     };

@@ -20,6 +20,8 @@ namespace {
 // A scene with both techniques of photons and occlusion of voxels; overrides as -D gives them.
 RenderPlan plan_with(std::vector<std::string> overrides, const PlanRequest& request = test::exr_request()) {
     overrides.emplace_back("render.spp=4");
+    const auto is_sky = [](const std::string& one) { return one.starts_with("technique.sky="); };
+    if (std::ranges::any_of(overrides, is_sky)) overrides.emplace_back("sky.model=atmosphere");
     return test::plan_of(test::repository_scene("emitters", overrides), request);
 }
 
