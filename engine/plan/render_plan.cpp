@@ -145,6 +145,25 @@ void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
 }
 
+// What the passes have to know of the scene.
+void take_scene(RenderPlan& plan, const Scene& scene, const SceneFacts& facts, const WorldFacts& world,
+                const DeviceLimits& limits) {
+    plan.world = world;
+    plan.has_world_texels =
+        loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
+    plan.material_count = checked_cast<std::uint32_t>(
+        std::max<std::size_t>(scene.materials.size() + scene.ground.count(), 1), "materials");
+    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size() + scene.ground.count(), "spheres");
+    plan.has_ground = scene.ground.on;
+    plan.sums_coverage = scene.background.shown != Backdrop::sky;
+    plan.catches_shadows = plan.has_ground && scene.ground.shadow_only;
+    check_shadows(plan, scene);
+    plan.glass_spheres = glass_sphere_count(scene);
+    plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
+    plan.has_specular_spheres = facts.has_specular_spheres;
+    if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
+}
+
 }  // namespace
 
 WorldFacts measure_world(const MarchWorld& march_world) {
@@ -195,20 +214,7 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
     EffectRequest wanted = with_techniques(request.effects, plan.settings);
     wanted.is_perspective = plan.projection == Projection::perspective;
     plan.effects = decide_effects(facts, wanted);
-    plan.world = world;
-    plan.has_world_texels =
-        loads_texels(limits, std::max({world.root_bytes, world.node_bytes, world.leaf_bytes}));
-    plan.material_count = checked_cast<std::uint32_t>(
-        std::max<std::size_t>(scene.materials.size() + scene.ground.count(), 1), "materials");
-    plan.sphere_count = checked_cast<std::uint32_t>(scene.spheres.size() + scene.ground.count(), "spheres");
-    plan.has_ground = scene.ground.on;
-    plan.sums_coverage = scene.background.shown != Backdrop::sky;
-    plan.catches_shadows = plan.has_ground && scene.ground.shadow_only;
-    check_shadows(plan, scene);
-    plan.glass_spheres = glass_sphere_count(scene);
-    plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
-    plan.has_specular_spheres = facts.has_specular_spheres;
-    if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
+    take_scene(plan, scene, facts, world, limits);
     plan.ao = plan_ao(plan.settings, {.has_voxels = plan.has(Effect::voxels),
                                       .world_size = world.size,
                                       .pixels = pixels_of(plan.settings),
