@@ -88,6 +88,13 @@ Scene per_pixel_radii() {
     return scene;
 }
 
+// Photons that start towards the glass.
+Scene caustics_alone() {
+    Scene scene = lit_room();
+    scene.settings.photons.indirect = false;
+    return scene;
+}
+
 Scene spheres() {
     Scene scene = yard();
     scene.models.clear();
@@ -184,9 +191,9 @@ TEST_P(RendererSteps, last_edit_ends_as_a_fresh_render) {
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, RendererSteps,
-                         testing::Values(Case{"yard", &yard}, Case{"cells", &yard_of_cells},
-                                         Case{"photons", &lit_room}, Case{"radii", &per_pixel_radii},
-                                         Case{"spheres", &spheres}),
+                         testing::Values(Case{"caustics_alone", &caustics_alone}, Case{"yard", &yard},
+                                         Case{"cells", &yard_of_cells}, Case{"photons", &lit_room},
+                                         Case{"radii", &per_pixel_radii}, Case{"spheres", &spheres}),
                          [](const auto& test) { return test.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(scenes, RendererLens,

@@ -5,137 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "shared/light.h"
 #include "shared/photon_aim.h"
+#include "support/draws.h"
 #include "support/light_scenes.h"
 #include "world/lights.h"
 
 namespace voxilux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-class Draws {
-  public:
-    double operator()() { return uniform_(engine_); }
-    double between(double low, double high) { return low + (high - low) * (*this)(); }
-    glm::dvec3 in(const glm::dvec3& low, const glm::dvec3& high) {
-        const double x = (*this)(), y = (*this)(), z = (*this)();
-        return low + (high - low) * glm::dvec3(x, y, z);
-    }
-    glm::dvec3 direction() {
-        const double z = between(-1.0, 1.0), turn = between(0.0, 2.0 * kPi);
-        const double across = std::sqrt(1.0 - z * z);
-        return {across * std::cos(turn), across * std::sin(turn), z};
-    }
-    glm::dvec3 in(const RoundedBox& box) {
-        return in(box.low, box.high) + box.radius * std::cbrt((*this)()) * direction();
-    }
-
-  private:
-    std::mt19937_64 engine_{7};
-    std::uniform_real_distribution<double> uniform_{0.0, 1.0};
-};
-
-RoundedBox random_box(Draws& draw, double spread) {
-    const glm::dvec3 low = draw.in(glm::dvec3(-spread), glm::dvec3(spread));
-    return {low, low + draw.in(glm::dvec3(0.0), glm::dvec3(3.0)), draw.between(0.0, 1.0)};
-}
-
-double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
-TEST(BoxClusters, are_few_and_hold_everything_in_any_order) {
-    Draws draw;
-    std::vector<std::pair<glm::ivec3, RoundedBox>> things;
-    for (int i = 0; i < 2000; ++i) {
-        const RoundedBox box = random_box(draw, 100.0);
-        things.push_back({glm::ivec3(glm::floor(box.low)), box});
-    }
-    BoxClusters forth(64), back(64);
-    for (const auto& [place, box] : things)
-        forth.add(2, place, box);
-    std::ranges::reverse(things);
-    for (const auto& [place, box] : things)
-        back.add(2, place, box);
-    const std::vector<BoxClusters::Cluster> clusters = forth.clusters();
-    EXPECT_LE(clusters.size(), 64u);
-    EXPECT_GT(clusters.size(), 8u);
-    ASSERT_EQ(back.clusters().size(), clusters.size());
-    for (std::size_t i = 0; i < clusters.size(); ++i)
-        EXPECT_EQ(back.clusters()[i].box, clusters[i].box);
-    for (const auto& [place, box] : things) {
-        const RoundedBox& around = clusters.at(forth.number_of(2, place)).box;
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(around.low, box.low)));
-        EXPECT_TRUE(glm::all(glm::greaterThanEqual(around.high, box.high)));
-        EXPECT_GE(around.radius, box.radius);
-    }
-}
-
-// Directions from points of one box to points of another that leave a cone narrowed to this share of its
-// angle.
-int directions_outside(double share) {
-    Draws draw;
-    int outside = 0;
-    for (int i = 0; i < 2000; ++i) {
-        const RoundedBox seen = random_box(draw, 8.0), from = random_box(draw, 8.0);
-        const AimCone cone = cone_towards(seen, from);
-        for (int j = 0; j < 50; ++j) {
-            const glm::dvec3 way = draw.in(seen)-draw.in(from);
-            outside += angle_between(cone.axis, way) > share * cone.half_angle ? 1 : 0;
-        }
-    }
-    return outside;
-}
-
-TEST(AimCone, holds_all_directions_from_box_to_box) {
-    EXPECT_EQ(directions_outside(1.0), 0);
-    EXPECT_GT(directions_outside(0.8), 0) << "the negative control: a narrower cone";
-}
-
-TEST(AimCone, is_that_of_a_ball_seen_from_a_point) {
-    const AimCone cone = cone_towards({glm::dvec3(3.0, 0.0, 4.0), glm::dvec3(3.0, 0.0, 4.0), 2.5}, {});
-    EXPECT_NEAR(cone.half_angle, kPi / 6.0, 2e-5);
-    EXPECT_NEAR(glm::distance(cone.axis, glm::dvec3(0.6, 0.0, 0.8)), 0.0, 1e-12);
-}
-
-TEST(AimCone, is_everything_where_a_box_touches_the_other) {
-    const RoundedBox glass{glm::dvec3(0.0), glm::dvec3(4.0, 4.0, 1.0)};
-    const RoundedBox face{glm::dvec3(1.0, 1.0, 1.0), glm::dvec3(2.0, 2.0, 1.0)};
-    EXPECT_EQ(cone_towards(glass, face).half_angle, kPi);
-    EXPECT_EQ(cone_towards(face, face).half_angle, kPi);
-}
-
-// The turn that a cone covers in a band of heights, by brute force over the cone.
-double measured_half_turn(const AimCone& cone, double low, double high, Draws& draw) {
-    double widest = 0.0;
-    const double middle = std::atan2(cone.axis.y, cone.axis.x);
-    for (int i = 0; i < 20000; ++i) {
-        const double z = draw.between(low, high), turn = draw.between(-kPi, kPi);
-        const double across = std::sqrt(1.0 - z * z);
-        const glm::dvec3 direction(across * std::cos(middle + turn), across * std::sin(middle + turn), z);
-        if (angle_between(cone.axis, direction) <= cone.half_angle) widest = std::max(widest, std::abs(turn));
-    }
-    return widest;
-}
-
-TEST(AimCone, half_turn_of_a_band_is_that_of_brute_force) {
-    Draws draw;
-    double farthest = 0.0;
-    for (int i = 0; i < 60; ++i) {
-        const AimCone cone{draw.direction(), draw.between(0.02, 1.55)};
-        const double low = draw.between(-1.0, 0.9), high = low + 0.1;
-        const double expected = measured_half_turn(cone, low, high, draw), found = half_turn(cone, low, high);
-        EXPECT_GE(found, expected) << i;
-        // Samples come close to the extremes, not to them: at the tip of a cone only a few of them do.
-        if (expected > 0.0) farthest = std::max(farthest, found - expected);
-    }
-    EXPECT_LT(farthest, 0.35);
-    EXPECT_GT(half_turn({{1.0, 0.0, 0.0}, 0.5}, -0.1, 0.1), 0.4999);
-}
+using test::Draws;
 
 // A floor with a glass ball, a mirror of voxels, and two emitters: a face of a voxel and a ball.
 Scene lit_scene() {
@@ -212,7 +92,7 @@ bool meets_specular(const Scene& scene, const glm::dvec3& from, const glm::dvec3
 }
 
 double turn_of(double x, double y) {
-    const double turn = std::atan2(y, x) / (2.0 * kPi);
+    const double turn = std::atan2(y, x) / (2.0 * std::numbers::pi);
     return turn < 0.0 ? turn + 1.0 : turn;
 }
 
@@ -254,7 +134,7 @@ TEST(PhotonAims, no_place_on_the_disc_misses_what_is_specular) {
     scene.sun = {.azimuth_deg = 30.0f, .elevation_deg = 40.0f, .angular_diameter_deg = 20.0f};
     const Aimed aimed = aim(scene);
     const gpu::vec3 sun = scene.sun.direction();
-    const float height = gpu::cone_height(static_cast<float>(kPi / 18.0));
+    const float height = gpu::cone_height(static_cast<float>(std::numbers::pi / 18.0));
     Draws draw;
     std::vector<glm::dvec2> points;
     for (int i = 0; i < 50000; ++i) {
@@ -268,7 +148,7 @@ TEST(PhotonAims, no_place_on_the_disc_misses_what_is_specular) {
         points.emplace_back(glm::dot(place, across), glm::dot(place, along));
     }
     expect_complete(points, aimed.aims, aimed.aims.maps[0]);
-    EXPECT_LT(aimed.aims.sun_area, kPi * std::pow(aimed.lights.sun_disc.radius, 2.0));
+    EXPECT_LT(aimed.aims.sun_area, std::numbers::pi * std::pow(aimed.lights.sun_disc.radius, 2.0));
 }
 
 TEST(PhotonAims, points_fill_all_marked_cells_evenly) {
@@ -304,7 +184,8 @@ TEST(PhotonAims, emitters_carry_what_their_maps_let_through) {
     double power = 0.0, drawn = 0.0;
     for (std::size_t i = 0; i < aimed.lights.records.size(); ++i) {
         const bool is_ball = gpu::light_parts(aimed.lights.records[i].what).kind == gpu::kLightSphere;
-        const double whole = is_ball ? 6.0 * 4.0 * kPi * kPi * 0.25 : 9.0 * kPi;
+        const double whole =
+            is_ball ? 6.0 * 4.0 * std::numbers::pi * std::numbers::pi * 0.25 : 9.0 * std::numbers::pi;
         const gpu::AimMap& map = aimed.aims.maps[aimed.aims.map_of_light[i]];
         power += whole * map.count * static_cast<double>(map.cell.x) * static_cast<double>(map.cell.y);
         drawn += static_cast<double>(aimed.aims.table[i].pdf);
@@ -338,7 +219,7 @@ TEST(PhotonAims, towards_one_far_voxel_are_as_narrow_as_it_is_seen) {
     const Aimed aimed = aim(scene);
     ASSERT_EQ(aimed.lights.specular.size(), 1u);
     // Seen from above, 39 voxels away: a form factor of 1 / (pi 39^2). The cone and its cells are wider.
-    const double seen = 1.0 / (kPi * 39.0 * 39.0);
+    const double seen = 1.0 / (std::numbers::pi * 39.0 * 39.0);
     double widest = 0.0;
     for (std::size_t i = 0; i < aimed.lights.records.size(); ++i) {
         const gpu::AimMap& map = aimed.aims.maps[aimed.aims.map_of_light[i]];
