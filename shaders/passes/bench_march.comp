@@ -36,6 +36,8 @@ float start_of(uint i, float entry) {
 // Whether the rays may start outside the world, as camera rays do.
 VX_SPECIALIZED(uint, have_entries, 0u);
 
+const uint kRayWords = 10u;
+
 uint ray_word(uint i, uint k) {
     return imageLoad(Rays, int(kRayWords * i + k)).x;
 }

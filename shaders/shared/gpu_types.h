@@ -20,7 +20,6 @@ struct Ray {
     vec3 direction;  // unit length unless stated
     float t_max;     // hits at or beyond are misses
 };
-VX_CONST(uint, kRayWords, 10u);
 
 // First hit of a camera ray. All bits set is a miss, so a cleared buffer is a sky of misses.
 struct Hit {

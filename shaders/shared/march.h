@@ -66,6 +66,11 @@ VX_FN bool is_sound(Ray ray) {
     return largest < 0x7F800000u && has_direction;
 }
 
+// -1 below 0, else 0. Only the bits of what is below 0, not of -0, keep their highest when 1 is taken away.
+VX_FN int sign_mask_of(float x) {
+    return int(max(floatBitsToUint(x), 1u) - 1u) >> 31;
+}
+
 VX_FN MarchAxes march_axes(Ray ray) {
     const vec3 d = ray.direction;
     const vec3 speed = abs(d);
@@ -74,12 +79,10 @@ VX_FN MarchAxes march_axes(Ray ray) {
     MarchAxes axes;
     axes.cell = ray.cell;
     axes.speed = speed * used;
-    // Signs as bits of a product, for software devices make what is chosen by a comparison anew in each turn
-    // of the loop. A zero that counts as negative would be one with a sign: + 0 takes it away.
-    VX_PRECISE vec3 signs = d * used + 0.0f;
-    axes.sign_mask = ivec3(int(floatBitsToUint(signs.x)) >> 31, int(floatBitsToUint(signs.y)) >> 31,
-                           int(floatBitsToUint(signs.z)) >> 31);
-    // A pace of 1 where the axis is not used, since 1 / 0 is infinite; kNeverCrossed by a product as above.
+    // Bits and products: what comparisons choose, software devices make anew in each turn of the loop.
+    axes.sign_mask =
+        ivec3(sign_mask_of(d.x * used.x), sign_mask_of(d.y * used.y), sign_mask_of(d.z * used.z));
+    // A speed of 1 in place of 0, since 1 / 0 is infinite; kNeverCrossed by a product.
     VX_PRECISE vec3 inverse =
         (1.0f / (speed * used + (1.0f - used))) * (used + (1.0f - used) * kNeverCrossed);
     axes.inverse_direction = inverse;
@@ -153,19 +156,6 @@ VX_FN ivec3 planes_to_border(MarchAxes axes, ivec3 size) {
                  axes.sign_mask.z < 0 ? axes.cell.z + 1 : size.z - axes.cell.z);
 }
 
-// The ray at its start, before the first step.
-VX_FN MarchHit march_nothing(Ray ray) {
-    MarchHit hit;
-    hit.cell = ray.cell;
-    hit.face = kFaceMiss;
-    hit.t = 0.0f;
-    hit.material = 0u;
-    hit.crossed = ivec3(0);
-    hit.steps = 0u;
-    hit.fault = is_sound(ray) ? kMarchFine : kMarchUnsound;
-    return hit;
-}
-
 // The hit of march() for a ray that is known to hit no solid cell before the time `start`: it steps from
 // there, up to t_max or the crossing that leaves the world, whichever comes first. The loop has one way out
 // and changes few values, because software devices blend each of them for all invocations, at each way out.
@@ -174,7 +164,12 @@ VX_FN MarchHit march_nothing(Ray ray) {
 VX_FN MarchHit march_from(VX_WORLD_PARAM Ray ray, ivec3 chunks, float start) {
     const MarchAxes axes = march_axes(ray);
     const ivec3 size = chunks << kChunkLog2;
-    MarchHit hit = march_nothing(ray);
+    MarchHit hit;
+    hit.face = kFaceMiss;
+    hit.t = 0.0f;
+    hit.material = 0u;
+    hit.crossed = ivec3(0);
+    hit.fault = is_sound(ray) ? kMarchFine : kMarchUnsound;
     const ivec3 border = planes_to_border(axes, size);
     NextCrossing last = first_crossing(plane_times(axes, border));
     const float from = max(start, 0.0f);

@@ -12,8 +12,6 @@
 namespace voxilux {
 namespace {
 
-static_assert(sizeof(gpu::Ray) == sizeof(std::uint32_t) * gpu::kRayWords);
-
 constexpr std::uint64_t kJudgedCells = 20'000'000;  // about a second of cell-by-cell walking per kind of rays
 
 BufferProxy rays_buffer(RayKind kind, std::uint32_t count) {

@@ -116,6 +116,24 @@ TEST(March, start_in_a_solid_cell_is_a_hit_inside_at_zero) {
     EXPECT_EQ(hit.material, 7u);
 }
 
+// Both planes are crossed at 0.5, x before y: into the corner of the world and then out of it, or out at
+// once.
+TEST(March, voxel_at_the_border_is_hit_at_the_time_of_leaving_if_entered_before) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
+    world.set({15, 15, 8}, 0);
+    for (const Traversal traversal : all_traversals()) {
+        const MarchWorld march_world = build_march_world(world, traversal);
+        gpu::Ray ray{{14, 15, 8}, glm::vec3(0.5f), glm::vec3(1, 1, 0), gpu::kUnbounded};
+        const gpu::MarchHit hit = gpu::march(march_world, ray, march_world.chunks_size);
+        EXPECT_EQ(hit.face, 0u) << name_of(traversal);
+        EXPECT_EQ(hit.t, 0.5f);
+        ray.t_max = 0.5f;
+        EXPECT_EQ(gpu::march(march_world, ray, march_world.chunks_size).face, gpu::kFaceMiss);
+        const gpu::Ray outwards{{15, 14, 8}, glm::vec3(0.5f), glm::vec3(1, 1, 0), gpu::kUnbounded};
+        EXPECT_EQ(gpu::march(march_world, outwards, march_world.chunks_size).face, gpu::kFaceMiss);
+    }
+}
+
 TEST(March, interval_is_closed_at_the_start_and_open_at_the_end) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(1));
     world.set({8, 3, 3}, 0);
