@@ -20,6 +20,7 @@ Scene without_voxels(const Scene& scene) {
             .sky = scene.sky,
             .background = scene.background,
             .ground = scene.ground,
+            .lens = scene.lens,
             .camera = camera_of(scene),
             .framing_fov_y_deg = scene.framing_fov_y_deg,
             .settings = scene.settings};

@@ -40,7 +40,7 @@ TEST(Report, render_has_exactly_its_keys) {
         EXPECT_EQ(keys_of(pass), (std::set<std::string>{"label", "count", "ms", "max_ms"}));
     for (const Json& row : report["memory"])
         EXPECT_EQ(keys_of(row), (std::set<std::string>{"buffer", "bytes"}));
-    ASSERT_EQ(report["effects"].size(), 12u);
+    ASSERT_EQ(report["effects"].size(), 13u);
     for (const Json& effect : report["effects"])
         EXPECT_EQ(keys_of(effect), (std::set<std::string>{"name", "on", "reason", "ms"}));
 }

@@ -130,7 +130,7 @@ void expect_prices_of_effects(const Made& made) {
     std::map<std::string, Json> effects;
     for (const Json& effect : made.list["effects"])
         effects[effect["name"]] = effect;
-    EXPECT_EQ(effects.size(), 12u);
+    EXPECT_EQ(effects.size(), 13u);
     EXPECT_TRUE(effects.at("ao")["is_beyond_noise"]);
     EXPECT_GT(effects.at("ao")["error_low"], 0.0);
     EXPECT_TRUE(effects.at("aov")["forced"]);
