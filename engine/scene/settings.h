@@ -212,7 +212,7 @@ void visit_settings(Lens& lens, auto&& visit) {
     visit({"blades", {0, 64}, "corners of the aperture; below 3 it is round"}, blades);
     visit({"focus", above(0, kMaxCoordinate), "distance of what is sharp, along the view axis, voxels"},
           focus);
-    visit({"focus_at", kPlace, "instead: a point that is sharp; absent: the middle of the scene"}, focus_at);
+    visit({"focus_at", kPlace, "instead: a point; absent: the middle of the scene"}, focus_at);
 }
 
 void visit_settings(CameraSettings& settings, auto&& visit) {

@@ -78,8 +78,7 @@ struct SphereNode {
     uvec4 texels[4];
 };
 
-// What all passes of one tile of one sample share. A tile is a run of rows of the crop window, which may be
-// the whole image.
+// What all passes of one tile of one sample share. A tile is a run of rows of the crop window.
 struct FrameParams {
     ivec3 chunks;        // of the world, per axis
     ivec3 world_origin;  // scene cell of the world's cell 0

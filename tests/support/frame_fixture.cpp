@@ -89,6 +89,7 @@ std::array<gpu::uint, gpu::kCounterCount> FrameFixture::add_radiance(std::uint32
                             .seen = {miss, weights},
                             .ao = none,
                             .sky = none,
+                            .air = none,
                             .sun = none,
                             .direct = none,
                             .photons = {none, none}};

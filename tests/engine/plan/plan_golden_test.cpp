@@ -78,9 +78,9 @@ TEST(PlanJson, plan_has_the_promised_keys) {
     EXPECT_EQ(json.at("command"), "plan");
     EXPECT_EQ(json.at("size"), (nlohmann::ordered_json{plan.settings.size.x, plan.settings.size.y}));
     ASSERT_EQ(json.at("effects").size(), kEffectCount);
-    EXPECT_EQ(json["effects"][0].at("name"), "voxels");
-    EXPECT_EQ(json["effects"][0].at("on"), true);
-    EXPECT_EQ(json["effects"][0].at("reason"), plan.effects[0].reason);
+    EXPECT_EQ(json["effects"][1].at("name"), "voxels");
+    EXPECT_EQ(json["effects"][1].at("on"), true);
+    EXPECT_EQ(json["effects"][1].at("reason"), plan.effects[1].reason);
     const Footprint needs = footprint(plan);
     ASSERT_EQ(json.at("passes").size(), needs.passes.size());
     EXPECT_EQ(json["passes"][0].at("label"), needs.passes[0].label);
