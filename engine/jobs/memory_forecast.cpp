@@ -1,5 +1,7 @@
 #include "jobs/memory_forecast.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -89,7 +91,11 @@ ResidentBytes resident_bytes() {
     return bytes;
 }
 
+// What compilers of shaders have freed, the image takes again: it must not count twice.
 MemoryForecast forecast_memory(const RenderPlan& plan, const PictureUse& use) {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
     const ResidentBytes resident = resident_bytes();
     return {.device_bytes = footprint(plan).total_bytes(),
             .peak_rss_bytes = std::max(resident.peak, resident.now + end_bytes(plan, use))};
