@@ -56,7 +56,7 @@ double share_of_air(const Scene& scene) {
     return change / light;
 }
 
-TEST(ForcedEffect, air_that_the_plan_leaves_out_changes_less_than_a_thousandth) {
+TEST(ForcedEffectNightly, air_that_the_plan_leaves_out_changes_less_than_a_thousandth) {
     for (const char* name : {"noon", "dusk", "blue_hour"}) {
         const Scene scene = small_scene(name);
         ASSERT_FALSE(test::plan_of(scene, PlanRequest{}).has(Effect::aerial)) << name;

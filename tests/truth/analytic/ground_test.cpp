@@ -93,7 +93,7 @@ TEST(Ground, negative_control_sees_a_ground_of_another_albedo) {
 }
 
 // By paths, by occlusion, and by photons of the emitter: each must treat the ground as it treats voxels.
-TEST(Ground, sends_as_much_light_on_as_a_floor_of_voxels) {
+TEST(GroundNightly, sends_as_much_light_on_as_a_floor_of_voxels) {
     for (const int technique : {0, 1, 2}) {
         double means[2];
         for (const bool has_ground : {false, true}) {
