@@ -1,6 +1,7 @@
 #include "plan/effects.h"
 
 #include "base/error.h"
+#include "scene/atmosphere.h"
 
 namespace voxilux {
 namespace {
@@ -56,9 +57,6 @@ Verdict verdict_of_sky(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_sky) return {false, false, "the sky is black"};
     return {true, true, facts.has_atmosphere ? "an atmosphere scatters sunlight" : "constant sky radiance"};
 }
-
-// Share of light below which the air between camera and surfaces is not worth its time.
-constexpr float kVisibleHaze = 0.001f;
 
 Verdict verdict_of_aerial(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_atmosphere) return {false, false, "the sky is no atmosphere"};

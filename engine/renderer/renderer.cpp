@@ -7,6 +7,7 @@
 #include "frame/frame.h"
 #include "passes/upload.h"
 #include "renderer/radius_pilot.h"
+#include "scene/atmosphere.h"
 #include "scene/scene_camera.h"
 
 namespace voxilux {
@@ -91,8 +92,13 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
 void Renderer::set_camera(const Camera& camera) {
     Scene scene = scene_;
     scene.camera = camera;
-    if (camera.projection != prepared_->plan.projection) {
+    SceneFacts& facts = prepared_->facts;
+    // How much air is before the surfaces follows from where the camera stands.
+    const float haze = facts.has_atmosphere ? haze_before_surfaces(scene, facts.box) : facts.haze;
+    const bool sees_other_air = (haze >= kVisibleHaze) != (facts.haze >= kVisibleHaze);
+    if (camera.projection != prepared_->plan.projection || sees_other_air) {
         (void)frame_params(prepared_->plan, scene, prepared_->march_world);  // refuses what is too far away
+        facts.haze = haze;
         replan(std::move(scene), request_);
         is_framed_ = false;
         return;

@@ -43,6 +43,17 @@ glm::vec3 disc_transmittance(const gpu::SkyParams& sky, float radius) {
     return sum / chords;
 }
 
+// From the camera, voxels; without one, as far as a camera is that sees all of the scene.
+double farthest_surface(const Scene& scene, const Box& voxels) {
+    if (scene.ground.on) return double{gpu::kFarthestGround};
+    const Box box = united(sphere_bounds(scene.spheres), voxels);
+    if (box.empty()) return 0.0;
+    const glm::dvec3 lo(box.lo), hi(box.hi);
+    if (!scene.camera) return 2.0 * glm::length(hi - lo);
+    const glm::dvec3 eye = scene.camera->position;
+    return glm::length(glm::max(glm::abs(eye - lo), glm::abs(eye - hi)));
+}
+
 }  // namespace
 
 gpu::SkyParams sky_params(const Scene& scene) {
@@ -73,6 +84,10 @@ float haze(const Scene& scene, double voxels) {
     const auto way = static_cast<float>(voxels * double{scene.sky.metres_per_voxel} / kKilometre);
     const glm::vec3 passes = gpu::air_transmittance(sky.air, way * gpu::air_densities(sky.height));
     return 1.0f - std::min({passes.x, passes.y, passes.z});
+}
+
+float haze_before_surfaces(const Scene& scene, const Box& voxels) {
+    return haze(scene, farthest_surface(scene, voxels));
 }
 
 }  // namespace voxilux

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "scene/scene_bounds.h"
 #include "shared/sky_view.h"
 
 namespace voxilux {
@@ -15,5 +16,11 @@ namespace voxilux {
 // Fraction of the light that the atmosphere absorbs or scatters over a horizontal distance at z = 0, in the
 // channel that loses most.
 [[nodiscard]] float haze(const Scene& scene, double voxels);
+
+// Below this haze, the air between camera and surfaces is not worth its time.
+inline constexpr float kVisibleHaze = 0.001f;
+
+// The haze over the distance from the camera to the farthest surface. `voxels`: their box.
+[[nodiscard]] float haze_before_surfaces(const Scene& scene, const Box& voxels);
 
 }  // namespace voxilux

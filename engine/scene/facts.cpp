@@ -109,17 +109,6 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
     facts.simplified = simplifications.sentences();
 }
 
-// From the camera, voxels; without one, as far as a camera is that sees all of the scene.
-double farthest_surface(const Scene& scene, const Box& voxels) {
-    if (scene.ground.on) return double{gpu::kFarthestGround};
-    const Box box = united(sphere_bounds(scene.spheres), voxels);
-    if (box.empty()) return 0.0;
-    const glm::dvec3 lo(box.lo), hi(box.hi);
-    if (!scene.camera) return 2.0 * glm::length(hi - lo);
-    const glm::dvec3 eye = scene.camera->position;
-    return glm::length(glm::max(glm::abs(eye - lo), glm::abs(eye - hi)));
-}
-
 double cell_count(const Box& box) {
     const glm::dvec3 extent(box.extent());
     return extent.x * extent.y * extent.z;
@@ -158,7 +147,7 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     facts.has_atmosphere = scene.sky.is_atmosphere();
     facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
                                          : any_positive(scene.sky.radiance);
-    if (facts.has_atmosphere) facts.haze = haze(scene, farthest_surface(scene, facts.box));
+    if (facts.has_atmosphere) facts.haze = haze_before_surfaces(scene, facts.box);
     facts.aperture = scene.lens.aperture;
     measure_materials(scene, std::move(voxels.used), facts);
     if (facts.has_ground)

@@ -178,6 +178,25 @@ TEST_P(RendererLens, other_projection_ends_as_a_fresh_render) {
     EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene_));
 }
 
+// From far away, the air before the yard is seen.
+TEST(RendererAir, camera_that_goes_far_away_and_back_ends_as_a_fresh_render) {
+    Scene scene = yard();
+    scene.sky.model = SkyModel::atmosphere;
+    scene.sky.metres_per_voxel = 0.25f;
+    scene.sun.on = true;
+    Scene far = scene;
+    far.camera->position *= 10.0;
+    Renderer renderer(test_device(), poisoned());
+    prepared(renderer, scene);
+    (void)renderer.step(0.0);
+    EXPECT_FALSE(renderer.plan().has(Effect::aerial));
+    renderer.set_camera(*far.camera);
+    EXPECT_TRUE(renderer.plan().has(Effect::aerial));
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(far));
+    renderer.set_camera(*scene.camera);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene));
+}
+
 TEST_P(RendererSteps, last_edit_ends_as_a_fresh_render) {
     Renderer renderer(test_device(), poisoned());
     (void)film_after(prepared(renderer, scene_), 2);
