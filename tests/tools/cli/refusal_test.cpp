@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"background_and_alpha", one_voxel_with({"--alpha", "--background", "sky"}),
                 "--background excludes --transparent"},
         Refused{"effect_unknown", one_voxel_with({"--effect", "fog=on"}),
-                "known are voxels, spheres, specular, ao, sun, sky, emission, direct, caustics"},
+                "there is no effect 'fog'; known are lens, voxels, spheres, specular, ao, sun, sky"},
         Refused{"effect_without_state", one_voxel_with({"--effect", "ao"}),
                 "must be NAME=on, NAME=off or NAME=auto"},
         Refused{"technique_unknown", one_voxel_with({"--technique", "ao=hsh"}),
