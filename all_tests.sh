@@ -48,8 +48,8 @@ if [ "$*" = --nightly ]; then
     check "newer Mesa" test_newer_mesa
 else
     check "format (clang-format-14 -i mends it)" check_format
-    build sanitize reader_tests vox_fuzz mesh_fuzz voxel_formats_fuzz
-    check "readers of files under sanitizers" run_tests build/sanitize --label-regex 'unit|fuzz' --label-exclude nightly
+    build sanitize vox_fuzz mesh_fuzz voxel_formats_fuzz
+    check "fuzzing under sanitizers" run_tests build/sanitize --label-regex fuzz --label-exclude nightly
     build release
     check "all tests" run_tests build/release --label-exclude nightly
 fi

@@ -67,7 +67,7 @@ Scene court_scene(int width) {
     return scene;
 }
 
-TEST(DenoiseTruth, claims_hold_and_pictures_gain) {
+TEST(DenoiseTruthNightly, claims_hold_and_pictures_gain) {
     const Scene scene = court_scene(48);
     const RenderOutcome truth = denoised_outcome(scene, 256, 77);
     const double own = truth.statistics.error.estimate * truth.statistics.error.estimate;

@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // The negative control: one cell is taken out of each map. All other photons are the same, so what the cell
 // carries shows, though it is a hundredth of all.
-TEST(PhotonAimTwin, map_without_one_of_its_cells_is_caught) {
+TEST(PhotonAimTwinNightly, map_without_one_of_its_cells_is_caught) {
     const auto lose_a_cell = [](PreparedScene& prepared) {
         PhotonAims& aims = prepared.lights.aims;
         for (gpu::AimMap& map : aims.maps) {
@@ -222,7 +222,7 @@ double emitted_power(const Scene& scene, const PreparedScene& prepared) {
 }
 
 // What is carried and what is left out are the power of all light: by the true areas, radiances and the disc.
-TEST(PhotonAimPower, carried_and_left_out_is_that_of_all_lights) {
+TEST(PhotonAimPowerNightly, carried_and_left_out_is_that_of_all_lights) {
     for (const auto make : {ball_in_sunlight, emitters_between_specular_things}) {
         Scene scene = make();
         const PreparedScene aimed = prepared_for(scene, {});

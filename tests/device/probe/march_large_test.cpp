@@ -79,15 +79,15 @@ void expect_march_reads_both_ends(const VoxelWorld& world, Traversal traversal, 
     }
 }
 
-TEST(MarchLarge, leaves_over_the_binding_limit_are_read_at_both_ends) {
+TEST(MarchLargeNightly, leaves_over_the_binding_limit_are_read_at_both_ends) {
     expect_march_reads_both_ends(world_of_different_bricks(26), Traversal::deep, &MarchWorld::leaves);
 }
 
-TEST(MarchLarge, nodes_over_the_binding_limit_are_read_at_both_ends) {
+TEST(MarchLargeNightly, nodes_over_the_binding_limit_are_read_at_both_ends) {
     expect_march_reads_both_ends(world_of_different_chunks(82), Traversal::naadf, &MarchWorld::nodes);
 }
 
-TEST(MarchLarge, roots_over_the_binding_limit_are_read_at_both_ends) {
+TEST(MarchLargeNightly, roots_over_the_binding_limit_are_read_at_both_ends) {
     expect_march_reads_both_ends(world_of_different_chunks(82), Traversal::wide, &MarchWorld::roots);
 }
 

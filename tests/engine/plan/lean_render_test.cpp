@@ -153,7 +153,7 @@ NamedNumbers final_passes(NamedNumbers passes) {
 }
 
 // Filtered in two strips for an image of this size.
-TEST(LeanRender, denoiser_is_in_the_plan_as_in_the_report) {
+TEST(LeanRenderNightly, denoiser_is_in_the_plan_as_in_the_report) {
     PlanRequest request = test::exr_request();
     request.wants_denoised = true;
     const Scene scene = test::repository_scene("mixed", {"render.size=[1200, 900]", "render.spp=2"});

@@ -51,7 +51,7 @@ TEST_P(PhotonRuns, of_any_size_give_the_same_film) {
     EXPECT_NE(film_in_runs(another, kPhotons), whole);
 }
 
-TEST(PhotonRunsOfTwoLights, across_the_border_of_lamp_and_sun_give_the_same_film) {
+TEST(PhotonRunsOfTwoLightsNightly, across_the_border_of_lamp_and_sun_give_the_same_film) {
     Scene scene = dark_scene(24, kPhotons, 3.0);
     add_box(scene, {-8, -8, -1}, {8, 8, 0}, add_diffuse(scene, 0.7f));
     add_box(scene, {-1, 3, 6}, {1, 5, 7}, add_emitter(scene, 50.0f));

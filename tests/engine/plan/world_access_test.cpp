@@ -23,7 +23,7 @@ FilmSums film_of(const Scene& scene, bool by_texels, std::uint32_t samples) {
     return steps.read();
 }
 
-TEST(WorldAccess, film_is_the_same_by_texels_and_by_addresses) {
+TEST(WorldAccessNightly, film_is_the_same_by_texels_and_by_addresses) {
     for (const char* name : {"mixed", "glass_block"}) {
         const Scene scene = repository_scene(name, {"render.size=[16, 12]"});
         const FilmSums by_texels = film_of(scene, true, 2);

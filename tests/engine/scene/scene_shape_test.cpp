@@ -140,7 +140,7 @@ TEST(SceneShape, wide_scene_is_one_model) {
 }
 
 // Shapes whose cells would take gigabytes: 645^3 cells of a solid box, 2.6e8 of a shell.
-TEST(SceneShape, large_boxes_are_few_boxes) {
+TEST(SceneShapeNightly, large_boxes_are_few_boxes) {
     const BoxShape solid{{0, 0, 0}, {645, 645, 645}, false, std::uint16_t{1}};
     const BoxShape room{{0, 0, 0}, {16000, 8000, 200}, true, std::uint16_t{1}};
     for (const BoxShape& box : {solid, room}) {

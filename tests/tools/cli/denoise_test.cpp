@@ -86,7 +86,7 @@ TEST(DenoiseCommand, background_lies_behind_both_pictures) {
 }
 
 // SIGUSR1 asks for a checkpoint, which a PNG does not have.
-TEST(DenoiseCommand, signal_for_a_checkpoint_stops_nothing) {
+TEST(DenoiseCommandNightly, signal_for_a_checkpoint_stops_nothing) {
     const ScratchFolder scratch;
     ChildProcess child(dim_court({"--spp", "1000000", "--progress", "json", "-o", "a.png"}),
                        {.folder = scratch.path()});

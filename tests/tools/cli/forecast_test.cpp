@@ -57,7 +57,7 @@ TEST(PlanForecast, too_few_samples_allowed_are_said) {
         << ending.out;
 }
 
-TEST(PlanForecast, effect_that_the_user_switched_off_has_its_error) {
+TEST(PlanForecastNightly, effect_that_the_user_switched_off_has_its_error) {
     const Words words = {"plan", scene_file("mixed"), "--size", "32x18", "--error", "20%"};
     for (const Json& effect : forecast_of(with(words, {"--effect", "sun=off"}))["effects"]) {
         EXPECT_EQ(effect.contains("error_without"), effect["name"] == "sun") << effect;

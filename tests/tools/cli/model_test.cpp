@@ -82,7 +82,7 @@ TEST(Transparent, alpha_without_a_number_asks_for_it) {
     EXPECT_FALSE(read_png(scratch / "b.png").channels.contains("A"));
 }
 
-TEST(Transparent, background_of_a_flag_a_scene_or_a_file_is_exact) {
+TEST(TransparentNightly, background_of_a_flag_a_scene_or_a_file_is_exact) {
     const ScratchFolder scratch;
     write_model(scratch / "a.vox", {{"_type", "_setting"}, {"_bg_a", "1"}});
     const Surroundings here{.folder = scratch.path()};

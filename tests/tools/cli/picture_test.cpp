@@ -240,7 +240,7 @@ TEST(Picture, tone_and_exposure_change_the_png) {
     EXPECT_EQ(pictures.size(), 3u);
 }
 
-TEST(Picture, every_side_shows_another_picture) {
+TEST(PictureNightly, every_side_shows_another_picture) {
     const ScratchFolder scratch;
     std::set<std::string> pictures;
     for (const char* side : {"three-quarter", "front", "back", "left", "right", "top", "iso"}) {

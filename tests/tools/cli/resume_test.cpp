@@ -88,7 +88,7 @@ TEST(Resume, render_out_of_time_goes_on_to_more_samples_than_it_was_started_for)
 
 // So many rays for each pixel that the first tile is one row and the second four: the signal comes within
 // the first sample.
-TEST(Resume, interruption_within_a_sample_goes_on_at_its_row) {
+TEST(ResumeNightly, interruption_within_a_sample_goes_on_at_its_row) {
     const ScratchFolder scratch;
     const Words job = {
         "render", scene_file("mixed"), "--size", "64x64", "--spp", "3", "--ao-rays", "65535", "--ao",
@@ -142,7 +142,7 @@ TEST(Resume, interrupted_shard_goes_on_and_merges) {
     EXPECT_TRUE(bytes_of(scratch / "m.exr") == uninterrupted({"--spp", "100"}));
 }
 
-TEST(Resume, checkpoint_of_other_settings_is_refused_and_stays) {
+TEST(ResumeNightly, checkpoint_of_other_settings_is_refused_and_stays) {
     const ScratchFolder scratch;
     const Surroundings here{.folder = scratch.path()};
     EXPECT_EQ(run(reproducible_mixed({"--spp", "100000", "--time-limit", "6s", "-q"}), here).code, 0);

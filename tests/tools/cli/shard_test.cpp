@@ -165,7 +165,7 @@ TEST(Samples, parts_of_occlusion_add_up_to_one_render) {
     expect_partitions_to_add_up({scene_file("wall_corner"), "--ao", "brute"});
 }
 
-TEST(Samples, parts_of_photons_add_up_to_one_render) {
+TEST(SamplesNightly, parts_of_photons_add_up_to_one_render) {
     expect_partitions_to_add_up(
         {scene_file("cornell"), "--photons", "2000", "--technique", "indirect=photons"});
 }

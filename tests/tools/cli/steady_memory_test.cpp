@@ -54,7 +54,7 @@ TEST(SteadyMemory, of_cells_of_occlusion) {
     EXPECT_LT(growth_mib({scene_file("first_light"), "--ao", "hash"}), kSteady);
 }
 
-TEST(SteadyMemory, of_emitters_and_photons) {
+TEST(SteadyMemoryNightly, of_emitters_and_photons) {
     for (const char* scene : {"emitters", "glass_block"})
         EXPECT_LT(growth_mib({scene_file(scene), "--photons", "256"}), kSteady) << scene;
 }

@@ -247,7 +247,7 @@ Ending interrupted_list(const ScratchFolder& folder, const std::string& time_lim
 }
 
 // Where all have a sixteenth of their samples: runs are from 0.5 to 0.78 of the work.
-TEST(TradeoffInterrupted, list_has_what_was_measured_until_then) {
+TEST(TradeoffInterruptedNightly, list_has_what_was_measured_until_then) {
     const ScratchFolder folder;
     const Ending ending = interrupted_list(folder, "12s", "\"done\":0.5175");
     EXPECT_EQ(ending.code, 130) << ending.err;

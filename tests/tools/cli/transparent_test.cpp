@@ -78,7 +78,7 @@ class TransparentPictures {
     Pictures cut_;
 };
 
-TEST(Transparent, image_over_a_colour_is_the_render_over_it_shadows_included) {
+TEST(TransparentNightly, image_over_a_colour_is_the_render_over_it_shadows_included) {
     TransparentPictures pictures;
     EXPECT_GT(pictures.partly_covered(), 50);
     EXPECT_EQ(pictures.differences("#20a1fe"), 0);

@@ -89,12 +89,12 @@ INSTANTIATE_TEST_SUITE_P(meshes, VoxelizeExternal,
                                          "cube-vertexcol.obj",
                                          "subpass_scene_transparent/subpass_scene_transparent.gltf"));
 
-TEST(VoxelizeOracleExternal, thin_surface_lacks_voxels_of_the_oracle) {
+TEST(VoxelizeOracleExternalNightly, thin_surface_lacks_voxels_of_the_oracle) {
     SKIP_WITHOUT_ORACLE();
     EXPECT_GT(checked("Duck.glb", 32, "", {"--thin"})["missing"], 100);
 }
 
-TEST(VoxelizeOracleExternal, another_resolution_is_seen) {
+TEST(VoxelizeOracleExternalNightly, another_resolution_is_seen) {
     SKIP_WITHOUT_ORACLE();
     const Json json = checked("Duck.glb", 32, "", {"--up", "-y"});
     EXPECT_GT(json["missing"].get<int>() + json["outside"].get<int>(), 100);

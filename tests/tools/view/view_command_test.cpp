@@ -82,7 +82,7 @@ TEST(WindowCommand, there_is_no_line_in_motion) {
     EXPECT_EQ(report_of(scratch)["shown"]["message"], "no line: the picture is not at rest");
 }
 
-TEST(WindowCommand, unsaved_edits_are_said_to_be_missing) {
+TEST(WindowCommandNightly, unsaved_edits_are_said_to_be_missing) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const std::string edit = key("Tab") + key("r") + click(80, 60) + film(8, "edited.exr");

@@ -21,7 +21,7 @@ Ending play_remembered(const ScratchFolder& scratch, const std::string& input, c
     return ending;
 }
 
-TEST(WindowState, size_frame_time_and_files_come_back) {
+TEST(WindowStateNightly, size_frame_time_and_files_come_back) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     write_file_atomically(scratch.path() / "hut.vox", hut());
@@ -56,7 +56,7 @@ TEST(WindowState, standard_input_takes_the_size_and_is_not_remembered) {
     EXPECT_EQ(state["recent"], Json({"/a.vox"}));
 }
 
-TEST(WindowState, damaged_file_is_ignored_in_one_line) {
+TEST(WindowStateNightly, damaged_file_is_ignored_in_one_line) {
     SKIP_UNLESS_DISPLAY();
     for (const char* const damaged : {"{", "[]", "{\"size\": [1], \"frame_ms\": 3, \"recent\": []}",
                                       "{\"size\": [300, 200], \"frame_ms\": 3, \"recent\": [7]}"}) {
@@ -97,7 +97,7 @@ TEST(WindowDrop, broken_mesh_leaves_the_picture) {
               std::string::npos);
 }
 
-TEST(WindowDrop, unsaved_edits_keep_a_file_away_once) {
+TEST(WindowDropNightly, unsaved_edits_keep_a_file_away_once) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const std::string edit = key("Tab") + key("r") + click(80, 60) + film(4, "edited.exr");

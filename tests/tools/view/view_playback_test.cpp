@@ -25,7 +25,7 @@ TEST(WindowAnimation, frame_is_that_of_render) {
     EXPECT_EQ(report_of(scratch)["messages"], Json::array());
 }
 
-TEST(WindowAnimation, path_of_parallel_rays_is_followed) {
+TEST(WindowAnimationNightly, path_of_parallel_rays_is_followed) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     const std::string key_at = "[[camera.key]]\nyaw = 90\npitch = -30\nframe = ";
@@ -53,7 +53,7 @@ TEST(WindowAnimationNightly, first_frame_is_the_one_that_is_asked_for) {
     }
 }
 
-TEST(WindowAnimation, light_turns) {
+TEST(WindowAnimationNightly, light_turns) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
     for (const char* const turned : {"light", "model"}) {

@@ -106,7 +106,7 @@ TEST(WindowReload, file_that_somebody_writes_is_shown) {
     EXPECT_NE(beauty_of(scratch / "after.exr"), beauty_of(scratch / "before.exr"));
 }
 
-TEST(WindowReload, file_with_another_camera_brings_it) {
+TEST(WindowReloadNightly, file_with_another_camera_brings_it) {
     SKIP_UNLESS_DISPLAY();
     const std::string box =
         "[material.a]\ncolor = '#cc8844'\n[[shape]]\nshape = 'box'\nfrom = [0, 0, 0]\nto = [5, 4, 3]\n"

@@ -58,7 +58,7 @@ TEST(Background, alpha_is_the_share_of_samples_that_meet_the_scene) {
 }
 
 // Colours are premultiplied, so the rest is the sky's.
-TEST(Background, scene_and_sky_add_up_to_the_image_with_its_sky) {
+TEST(BackgroundNightly, scene_and_sky_add_up_to_the_image_with_its_sky) {
     for (const bool has_glass : {false, true}) {
         const Scene scene = blocks(has_glass);
         const Image whole = render(scene, Backdrop::sky);
@@ -176,7 +176,7 @@ TEST(Background, what_nothing_covers_has_exactly_the_code_of_the_colour) {
 
 // Two worlds in which a shadow catcher cannot lack light: a dark one with an emitter, and a black ground
 // under the sky.
-TEST(Background, ground_that_catches_shadows_where_there_is_no_light_is_not_there) {
+TEST(BackgroundNightly, ground_that_catches_shadows_where_there_is_no_light_is_not_there) {
     for (const bool is_black : {false, true}) {
         Scene scene = test::white_scene();
         if (!is_black) {

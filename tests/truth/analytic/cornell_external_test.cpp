@@ -162,7 +162,7 @@ TEST(CornellExternalNightly, errors_are_within_what_is_promised) {
 constexpr double kSmallRelmse = 0.0055;
 constexpr double kSmallCaustic = 0.009;
 
-TEST(CornellExternal, small_picture_has_small_errors) {
+TEST(CornellExternalNightly, small_picture_has_small_errors) {
     SKIP_WITHOUT_SHARED_DATA();
     const Measure m = measure_render(cornell(2, 16384), 2);
     EXPECT_LE(m.relmse, kSmallRelmse);
@@ -170,7 +170,7 @@ TEST(CornellExternal, small_picture_has_small_errors) {
     EXPECT_LE(farthest(m.mean), 0.004);
 }
 
-TEST(CornellExternal, glass_that_bends_a_little_more_is_caught) {
+TEST(CornellExternalNightly, glass_that_bends_a_little_more_is_caught) {
     SKIP_WITHOUT_SHARED_DATA();
     Scene scene = cornell(2, 16384);
     for (Material& material : scene.materials)

@@ -184,7 +184,7 @@ std::vector<Change> changes(const RenderSettings& settings) {
     return all;
 }
 
-TEST(ChangedSession, renders_what_a_new_session_renders) {
+TEST(ChangedSessionNightly, renders_what_a_new_session_renders) {
     Scene scene = pillar_in_space();
     scene.sky.radiance = glm::vec3(1.0f);
     scene.settings.spp = 3;

@@ -165,7 +165,7 @@ Scene shared_model(const std::string& name, int frame = 0) {
     return scene;
 }
 
-TEST(LightContinuityExternal, faint_lamps_and_invisible_glass_do_not_show) {
+TEST(LightContinuityExternalNightly, faint_lamps_and_invisible_glass_do_not_show) {
     SKIP_WITHOUT_SHARED_DATA();
     const LightPicture off = render(shared_model("court_off"), kAuto);
     EXPECT_LT(farthest_apart(off, render(shared_model("court_on"), kAuto)), 1e-3);

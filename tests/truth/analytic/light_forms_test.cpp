@@ -336,7 +336,7 @@ Scene hollow_ball(double wall_radius, glm::vec3 albedo) {
 }
 constexpr double kEmitterPart = 0.25 * 0.25;
 
-TEST(LightForms, emitter_in_a_hollow_ball_of_any_size_gives_the_series_of_reflections) {
+TEST(LightFormsNightly, emitter_in_a_hollow_ball_of_any_size_gives_the_series_of_reflections) {
     for (const double radius : {4.0, 1e3, 1e4, 1e5, 1e6}) {
         const Scene scene = hollow_ball(radius, {0.25f, 0.5f, 0.75f});
         const TruthPixel pixel = render(scene, 64, 16).pixels.front();

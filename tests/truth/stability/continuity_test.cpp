@@ -176,7 +176,7 @@ TEST(Continuity, d6_scene_moved_by_whole_voxels_keeps_every_bit) {
     }
 }
 
-TEST(Continuity, d6_moved_scene_keeps_every_bit_in_every_projection_and_on_a_ground) {
+TEST(ContinuityNightly, d6_moved_scene_keeps_every_bit_in_every_projection_and_on_a_ground) {
     for (const Projection projection : {Projection::perspective, Projection::orthographic,
                                         Projection::equirectangular, Projection::fisheye}) {
         Scene scene = courtyard();

@@ -115,7 +115,7 @@ Scene clear_scene(bool has_glass) {
     return scene;
 }
 
-TEST(Row26, glass_of_index_1_is_invisible_as_spheres) {
+TEST(Row26Nightly, glass_of_index_1_is_invisible_as_spheres) {
     test::expect_equal_light(render(clear_scene(true), 48), render(clear_scene(false), 48), "spheres");
 }
 
@@ -201,7 +201,7 @@ TEST(Row28Nightly, glass_ball_in_voxels_of_the_same_glass_is_invisible) {
               1.5 * test::kMaxRms);  // negative control
 }
 
-TEST(Row28, camera_inside_glass_agrees_with_paths) {
+TEST(Row28Nightly, camera_inside_glass_agrees_with_paths) {
     Scene scene = voxel_room(32);
     test::add_box(scene, {3, 0, 2}, {7, 3, 6}, test::add_glass(scene, 1.4f));
     scene.camera = test::camera_towards({5.0, 1.0, 4.0}, {5.0, 10.0, 3.0}, 40.0);
@@ -225,7 +225,7 @@ TEST(Row30, black_walls_send_nothing_on) {
               0u);
 }
 
-TEST(Row30, walls_of_albedo_0_and_1_agree_with_paths) {
+TEST(Row30Nightly, walls_of_albedo_0_and_1_agree_with_paths) {
     Scene scene = voxel_room(32);
     scene.materials[0].albedo = {1.0f, 0.0f, 0.5f};
     scene.materials[2].albedo = {0.0f, 1.0f, 1.0f};
