@@ -129,8 +129,22 @@ void count_rays(RenderPlan& plan) {
     plan.rays.sun = plan.has(Effect::sun) ? samples : 0;
 }
 
+// What an image without an effect may lack. Light between Lambertian surfaces is a series over bounces: where
+// no albedo is above a, the irradiance of bounce k is at most a^k of the largest direct one anywhere, so all
+// bounces together are at most a / (1 - a) of it. Mirrors and glass gather light, which has no such bound.
+std::string words_without(Effect effect, const SceneFacts& facts) {
+    const std::string words =
+        fmt::format("{} is left out, of the image and of its claimed error", name_of(effect));
+    const bool is_bounded = !facts.has_glass && !facts.has_metal && facts.max_albedo < 1.0;
+    if (effect != Effect::indirect || !is_bounded) return words;
+    return fmt::format("{}: at most {:.0f} % of the strongest direct irradiance", words,
+                       100.0 * facts.max_albedo / (1.0 - facts.max_albedo));
+}
+
 void add_notes(RenderPlan& plan, const SceneFacts& facts) {
     const bool is_polished = facts.has_glass || facts.has_metal;
+    for (const EffectState& state : plan.effects)
+        if (state.by_choice && !state.on) plan.notes.push_back(words_without(state.effect, facts));
     if (plan.has_aerial()) plan.notes.emplace_back("the scene throws no shadow into the air before it");
     if (plan.has_aerial() && is_polished)
         plan.notes.emplace_back(

@@ -327,7 +327,7 @@ def attacks() -> list[Attack]:
                500),
         Attack("streams", "messages that nobody can read cost no picture", close_streams, 200),
         Attack("names", "any bytes are a name; none of them commands the terminal", name_oddly, 500),
-        Attack("files", "whatever a file holds: an exit code that says so, 4 GiB and 20 s at most", feed_file, 20000),
+        Attack("files", "whatever a file holds: an exit code that says so, 4 GiB and 20 s at most", feed_file, 100000),
     ]
 
 

@@ -97,11 +97,12 @@ def can_hide_folders():
 class Cluster:
     """A Dask scheduler and workers, as others start them."""
 
-    def __init__(self, folder, host="127.0.0.1"):
-        self.folder, self.port = folder, free_port()
-        self.address = f"tcp://{host}:{self.port}"
+    def __init__(self, folder, host="127.0.0.1", tls=()):
+        """tls: the flags that name an authority, a certificate and its key."""
+        self.folder, self.port, self.tls = folder, free_port(), tls
+        self.address = f"{'tls' if tls else 'tcp'}://{host}:{self.port}"
         self.processes = []
-        self.run("distributed.cli.dask_scheduler", "--host", host, "--port", str(self.port), "--no-dashboard")
+        self.run("distributed.cli.dask_scheduler", "--host", host, "--port", str(self.port), "--no-dashboard", *tls)
 
     def run(self, module, *words, before=()):
         self.processes.append(subprocess.Popen(
@@ -110,7 +111,8 @@ class Cluster:
         return self.processes[-1]
 
     def add_worker(self, before=(), host=""):
-        words = [self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", self.folder]
+        words = [self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", self.folder,
+                 *self.tls]
         words += ["--host", host] if host else []
         return self.run("distributed.cli.dask_worker", *words, before=before)
 
