@@ -1,5 +1,6 @@
 """Jobs whose workers are killed at random moments; in every fourth one everything is killed, and the job resumed. Every
-picture has the bytes of one render, and every sample was counted once.
+picture has the bytes of one render, and every sample was counted once. A job that finds no worker in time, as on a busy
+machine, says what is missing, and is resumed too.
 
     deaths.py BINARY SCENES [--jobs 40] [--seed 1]
 """
@@ -14,6 +15,7 @@ from cluster import bench_of_arguments, children_of, kill, workers_of
 
 FLAGS = ["--size", "240x135", "--spp", "64"]
 KILLS_EVERY = 3.0  # seconds, mean
+TRY_ELSEWHERE = 75
 MAX_KILLS = 4  # more, and a task that is killed again and again ends the job, as it should
 
 
@@ -36,6 +38,9 @@ def play(bench, name, chance, kills_all):
             kill(chance.choice(workers))
             kills += 1
     out, err = child.communicate()
+    if child.returncode == TRY_ELSEWHERE and "missing: samples" in err:
+        out, err = (child := bench.start("mixed", name, *FLAGS, *words, "--resume")).communicate()
+        resumes += 1
     if child.returncode != 0:
         raise SystemExit(f"{name}: exit {child.returncode}: {err}")
     return json.loads(out), kills, resumes
