@@ -79,11 +79,14 @@ void price_forced_off(const Scene& scene, std::int64_t frame, const RenderOption
 
 PilotedPlan pilot_plan(const Scene& animated, std::int64_t frame, const RenderOptions& options) {
     RenderSession session(animated, options);
-    const std::optional<ErrorPilot> pilot = session.pilot(frame);
+    const bool is_denoised = options.plan.wants_denoised && session.plan_of(frame).is_denoised();
+    const std::optional<ErrorPilot> pilot = is_denoised ? std::nullopt : session.pilot(frame);
     PilotedPlan result{.plan = session.plan(), .json = plan_json(session.scene(), session.plan())};
     if (!pilot) {
         result.text =
-            "forecast  unknown: samples depend on earlier ones, so their error cannot be estimated\n";
+            fmt::format("forecast  unknown: {}\n",
+                        is_denoised ? "how fast the error of a denoised picture falls depends on it"
+                                    : "samples depend on earlier ones, so their error cannot be estimated");
         return result;
     }
     const double error = *options.error_target;

@@ -57,6 +57,11 @@ struct RenderOutcome {
     std::optional<Denoised> denoised;  // set when requested, for a whole image
     std::optional<FilmSums> film;      // see RenderOptions::needs_film
     std::uint32_t rows_ahead = 0;      // rows from the top that have one sample more than statistics.samples
+
+    // Of what is shown: the denoised image where there is one.
+    [[nodiscard]] const ErrorEstimate& error() const {
+        return denoised && denoised->is_filtered() ? denoised->claim : statistics.error;
+    }
 };
 
 // Adds what a step of this plan did: times, counters and faults.

@@ -31,6 +31,12 @@ void measure_process(RenderStatistics& statistics) {
     statistics.peak_rss_mib = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+void add_passes(std::span<const PassTime> passes, RenderStatistics& statistics) {
+    add_times(statistics.passes, passes);
+    for (const PassTime& pass : passes)
+        statistics.gpu_ms += pass.ms;
+}
+
 void warn_about_camera(const Scene& scene, const PreparedScene& prepared,
                        std::vector<std::string>& warnings) {
     const MarchWorld& march_world = prepared.march_world;
@@ -139,6 +145,7 @@ std::optional<ErrorPilot> RenderSession::pilot(std::int64_t frame) {
 ErrorPrior RenderSession::error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                       Clock::time_point start) {
     if (!options.error_target) return {};
+    if (denoises() && !last_points_) return {};  // the pilot knows the noise of plain images
     if (last_points_) return {.points = *last_points_, .from = DecidedBy::frame_before};
     const auto stops = [&] {
         if (options.interrupted != nullptr && options.interrupted->load()) return true;
@@ -165,12 +172,14 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     options.time_limit_s = time_limit_s;
     const bool is_first = !last_points_;
     const FilmStart film = options.resume ? options.resume(*scene_, plan(), device_.info()) : FilmStart{};
+    std::vector<PassTime> looks;
     const FrameInputs inputs{.renderer = *renderer_,
                              .options = options,
                              .film = film,
                              .start = start,
                              .guess = error_prior(options, film.position.samples, start),
-                             .shares = shares_};
+                             .shares = shares_,
+                             .claim = claim_of_shown(looks)};
     SampleLoop loop(inputs);
     MemoryReserve reserve(end_bytes(plan(), picture_use(options, kAnyTime_s)), bytes_to_come());
     FrameCalls calls{.on_progress = on_progress, .save = [&] {
@@ -191,6 +200,7 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
     reserve.release();
     RenderOutcome outcome = loop.outcome();
     denoise(outcome);
+    add_passes(looks, outcome.statistics);
     if (is_first) outcome.statistics.forecast = forecast_;
     last_points_ = loop.own_points();
     complete(outcome, load_s, start);
@@ -199,28 +209,46 @@ RenderOutcome RenderSession::render(std::int64_t frame, std::optional<double> ti
 }
 
 // Parts are not denoised: they are no whole film, and nobody looks at their image.
+bool RenderSession::denoises() const {
+    return options_.plan.wants_denoised && plan().part.empty() && plan().is_denoised();
+}
+
+Denoised RenderSession::denoised(const FilmSums& film) {
+    try {
+        return denoise_film(film, renderer_->executor());
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::out_of_memory) throw;
+        return {.reason = error.what()};
+    }
+}
+
+// An error target is one of the denoised image, where there will be one. `passes` gets the times of each
+// look.
+std::function<ErrorEstimate(const FilmSums&, const ErrorEstimate&)> RenderSession::claim_of_shown(
+    std::vector<PassTime>& passes) {
+    if (!denoises()) return {};
+    return [&](const FilmSums& film, const ErrorEstimate& plain) {
+        const Denoised look = denoised(film);
+        add_times(passes, look.passes);
+        return look.is_filtered() ? look.claim : plain;
+    };
+}
+
 void RenderSession::denoise(RenderOutcome& outcome) {
     if (!options_.plan.wants_denoised || !outcome.plan.part.empty()) return;
-    Denoised& denoised = outcome.denoised.emplace();
+    Denoised& result = outcome.denoised.emplace();
     if (!outcome.plan.is_denoised()) {
         const bool shares = outcome.plan.any(&Technique::shares_samples);
-        denoised.reason = shares ? "pixels share occlusion samples" : kNoHalves;
+        result.reason = shares ? "pixels share occlusion samples" : kNoHalves;
         return;
     }
     VX_ASSERT(outcome.film.has_value());
     RenderStatistics& statistics = outcome.statistics;
-    try {
-        denoised = denoise_film(*outcome.film, renderer_->executor());
-    } catch (const Error& error) {
-        if (error.code() != ExitCode::out_of_memory) throw;
-        denoised.reason = error.what();
-    }
-    denoised.claim = claim_with(denoised.claim, statistics.faults);
+    result = denoised(*outcome.film);
+    result.claim = claim_with(result.claim, statistics.faults);
     statistics.memory = renderer_->executor().needed_memory();
     statistics.pipelines = renderer_->executor().pipelines_created();
-    add_times(statistics.passes, denoised.passes);
-    for (const PassTime& pass : denoised.passes)
-        statistics.gpu_ms += pass.ms;
+    add_passes(result.passes, statistics);
 }
 
 // Host bytes that a software device has yet to allocate for this plan.

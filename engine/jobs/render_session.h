@@ -58,6 +58,10 @@ class RenderSession {
     [[nodiscard]] std::optional<ErrorPilot> run_pilot(const std::function<bool()>& stops);
     [[nodiscard]] ErrorPrior error_prior(const RenderOptions& options, std::uint32_t samples_done,
                                          std::chrono::steady_clock::time_point start);
+    [[nodiscard]] bool denoises() const;
+    [[nodiscard]] Denoised denoised(const FilmSums& film);
+    [[nodiscard]] std::function<ErrorEstimate(const FilmSums&, const ErrorEstimate&)> claim_of_shown(
+        std::vector<PassTime>& passes);
     void denoise(RenderOutcome& outcome);
     [[nodiscard]] std::uint64_t bytes_to_come();
     void complete(RenderOutcome& outcome, double load_s, std::chrono::steady_clock::time_point start);

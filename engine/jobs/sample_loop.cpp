@@ -95,9 +95,18 @@ bool SampleLoop::is_checkpoint_wanted() const {
     return wanted != nullptr && inputs_.options.keeps_film && wanted->exchange(false);
 }
 
+// A look at the denoised image takes no longer than the end of the render.
+bool SampleLoop::has_time_to_look() const {
+    const auto limit_s = rule_.time_limit_s();
+    return !inputs_.claim || !limit_s || clock_.now_s() + 2.0 * rule_.kept_s() < *limit_s;
+}
+
 ErrorEstimate SampleLoop::measure_error() {
-    const FilmSums film = added_to(inputs_.film.sums, inputs_.renderer.ready_film().read_for_error());
-    const ErrorEstimate error = claimed_error_of(film, statistics_.faults);
+    if (!has_time_to_look()) return unknown_error();
+    FilmSteps& steps = inputs_.renderer.ready_film();
+    const FilmSums film = added_to(inputs_.film.sums, inputs_.claim ? steps.read() : steps.read_for_error());
+    ErrorEstimate error = claimed_error_of(film, statistics_.faults);
+    if (inputs_.claim) error = claim_with(inputs_.claim(film, error), statistics_.faults);
     watch_.add(samples(), error, clock_.now_s());
     return error;
 }
@@ -153,6 +162,7 @@ RenderOutcome SampleLoop::outcome() {
 void SampleLoop::add_projection(RenderStatistics& statistics) const {
     if (rule_.rounds()) statistics.rounds = rule_.rounds()->rounds();
     if (statistics.stop == StopReason::error_target) statistics.decided_by = rule_.rounds()->decided_by();
+    if (inputs_.claim) return;  // how fast that error falls depends on the image
     const auto curve = watch_.curve_with(statistics.samples, statistics.error);
     const double taken = statistics.samples - clock_.first_samples();
     if (!curve || taken <= 0.0 || !statistics.error.is_known()) return;

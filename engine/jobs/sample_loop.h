@@ -23,6 +23,8 @@ struct FrameInputs {
     std::chrono::steady_clock::time_point start;
     ErrorPrior guess;                // of the error, when there is a target
     std::vector<NoiseShare> shares;  // of the noise, as far as known
+    // Of the image that will be shown, where that is not the plain one, whose error is the second argument.
+    std::function<ErrorEstimate(const FilmSums&, const ErrorEstimate&)> claim;
 };
 
 // What a frame calls while it runs.
@@ -52,6 +54,7 @@ class SampleLoop {
   private:
     [[nodiscard]] bool take_sample(const FrameCalls& calls);
     [[nodiscard]] bool is_checkpoint_wanted() const;
+    [[nodiscard]] bool has_time_to_look() const;
     [[nodiscard]] ErrorEstimate measure_error();
     void rehearse_end(const std::function<void(RenderOutcome)>& rehearse);
     void report_progress(const std::function<void(const Progress&)>& on_progress);

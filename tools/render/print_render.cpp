@@ -8,7 +8,7 @@
 namespace voxilux {
 
 bool missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
-    return command.error_target && !(outcome.statistics.error.high <= *command.error_target);
+    return command.error_target && !(outcome.error().high <= *command.error_target);
 }
 
 std::string target_text(const RenderCommand& command) {
@@ -41,10 +41,9 @@ void print_warnings(const RenderCommand& command, const RenderOutcome& outcome, 
 
 void print_missed_error(const RenderCommand& command, const RenderOutcome& outcome) {
     if (command.report.quiet || !missed_error(command, outcome)) return;
-    const RenderStatistics& statistics = outcome.statistics;
     print_message(
         "warning: stopped after {} samples with an error of up to {:.3g} %, over the {} asked for\n",
-        statistics.samples, 100.0 * statistics.error.high, target_text(command));
+        outcome.statistics.samples, 100.0 * outcome.error().high, target_text(command));
 }
 
 void print_outcome(const RenderCommand& command, const std::vector<std::string>& outputs,

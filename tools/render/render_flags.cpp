@@ -22,9 +22,10 @@ void add_output_flags(Flags& flags, RenderCommand& command) {
     flags.add("--sheet", "FILE.png", command.sheet, "a contact sheet of all pictures, too");
     add_report_flags(flags, command.report);
     add_tone_flags(flags, command.pictures.tone);
-    flags.add_parsed("--denoise", "on|off", command.denoises, parse_denoise,
-                     "filter the noise of the picture, and estimate the error that is left; an EXR has both "
-                     "pictures (default off)");
+    flags.add_parsed(
+        "--denoise", "on|off", command.denoises, parse_denoise,
+        "filter the noise of the picture, and estimate the error that is left, which --error then "
+        "looks at; an EXR has both pictures (default off)");
     flags.add_switch("--reproducible", command.pictures.reproducible,
                      "leave date and times out of the files: equal runs write equal bytes");
     add_progress_flag(flags, command.progress);
@@ -88,8 +89,6 @@ void check_part_flags(const RenderCommand& command, bool writes_exr) {
     if (is_part(command) && command.error_target)
         refuse(fmt::format("{} and --error: the error of the whole picture is not known before voxilux merge",
                            part_flag(command)));
-    if (command.denoises && command.error_target)
-        refuse("--denoise on and --error: what ends a render is the error of its plain picture; use --spp");
     if (writes_exr) return;
     if (is_part(command))
         refuse(
