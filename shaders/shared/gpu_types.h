@@ -107,6 +107,7 @@ struct FrameParams {
     uint seed;
     float ao_radius;  // voxels
     vec3 sky_radiance;
+    float sky_turn;          // of an image of the sky, counter-clockwise seen from above, full turns
     vec3 sun_direction;      // unit, towards the sun
     vec3 sun_irradiance;     // on a surface facing the sun
     float sun_cone_height;   // cone_height of the sun's angular radius
