@@ -15,7 +15,7 @@ VX_BEGIN
 struct SkyGrid {
     uint columns;
     uint rows;
-    float turn;  // of the image, counter-clockwise seen from above, in full turns
+    float turn;  // of the image, counter-clockwise seen from above, in full turns: [-1/2, 1/2]
 };
 
 // The texel that a unit direction is in.
