@@ -1,8 +1,7 @@
 // A path that starts at a visible point, ray by ray. Each diffuse surface sends up to four rays, one after
-// the other: to the sun, to an image of the sun, to an emitter, and the path's own next ray. Under an image of
-// the sky, there is a fifth, to a texel of it. The balance
-// heuristic weighs light that several of them can find (Veach and Guibas 1995). Include lib/path.glsl and
-// lib/lights.glsl first.
+// the other: to the sun, to an image of the sun, to an emitter, and the path's own next ray; under an image
+// of the sky a fifth, to a texel of it. The balance heuristic weighs light that several of them can find
+// (Veach and Guibas 1995). Include lib/path.glsl and lib/lights.glsl first.
 //
 // Each light path is found exactly once. Direct light at the visible point: from the sky by the path; from
 // the sun by sun.trace; from emitters by direct.trace, which aims at them, together with the path's first

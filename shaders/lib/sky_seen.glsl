@@ -1,4 +1,5 @@
-// The radiance of an atmosphere, or of an image of the sky, for a ray that leaves the scene. Include lib/surface.glsl first.
+// The radiance of an atmosphere, or of an image of the sky, for a ray that leaves the scene. Include
+// lib/surface.glsl first.
 #ifndef VX_SKY_SEEN_GLSL
 #define VX_SKY_SEEN_GLSL
 

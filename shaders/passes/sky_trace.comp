@@ -2,12 +2,12 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light of an atmosphere, or of an image of the sky. For a ray that leaves the scene: the radiance of the sky there. For a hit:
-// irradiance / pi from the sky, by rays that meet nothing within the occlusion radius, and its visibility,
-// the fraction of cosine-distributed rays that do not. Rays from voxels are drawn in proportion to the light
-// that an unoccluded face receives; rays from spheres are cosine-distributed. Under an image, half of the rays
-// are, and the others are drawn in proportion to its light; each counts by the mean density of both, which is
-// the balance heuristic (Veach and Guibas 1995).
+// Light of an atmosphere, or of an image of the sky. For a ray that leaves the scene: the radiance of the sky
+// there. For a hit: irradiance / pi from the sky, by rays that meet nothing within the occlusion radius, and
+// its visibility, the fraction of cosine-distributed rays that do not. Rays from voxels are drawn in
+// proportion to the light that an unoccluded face receives; rays from spheres are cosine-distributed. Under
+// an image, half of the rays are, and the others are drawn in proportion to its light; each counts by the
+// mean density of both, which is the balance heuristic (Veach and Guibas 1995).
 
 #include "lib/address.glsl"
 

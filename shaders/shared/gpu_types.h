@@ -115,8 +115,7 @@ struct FrameParams {
     float ground_luminance;  // of the ground where no light is blocked
     uint light_count;
     float light_power;  // of all emitters: sum of light selection weight times etendue
-    // Photons of one sample: first those of the emitters, then those of the sun, which start on a disc that
-    // covers everything the sun can reach.
+    // Photons of one sample: first of the emitters, then of the sun, from a disc that covers all it reaches.
     uint emitter_photons;
     uint sun_photons;
     vec3 sun_disc_centre;   // local to the world
