@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <span>
 
 #include <fmt/format.h>
@@ -20,6 +22,11 @@ constexpr int kRowsAtOnce = 16;  // of an EXR, whose other channels take memory,
 
 [[noreturn]] void refuse_sky(const std::filesystem::path& path, const std::string& what) {
     throw Error(ExitCode::input_refused, fmt::format("{}: {}", printable(path.string(), kUncut), what));
+}
+
+bool is_exr(std::span<const std::byte> bytes) {
+    constexpr std::array<std::uint8_t, 4> kMagic{0x76, 0x2F, 0x31, 0x01};
+    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
 }
 
 void append_colours(const std::filesystem::path& path, const Image& rows, SkyImage& sky) {
@@ -62,6 +69,7 @@ bool repair(glm::vec3& texel) {
 
 SkyImage load_sky_image(const std::filesystem::path& path, std::vector<std::string>& warnings) {
     const std::vector<std::byte> bytes = read_file(path, kMaxSkyFileBytes);
+    if (!is_hdr(bytes) && !is_exr(bytes)) refuse_sky(path, "neither an EXR nor a Radiance image (.hdr)");
     SkyImage sky = is_hdr(bytes) ? read_hdr_sky(path, bytes) : read_exr_sky(path);
     const auto repaired = std::ranges::count_if(sky.texels, repair);
     if (repaired != 0)

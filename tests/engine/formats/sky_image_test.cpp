@@ -182,7 +182,8 @@ TEST(SkyImageFile, numbers_that_are_no_radiance_are_repaired_and_counted) {
 TEST(SkyImageFile, what_is_no_image_of_a_sky_is_refused) {
     const ScratchFolder folder;
     write_text(folder / "a.exr", "no image");
-    EXPECT_NE(sky_refusal(folder / "a.exr"), "accepted");
+    EXPECT_EQ(sky_refusal(folder / "a.exr"),
+              (folder / "a.exr").string() + ": neither an EXR nor a Radiance image (.hdr)");
     EXPECT_NE(sky_refusal(folder / "absent.exr"), "accepted");
     EXPECT_NE(sky_refusal(folder.path()), "accepted");
     const std::array<std::string, 1> depth{"Z"};
