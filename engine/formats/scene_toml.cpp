@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "formats/sky_image.h"
 #include "formats/toml_scene.h"
 #include "formats/vox_objects.h"
 #include "formats/vox_read.h"
@@ -113,6 +114,27 @@ void merge(toml::table& into, toml::table& from) {
     }
 }
 
+// The image of the sky, for scenes that have one. A .vox file may have brought it already.
+void read_sky_image(TomlScene& in) {
+    Sky& sky = in.scene.sky;
+    const toml::table* table = find_section(in, "sky");
+    const toml::node* file = table != nullptr ? table->get("image") : nullptr;
+    if (file != nullptr && !table->contains("model")) sky.model = SkyModel::image;
+    if (!sky.is_image()) {
+        sky.image = {};
+        return;
+    }
+    if (file == nullptr && sky.image.texels.empty())
+        refuse_at(table->source(), "[sky] with the model 'image' needs 'image', the name of a file");
+    if (file == nullptr) return;
+    try {
+        sky.image = load_sky_image(in.folder / sky.image_file, in.scene.warnings);
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::input_refused) throw;
+        refuse_at(file->source(), fmt::format("'image' in [sky] cannot be used: {}", error.what()));
+    }
+}
+
 void read_tree(toml::table& root, const std::filesystem::path& file, const LoadOptions& options,
                Scene& scene) {
     for (const std::string& option : options.overrides) {
@@ -127,6 +149,7 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
         if (const toml::table* table = find_section(in, name))
             (void)read_settings(*table, fmt::format("[{}]", name), settings);
     });
+    read_sky_image(in);
     read_technique(in);
     read_materials(in);
     read_models(in);
@@ -144,6 +167,20 @@ void read_tree(toml::table& root, const std::filesystem::path& file, const LoadO
 
 void end_step(const LoadOptions& options, const char* label) {
     if (options.times != nullptr) options.times->end_step(label);
+}
+
+// The image that the settings of a .vox file name is used where a file of that name is beside it.
+void load_vox_sky(const std::filesystem::path& file, Scene& scene) {
+    Sky& sky = scene.sky;
+    if (!sky.is_image()) return;
+    try {
+        sky.image = load_sky_image(file.parent_path() / sky.image_file, scene.warnings);
+    } catch (const Error& error) {
+        if (error.code() != ExitCode::input_refused) throw;
+        sky = Sky{};
+        scene.notes.push_back(
+            fmt::format("the image of the sky cannot be used, and our sky is shown: {}", error.what()));
+    }
 }
 
 std::string lower_extension(const std::filesystem::path& file) {
@@ -188,7 +225,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file, cons
 Scene scene_of_file(const VoxFile& vox, const std::filesystem::path& file, const LoadOptions& options) {
     Scene scene;
     place_vox(scene, add_vox(scene, vox, options.frame), Rotation{}, glm::ivec3(0));
-    if (!options.ignores_file_settings) apply_vox_settings(vox, render_objects(vox), scene);
+    if (!options.ignores_file_settings) {
+        apply_vox_settings(vox, render_objects(vox), scene);
+        load_vox_sky(file, scene);
+    }
     toml::table root;
     read_tree(root, file, options, scene);
     end_step(options, "scene");

@@ -79,7 +79,7 @@ SkyPlanes record_sky(const RenderPlan& plan, const DispatchTile& tile, const Pla
     if (traces_sky(plan)) return record_sky_trace(plan, tile, hits, rec);
     const Plane ao =
         plan.has(Effect::ao) ? record_ao(plan, tile, hits, step, rec) : constant_value(1.0f, rec);
-    if (plan.has_atmosphere()) {
+    if (plan.has_sky_plane()) {
         const Plane seen = plan.paths.runs() ? constant_value(0.0f, rec) : ao;  // paths find it at surfaces
         return {record_sky_resolve(plan, tile, hits, seen, rec), ao};
     }

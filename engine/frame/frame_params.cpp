@@ -130,7 +130,8 @@ gpu::FrameParams frame_params(const RenderPlan& plan, const Scene& scene, const 
     params.seed = settings.seed;
     params.ao_radius = settings.ao_radius;
     params.sky_radiance =
-        plan.has(Effect::sky) && !plan.has_atmosphere() ? scene.sky.radiance : glm::vec3(0.0f);
+        plan.has(Effect::sky) && !plan.has_sky_plane() ? scene.sky.radiance : glm::vec3(0.0f);
+    params.sky_turn = static_cast<float>(std::remainder(double{scene.sky.rotation_deg}, 360.0) / 360.0);
     params.sun_direction = scene.sun.direction();
     params.sun_irradiance = plan.has(Effect::sun) ? sunlight(scene) : glm::vec3(0.0f);
     params.sun_cone_height =

@@ -55,6 +55,8 @@ Verdict verdict_of_sun(const SceneFacts& facts, const EffectRequest&) {
 Verdict verdict_of_sky(const SceneFacts& facts, const EffectRequest&) {
     if (!facts.has_sky && facts.has_atmosphere) return {false, false, "the atmosphere has no sun"};
     if (!facts.has_sky) return {false, false, "the sky is black"};
+    if (facts.sky_image.x != 0)
+        return {true, true, fmt::format("an image of {} x {} texels", facts.sky_image.x, facts.sky_image.y)};
     return {true, true, facts.has_atmosphere ? "an atmosphere scatters sunlight" : "constant sky radiance"};
 }
 

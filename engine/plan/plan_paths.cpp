@@ -26,8 +26,8 @@ constexpr double kMaxRounds = 16.0;
 
 PathPlan plan_paths(const PathNeeds& needs, const DeviceLimits& limits) {
     const double spheres = kVisitsOfPaths * needs.sphere_visits;
-    const double turns =
-        kRaysOfVertex * (1.0 + spheres + (needs.has_voxels ? kTurnsOfMarch : 0.0));  // of a surface
+    const double rays = kRaysOfVertex + (needs.aims_at_sky ? 1.0 : 0.0);
+    const double turns = rays * (1.0 + spheres + (needs.has_voxels ? kTurnsOfMarch : 0.0));  // of a surface
     const double albedo = std::min(needs.max_albedo, 1.0);
     const double mean = turns / std::max(1.0 - albedo, kLeastLoss);
     const double most = gpu::kMaxPathSurfaces;

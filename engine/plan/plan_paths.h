@@ -17,6 +17,7 @@ struct PathPlan {
 
 // What the plan of paths depends on.
 struct PathNeeds {
+    bool aims_at_sky = false;    // at an image of it
     double max_albedo = 0.0;     // of a diffuse material
     double sphere_visits = 0.0;  // of a ray that looks for spheres
     bool has_voxels = false;

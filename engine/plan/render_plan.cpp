@@ -8,6 +8,7 @@
 #include "plan/film_planes.h"
 #include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
+#include "shared/alias.h"
 #include "shared/gpu_types.h"
 
 namespace voxilux {
@@ -67,15 +68,26 @@ void check_part(const RenderPlan& plan) {
     }
 }
 
+void check_sky_image(glm::ivec2 size, const DeviceLimits& limits) {
+    const auto words =
+        gpu::kAliasWords * static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+    if (words > limits.max_texels)
+        throw Error(
+            ExitCode::out_of_memory,
+            fmt::format("the image of the sky, {}x{}, is too large for {}: its table may have {} words",
+                        size.x, size.y, limits.name, limits.max_texels));
+}
+
 // The ground shows a shadow as the light that is missing, which is known only under a constant sky.
 void check_shadows(const RenderPlan& plan, const Scene& scene) {
     if (!plan.catches_shadows) return;
     if (!plan.sums_coverage)
         throw Error(ExitCode::input_refused,
                     "[ground] 'shadow_only' needs a background: --alpha, or --background COLOR");
-    if (scene.sky.is_atmosphere())
+    if (scene.sky.model != SkyModel::constant)
         throw Error(ExitCode::input_refused,
-                    "[ground] 'shadow_only' needs a constant sky, not an atmosphere");
+                    fmt::format("[ground] 'shadow_only' needs a constant sky, not an {}",
+                                kSkyModelNames[static_cast<std::size_t>(scene.sky.model)]));
 }
 
 // Paths that find caustics find all light.
@@ -153,6 +165,9 @@ void add_notes(RenderPlan& plan, const SceneFacts& facts) {
         plan.notes.emplace_back("no rays look for the sky's light at surfaces, which is that of its tables");
     if (plan.has(Effect::sky) && is_polished && !plan.paths.runs())
         plan.notes.emplace_back("glass and mirrors block the light of the sky as walls do");
+    if (plan.has_sky_image() && is_polished && plan.paths.runs())
+        plan.notes.emplace_back(
+            "light of the sky by way of mirrors and glass is found by chance: bright spots of it are noisy");
     if (plan.has(Effect::sun) && plan.paths_find_sun_caustics && plan.has_specular_spheres)
         plan.notes.emplace_back(
             "sunlight by way of spheres of metal and glass is found by chance: it is noisy");
@@ -176,6 +191,8 @@ void take_scene(RenderPlan& plan, const Scene& scene, const SceneFacts& facts, c
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     plan.has_specular_spheres = facts.has_specular_spheres;
     if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
+    plan.sky_image = facts.sky_image;
+    check_sky_image(plan.sky_image, limits);
 }
 
 }  // namespace
@@ -256,7 +273,8 @@ RenderPlan plan_render(const Scene& scene, const SceneFacts& facts, const WorldF
                          limits);
     }
     if (plan.any(&Technique::by_paths))
-        plan.paths = plan_paths({.max_albedo = facts.max_albedo,
+        plan.paths = plan_paths({.aims_at_sky = plan.paths_aim_at_sky(),
+                                 .max_albedo = facts.max_albedo,
                                  .sphere_visits = world.sphere_visits,
                                  .has_voxels = plan.has(Effect::voxels)},
                                 limits);

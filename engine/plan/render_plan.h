@@ -78,6 +78,7 @@ struct RenderPlan {
     bool has_specular_spheres = false;     // of glass or metal
     bool paths_find_sun_caustics = false;  // whatever finds those of emitters
     std::uint32_t sky_resolution = 0;      // of the atmosphere; 0: the sky is constant
+    glm::ivec2 sky_image{0};               // columns and rows of an image of the sky; 0: there is none
     PhotonPlan photons;                    // all zero without caustics and indirect light
     PathPlan paths;                        // all zero without them
     bool sums_squares = false;             // of the beauty, for its variance
@@ -99,6 +100,11 @@ struct RenderPlan {
         return has(Effect::spheres) && sphere_count > gpu::kFewSpheres;
     }
     [[nodiscard]] bool has_atmosphere() const { return has(Effect::sky) && sky_resolution != 0; }
+    [[nodiscard]] bool has_sky_image() const { return has(Effect::sky) && sky_image.x != 0; }
+    // Whether the light of the sky depends on the direction, and is a plane of each sample.
+    [[nodiscard]] bool has_sky_plane() const { return has_atmosphere() || has_sky_image(); }
+    // Whether paths aim at an image of the sky, as they do at emitters.
+    [[nodiscard]] bool paths_aim_at_sky() const { return has_sky_image() && !settings.paths.plain; }
     [[nodiscard]] bool has_aerial() const { return has_atmosphere() && has(Effect::aerial); }
     // Whether each ray that leaves the scene traces the air by a path, instead of a look-up.
     [[nodiscard]] bool traces_air() const { return has_atmosphere() && settings.traces_air; }
@@ -129,9 +135,9 @@ struct RenderPlan {
         return has(Effect::direct) && is_by_paths(Effect::indirect) && !settings.paths.plain;
     }
     // Whether paths need the normal of the visible point: to weigh what they meet first, or to aim at the
-    // sun.
+    // sun or at an image of the sky.
     [[nodiscard]] bool paths_keep_normals() const {
-        return paths_share_direct() || (paths_find_sun_caustics && has(Effect::sun));
+        return paths_share_direct() || paths_aim_at_sky() || (paths_find_sun_caustics && has(Effect::sun));
     }
     // Invocations that trace the paths of `rows` rows.
     [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {

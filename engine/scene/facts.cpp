@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "scene/atmosphere.h"
 #include "scene/lobe_weights.h"
+#include "scene/sky_image.h"
 
 namespace voxilux {
 namespace {
@@ -109,6 +110,18 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
     facts.simplified = simplifications.sentences();
 }
 
+bool has_sky(const Scene& scene) {
+    switch (scene.sky.model) {
+        case SkyModel::constant:
+            return any_positive(scene.sky.radiance);
+        case SkyModel::atmosphere:
+            return scene.sun.on && any_positive(scene.sun.irradiance);
+        case SkyModel::image:
+            return scene.sky.strength > 0.0f && has_light(scene.sky.image);
+    }
+    VX_ASSERT(false);
+}
+
 double cell_count(const Box& box) {
     const glm::dvec3 extent(box.extent());
     return extent.x * extent.y * extent.z;
@@ -145,8 +158,8 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
     }
     facts.sun_reaches = any_positive(sunlight(scene));
     facts.has_atmosphere = scene.sky.is_atmosphere();
-    facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
-                                         : any_positive(scene.sky.radiance);
+    if (scene.sky.is_image()) facts.sky_image = scene.sky.image.size;
+    facts.has_sky = has_sky(scene);
     if (facts.has_atmosphere) facts.haze = haze_before_surfaces(scene, facts.box);
     facts.aperture = scene.lens.aperture;
     measure_materials(scene, std::move(voxels.used), facts);
@@ -181,6 +194,8 @@ std::string describe(const SceneFacts& facts) {
     line("sun reaches", yes_no(facts.sun_reaches));
     line("sky", yes_no(facts.has_sky));
     if (facts.has_atmosphere) line("atmosphere", "yes");
+    if (facts.sky_image.x != 0)
+        line("sky image", fmt::format("{} x {} texels", facts.sky_image.x, facts.sky_image.y));
     if (facts.aperture > 0.0) line("aperture", fmt::format("{} voxels", facts.aperture));
     line("emitters", yes_no(facts.has_emitters));
     line("glass", yes_no(facts.has_glass));

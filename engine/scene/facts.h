@@ -28,6 +28,7 @@ struct SceneFacts {
     bool sun_reaches = false;  // switched on, above the horizon, irradiance > 0
     bool has_sky = false;      // radiance > 0, or an atmosphere with a sun
     bool has_atmosphere = false;
+    glm::ivec2 sky_image{0};            // columns and rows of an image of the sky, 0 without one
     double aperture = 0.0;              // of the lens, voxels
     bool has_emitters = false;          // a used material with emission > 0
     bool has_glass = false;             // a used material that lets light through

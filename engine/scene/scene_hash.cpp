@@ -172,6 +172,10 @@ class Hasher {
         std::visit([&](const auto& held) { add(held); }, value);
     }
     void add(const HexColour&) {}  // another way to write what has been added
+    void add(const SkyImage& image) {
+        add(image.size);
+        add_bytes(image.texels.data(), image.texels.size() * sizeof(glm::vec3));
+    }
 
     [[nodiscard]] std::uint64_t digest() const { return XXH3_64bits_digest(state_.get()); }
 
@@ -187,9 +191,13 @@ class Hasher {
 std::uint64_t hash_with(const Scene& scene, std::uint32_t spp) {
     Hasher hasher;
     hasher.add(scene);
+    hasher.add(scene.sky.image);
     visit_sections(scene, [&](std::string_view, auto settings) {
         if constexpr (std::is_same_v<decltype(settings), RenderSettings>) settings.spp = spp;
-        visit_settings(settings, [&](const Setting&, const auto& value) { hasher.add(value); });
+        visit_settings(settings, [&]<class T>(const Setting&, const T& value) {
+            // The name of a file does not matter: what is in it has been added.
+            if constexpr (!std::is_same_v<T, std::string>) hasher.add(value);
+        });
     });
     return hasher.digest();
 }

@@ -45,7 +45,7 @@ constexpr Range between(double low, double high) {
 
 inline constexpr Range kWhole{0, 4294967295};
 // Radiance and irradiance: far above any sun, and the square still fits a float.
-inline constexpr Range kLight{0, 1e6};
+inline constexpr Range kLight{0, kMaxRadiance};
 // Multiples of the Earth's; at 100 no light gets through.
 inline constexpr Range kDensity{0, 100};
 // Degrees: ten turns, for the sake of animations.
@@ -166,11 +166,14 @@ void visit_settings(Sun& sun, auto&& visit) {
 }
 
 void visit_settings(Sky& sky, auto&& visit) {
-    auto& [model, radiance, altitude_m, metres_per_voxel, rayleigh, mie, ozone, mie_g, ground_albedo,
-           resolution] = sky;
+    auto& [model, radiance, image_file, rotation_deg, strength, image, altitude_m, metres_per_voxel, rayleigh,
+           mie, ozone, mie_g, ground_albedo, resolution] = sky;  // the image is in the file
     visit({"model", {}, "see Sky", kSkyModelNames}, model);
     visit({"radiance", kLight, "of the constant sky, from every direction"}, radiance);
     visit({"color", {}, "the same in sRGB"}, HexColour{radiance, "radiance"});
+    visit({"image", {}, "file of the image; makes it the model unless `model` is given"}, image_file);
+    visit({"rotation", kTurn, "of the image, degrees counter-clockwise seen from above"}, rotation_deg);
+    visit({"strength", kLight, "factor of its radiance"}, strength);
     visit({"altitude", {0, 1e6}, "of z = 0 above the planet's ground, metres"}, altitude_m);
     visit({"metres_per_voxel", above(0, 1e6), "size of the scene in the air"}, metres_per_voxel);
     visit({"rayleigh", kDensity, "density of the air; 1 is the Earth's"}, rayleigh);

@@ -26,6 +26,7 @@ constexpr std::size_t kMaxNotes = 64;
 constexpr double kDegreesOfArea = 43.5;   // angular diameter of a sun of area 1
 constexpr double kEarthsDensity = 0.4;    // of air and aerosol: what the editor starts with
 constexpr double kFrontAzimuth = 270.0;   // degrees; from the front of the model, which is -y
+constexpr double kBehindAzimuth = 90.0;   // degrees
 constexpr double kMaxIntensity = 1000.0;  // far above the editor's sliders
 constexpr double kMaxExposureStops = 16.0;
 constexpr double kUnusedRadius = 1.0;  // of a camera slot that was never set, at most
@@ -159,17 +160,30 @@ void apply_atmosphere(const Settings& settings, Sky& sky) {
     sky.mie_g = static_cast<float>(settings.number("_atm", "_mie_g", 0.85, -0.99, 0.99));
 }
 
+// Only a file beside the .vox is ever looked at, whatever folder the path names. The rotation is taken to be
+// clockwise, as the azimuth of the sun is; that the middle of an image without one is behind the model, as
+// seen from the front, is assumed.
+void apply_sky_image(const Settings& settings, Scene& scene) {
+    const std::string* path = settings.text("_ibl", "_path");
+    const std::string name = path == nullptr ? "" : path->substr(path->find_last_of("/\\") + 1);
+    if (name.empty() || name == "." || name == "..") {
+        settings.note("the settings name no image of the sky: our sky is shown");
+        return;
+    }
+    const double azimuth = settings.numbers("_ibl", "_angle", glm::dvec3(0.0)).y;  // of older files
+    const double angle = settings.numbers("_ibl", "_rot", glm::dvec3(azimuth)).x;
+    scene.sky.model = SkyModel::image;
+    scene.sky.image_file = name;
+    scene.sky.rotation_deg = static_cast<float>(std::remainder(kBehindAzimuth - angle, 360.0));
+    scene.sky.strength = static_cast<float>(settings.number("_ibl", "_i", 1.0, 0.0, kMaxIntensity));
+}
+
 // Modes: 0 a uniform sky, 1 an atmosphere, 2 an image. (The one known file that names an image of its own has
 // mode 2.)
 void apply_sky(const Settings& settings, Scene& scene) {
     const double mode = settings.number("_env", "_mode", 0.0, 0.0, 2.0);
     if (mode == 1.0) return apply_atmosphere(settings, scene.sky);
-    if (mode == 2.0) {
-        const std::string* path = settings.text("_ibl", "_path");
-        settings.note(fmt::format("the image of the sky, {}, is not in the file: our sky is shown",
-                                  quoted_name(path != nullptr ? *path : "")));
-        return;
-    }
+    if (mode == 2.0) return apply_sky_image(settings, scene);
     if (!settings.is_set("_uni", {"_i", "_k"})) return;
     const double intensity = settings.number("_uni", "_i", 0.7, 0.0, kMaxIntensity);
     scene.sky.radiance = static_cast<float>(intensity) * settings.colour("_uni", "_k", 255.0);

@@ -3,6 +3,7 @@
 
     price_list.py                                             table and picture from prices.csv
     price_list.py --measure --voxilux build/release/voxilux   measures the scenes anew first; presets follow
+    price_list.py --measure --scenes studio --keep            measures these, and keeps the prices of the others
 
 Measuring runs `voxilux tradeoff` on every scene of SCENES, one after the other. Nothing else may keep the machine busy
 meanwhile. The picture needs matplotlib.
@@ -25,6 +26,7 @@ PRICES, PRESETS = HERE / "prices.csv", TOP / "tools" / "quality_presets.inc"
 BEGIN, END = "<!-- price list: begin -->", "<!-- price list: end -->"
 SKY, LAMPS = ("256x192", "90s"), ("96x72", "120s")  # size of the picture, and time for all runs of a scene
 SCENES = {"first_light": SKY, "night": SKY, "overcast": SKY, "slit": SKY, "spheres": SKY, "mixed": SKY,
+          "studio": SKY, "far_hills": SKY, "bokeh": SKY,
           "emitters": SKY, "glass_block": LAMPS, "cornell": LAMPS, "mirror": LAMPS, "surgery": LAMPS, "random": LAMPS}
 MOST_SAMPLES = 256  # asked of each scene; the time limit decides how many are measured
 ERRORS = (0.10, 0.05, 0.02, 0.01)  # columns of the table
@@ -151,6 +153,7 @@ def parse_arguments(words):
     parser.add_argument("--measure", action="store_true", help="measure the scenes first")
     parser.add_argument("--voxilux", default=str(TOP / "build/release/voxilux"), help="the program, for --measure")
     parser.add_argument("--scenes", default=",".join(SCENES), help="names of scenes, for --measure")
+    parser.add_argument("--keep", action="store_true", help="keep the prices of all other scenes")
     parser.add_argument("--from", dest="files", nargs="+", help="tradeoff.json files to take prices from, instead")
     parser.add_argument("--check", action="store_true", help="write nothing; exit code 5 when page or presets are stale")
     parser.add_argument("--page", type=pathlib.Path, default=TOP / "docs" / "price_list.md")
@@ -166,6 +169,12 @@ def update_prices(options):
     else:
         with tempfile.TemporaryDirectory() as folder:
             about, rows = read_prices(measure(options, folder))
+    if options.keep:
+        known, old = read_csv(options.prices)
+        if known != about:
+            raise Malformed(f"{options.prices.name}: its prices are of another machine, device or version")
+        measured = {row["scene"] for row in rows}
+        rows = [row for row in old if row["scene"] not in measured] + rows
     choose_presets.choose(rows)  # refuses unusable prices before anything is written
     options.prices.write_text(csv_text(about, rows), encoding="utf-8")
 

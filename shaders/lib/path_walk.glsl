@@ -1,7 +1,7 @@
 // A path that starts at a visible point, ray by ray. Each diffuse surface sends up to four rays, one after
-// the other: to the sun, to an image of the sun, to an emitter, and the path's own next ray. The balance
-// heuristic weighs light that several of them can find (Veach and Guibas 1995). Include lib/path.glsl and
-// lib/lights.glsl first.
+// the other: to the sun, to an image of the sun, to an emitter, and the path's own next ray; under an image
+// of the sky a fifth, to a texel of it. The balance heuristic weighs light that several of them can find
+// (Veach and Guibas 1995). Include lib/path.glsl and lib/lights.glsl first.
 //
 // Each light path is found exactly once. Direct light at the visible point: from the sky by the path; from
 // the sun by sun.trace; from emitters by direct.trace, which aims at them, together with the path's first
@@ -13,6 +13,7 @@
 
 #include "lib/path_sun.glsl"
 #include "lib/sky.glsl"
+#include "lib/sky_image.glsl"
 #include "shared/dimensions.h"
 
 VX_SPECIALIZED(uint, has_atmosphere, 0u);  // else the sky is constant
@@ -22,6 +23,7 @@ VX_SPECIALIZED(uint, has_specular, 0u);
 VX_SPECIALIZED(uint, finds_sun_caustics, 0u);
 VX_SPECIALIZED(uint, finds_emitter_caustics, 0u);
 VX_SPECIALIZED(uint, aims_at_emitters, 1u);  // 0: only random rays find them
+VX_SPECIALIZED(uint, aims_at_sky, 0u);  // at an image of it
 VX_SPECIALIZED(uint, shares_direct, 0u);  // the path's first ray finds emitters, too
 VX_SPECIALIZED(uint, min_surfaces, 4u);   // beyond the visible point, before roulette starts
 
@@ -30,6 +32,7 @@ const uint kRayOn = 1u;
 const uint kRaySun = 2u;
 const uint kRayImage = 3u;  // to an image of the sun
 const uint kRayEmitter = 4u;
+const uint kRaySky = 5u;  // to a texel of an image of the sky
 
 struct Walk {
     PathRay ray;
@@ -47,7 +50,7 @@ struct Walk {
     uint glints;      // surfaces hit by a ray to the sun
     uint vertices;    // diffuse surfaces, the visible point included
     bool is_straight;    // no mirror or glass since the last diffuse surface
-    vec3 expected;       // what a ray to the sun brings; for one to an emitter, the factor of its radiance
+    vec3 expected;       // what a ray to sun or sky brings; for one to an emitter, the factor of its radiance
     DrawnLight emitter;  // the one aimed at
 };
 
@@ -61,6 +64,7 @@ void init_walks() {
     constant_sky = frame.sky_radiance;
     sun_irradiance = frame.sun_irradiance;
     init_sun_images();
+    init_sky_image();
     sample_of_frame = sample_key(0u, uvec2(frame.sample_index, 0u), frame.seed);
 }
 
@@ -179,7 +183,13 @@ void take_emission(inout Walk walk, PathHit found) {
     walk.light += emission * (walk.kind == kRayOn ? carried : aimed);
 }
 
+// The light of the sky that the path's own ray brings, less what rays that aim at it bring.
 vec3 sky_seen(Walk walk) {
+    if (has_sky_image) {
+        vec4 light = sky_image_along(walk.ray.direction);
+        bool is_shared = aims_at_sky != 0u && walk.is_straight;
+        return light.xyz * (is_shared ? balance_weight(walk.pdf, light.w) : 1.0);
+    }
     if (has_atmosphere == 0u) return constant_sky;
     SampleKey key = sample_of_frame;
     key.stream = walk.stream;
@@ -190,6 +200,10 @@ vec3 sky_seen(Walk walk) {
 void take_light(inout Walk walk, PathHit found) {
     if (has_emitters != 0u && is_surface(found.hit)) take_emission(walk, found);
     if (is_surface(found.hit) || walk.kind == kRayEmitter) return;
+    if (aims_at_sky != 0u && walk.kind == kRaySky) {
+        walk.light += walk.expected;
+        return;
+    }
     if (walk.kind == kRayOn) walk.light += walk.throughput * walk.scale * sky_seen(walk);
     if (walk.kind != kRayOn && walk.is_straight)
         walk.light += walk.kind == kRaySun && walk.vertices > 1u ? walk.expected : vec3(0.0);
@@ -254,6 +268,17 @@ bool leave_to_emitter(inout Walk walk) {
     return true;
 }
 
+// Aims at a texel of an image of the sky. False where that is below the horizon of the surface.
+bool leave_to_sky(inout Walk walk) {
+    SampleKey key = sample_of_frame;
+    key.stream = walk.stream;
+    SkyImageSample aim = sample_sky_image(sky_numbers(key, walk.surfaces));
+    set_direction(walk, aim.direction);
+    float weight = balance_weight(aim.pdf, walk.pdf);
+    walk.expected = walk.throughput * aim.radiance * (walk.scale * weight * walk.pdf / aim.pdf);
+    return walk.pdf > 0.0;
+}
+
 // Aims at the sun, or at one of its images. False where that is below the horizon of the surface.
 bool leave_to_sun(inout Walk walk, uint use) {
     vec3 u = numbers_of(walk, use);
@@ -275,11 +300,13 @@ void leave(inout Walk walk, uint last) {
     walk.kind = kRayOn;
     walk.is_straight = !(is_first && walk.vertex.medium != kNoMedium);  // in glass only the path finds light
     walk.glints = 0u;
-    if (has_sun != 0u && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
+    bool may_see_sun = has_sun != 0u && (has_glints || !is_first);
+    if (may_see_sun && last == kRayNone && leave_to_sun(walk, kUseSun)) walk.kind = kRaySun;
     if (has_glints && has_images != 0u && last <= kRaySun && walk.kind == kRayOn && leave_to_sun(walk, kUseImage))
         walk.kind = kRayImage;
     bool may_aim = has_emitters != 0u && aims_at_emitters != 0u && !is_first;
-    if (may_aim && last != kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
+    if (may_aim && last < kRayEmitter && walk.kind == kRayOn && leave_to_emitter(walk)) walk.kind = kRayEmitter;
+    if (aims_at_sky != 0u && last < kRaySky && walk.kind == kRayOn && leave_to_sky(walk)) walk.kind = kRaySky;
     if (walk.kind == kRayOn)
         set_direction(walk, is_first ? walk.ahead : cosine_about(walk.normal, numbers_of(walk, kUseDirection).xy));
     if (has_glints) walk.image_share = 1.0 / (samples_of_sun(walk.ray.direction, walk.vertex.medium) + cone_solid_angle(sun_height) * walk.pdf);

@@ -2,10 +2,10 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 
-// Light of an atmosphere where ambient visibility is known. For a ray that leaves the scene: the radiance of
-// the sky there. For a hit: irradiance / pi of the whole sky, times the visibility. A sphere's irradiance is
-// interpolated between the faces by the squares of its normal (the ambient cube of McTaggart 2004, "Half-Life
-// 2 / Valve Source Shading").
+// Light of an atmosphere, or of an image of the sky, where ambient visibility is known. For a ray that leaves
+// the scene: the radiance of the sky there. For a hit: irradiance / pi of the whole sky, times the
+// visibility. A sphere's irradiance is interpolated between the faces by the squares of its normal (the
+// ambient cube of McTaggart 2004, "Half-Life 2 / Valve Source Shading").
 
 #include "lib/address.glsl"
 
@@ -40,6 +40,7 @@ vec3 open_irradiance(vec3 normal) {
 }
 
 void main() {
+    init_sky_image();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
     Hit hit = hits[pixel.index * hits_stride];

@@ -43,6 +43,28 @@ VX_FN vec3 path_numbers(SampleKey key, uint surface, uint use) {
     return vec3(unit_float(pcg_hash(v.y)), unit_float(pcg_hash(v.z)), unit_float(pcg_hash(v.w)));
 }
 
+// Keeps the numbers of rays towards an image of the sky apart from all others ("sky" in ASCII).
+VX_CONST(uint, kSkySalt, 0x736B79u);
+
+// What a ray towards an image of the sky is drawn from: a texel takes all 32 bits, because there are up to
+// 2^23 of them.
+struct SkyNumbers {
+    uint bits;
+    float choice;
+    vec2 place;
+};
+
+// Those of ray `number` of a sample's stream: one for each surface of a path.
+VX_FN SkyNumbers sky_numbers(SampleKey key, uint number) {
+    const uvec4 v = pcg4d(uvec4(key.seed, key.stream, key.index, kSkySalt + 2u * number));
+    const uvec4 w = pcg4d(uvec4(key.seed, key.stream, key.index, kSkySalt + 2u * number + 1u));
+    SkyNumbers numbers;
+    numbers.bits = pcg_hash(v.y);
+    numbers.choice = unit_float(pcg_hash(v.z));
+    numbers.place = vec2(unit_float(pcg_hash(v.w)), unit_float(pcg_hash(w.y)));
+    return numbers;
+}
+
 VX_END
 
 #endif

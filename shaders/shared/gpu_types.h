@@ -107,6 +107,7 @@ struct FrameParams {
     uint seed;
     float ao_radius;  // voxels
     vec3 sky_radiance;
+    float sky_turn;          // of an image of the sky, counter-clockwise seen from above, full turns
     vec3 sun_direction;      // unit, towards the sun
     vec3 sun_irradiance;     // on a surface facing the sun
     float sun_cone_height;   // cone_height of the sun's angular radius
@@ -114,8 +115,7 @@ struct FrameParams {
     float ground_luminance;  // of the ground where no light is blocked
     uint light_count;
     float light_power;  // of all emitters: sum of light selection weight times etendue
-    // Photons of one sample: first those of the emitters, then those of the sun, which start on a disc that
-    // covers everything the sun can reach.
+    // Photons of one sample: first of the emitters, then of the sun, from a disc that covers all it reaches.
     uint emitter_photons;
     uint sun_photons;
     vec3 sun_disc_centre;   // local to the world

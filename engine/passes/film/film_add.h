@@ -11,7 +11,7 @@ struct FilmInputs {
     Plane first_hits;  // of camera rays, before mirrors and glass
     SpecularPlanes seen;
     Plane ao;
-    Plane sky;  // of an atmosphere, else a constant: radiance of misses, irradiance / pi at hits
+    Plane sky;  // of an atmosphere or an image, else a constant: radiance of misses, irradiance / pi at hits
     Plane air;  // light that the air before the first hits adds
     Plane sun;
     Plane direct;          // irradiance / pi, of emitters

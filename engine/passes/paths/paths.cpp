@@ -1,6 +1,7 @@
 #include "passes/paths/paths.h"
 
 #include "passes/sky/sky.h"
+#include "passes/sky/sky_image.h"
 #include "passes/specular/specular.h"
 
 namespace voxilux {
@@ -43,6 +44,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
     };
     dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
+                                                       {"SkyTable", sky_table_buffer(plan, recording)},
                                                        {"Starts", starts},
                                                        {"Direct", direct.buffer},
                                                        {"States", states},
@@ -60,10 +62,13 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
          {"finds_sun_caustics", plan.paths_find_sun_caustics ? 1u : 0u},
          {"finds_emitter_caustics", plan.is_by_paths(Effect::caustics) ? 1u : 0u},
          {"aims_at_emitters", plan.settings.paths.plain ? 0u : 1u},
+         {"aims_at_sky", plan.paths_aim_at_sky() ? 1u : 0u},
          {"shares_direct", plan.paths_share_direct() ? 1u : 0u},
          {"keeps_normals", plan.paths_keep_normals() ? 1u : 0u},
          {"direct_stride", direct.stride},
          {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
+    const std::vector<Constant> image = sky_image_constants(plan);
+    dispatch.constants.insert(dispatch.constants.end(), image.begin(), image.end());
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     return dispatch;
 }

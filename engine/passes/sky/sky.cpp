@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "passes/sky/sky_image.h"
 #include "scene/atmosphere.h"
 #include "shared/sampling.h"
 #include "shared/sky_bins.h"
@@ -10,9 +11,9 @@
 namespace voxilux {
 namespace {
 
-// Whether anything looks the sky up. Paths through the air that paths between surfaces end in do not.
+// Whether anything looks the atmosphere up. Paths through the air that paths between surfaces end in do not.
 bool needs_tables(const RenderPlan& plan) {
-    return !plan.traces_air() || !plan.paths.runs();
+    return plan.has_atmosphere() && (!plan.traces_air() || !plan.paths.runs());
 }
 
 std::string view_buffer(const RenderPlan& plan, Recording& recording) {
@@ -20,11 +21,6 @@ std::string view_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::vec3>(recording, "sky.view",
                               std::uint64_t{gpu::kViewColours} * gpu::view_texels(plan.sky_resolution),
                               Lifetime::persistent);
-}
-
-std::string faces_buffer(const RenderPlan& plan, Recording& recording) {
-    if (!needs_tables(plan)) return placeholder_buffer(recording);
-    return declare<gpu::vec3>(recording, "sky.faces", gpu::kFaceCount, Lifetime::persistent);
 }
 
 // Rounds read one buffer and write the other.
@@ -43,7 +39,8 @@ void record_sky_scatter(const RenderPlan& plan, const gpu::Air& air, Recording& 
     }
 }
 
-std::string shares_buffer(Recording& recording) {
+std::string shares_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!plan.has_atmosphere()) return placeholder_buffer(recording);
     return declare<float>(recording, "sky.shares", gpu::kSkyShares, Lifetime::persistent);
 }
 
@@ -51,7 +48,7 @@ std::string shares_buffer(Recording& recording) {
 void record_sky_shares(const RenderPlan& plan, Recording& recording) {
     const std::string bins = declare<float>(recording, "sky.bins", gpu::kSkyBins * gpu::kSkyBins);
     const std::string rows = declare<float>(recording, "sky.rows", gpu::kFaceCount * gpu::kSkyBins);
-    const std::string shares = shares_buffer(recording);
+    const std::string shares = shares_buffer(plan, recording);
     recording.dispatch({.label = "sky.bins",
                         .shader = "sky_bins",
                         .extent = {gpu::kSkyBins * gpu::kSkyBins, 1, 1},
@@ -75,13 +72,15 @@ void record_sky_faces(const RenderPlan& plan, Recording& recording) {
                         .extent = {gpu::kFaceCount, 1, 1},
                         .bindings = {{"Sky", sky_params_buffer(recording)},
                                      {"SkyView", view_buffer(plan, recording)},
-                                     {"SkyFaces", faces_buffer(plan, recording)}}});
+                                     {"SkyFaces", sky_faces_buffer(plan, recording)}}});
 }
 
 // Of the passes that see the sky.
 std::vector<Constant> seen_constants(const RenderPlan& plan) {
-    return {{"misses_have_direction", plan.has(Effect::specular) ? 1u : 0u},
-            {"traces_air", plan.traces_air() ? 1u : 0u}};
+    std::vector<Constant> constants{{"misses_have_direction", plan.has(Effect::specular) ? 1u : 0u},
+                                    {"traces_air", plan.traces_air() ? 1u : 0u}};
+    std::ranges::copy(sky_image_constants(plan), std::back_inserter(constants));
+    return constants;
 }
 
 }  // namespace
@@ -96,13 +95,20 @@ std::string scatter_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::uvec4>(recording, "sky.scatter", gpu::kScatterPairs, lifetime);
 }
 
+std::string sky_faces_buffer(const RenderPlan& plan, Recording& recording) {
+    const bool is_read = plan.has_sky_image() ? !plan.paths.runs() : needs_tables(plan);
+    if (!is_read) return placeholder_buffer(recording);
+    return declare<gpu::vec3>(recording, "sky.faces", gpu::kFaceCount, Lifetime::persistent);
+}
+
 std::vector<Binding> sky_bindings(const RenderPlan& plan, Recording& recording) {
-    if (!plan.has_atmosphere())
-        return {{"Sky", constant_sky_buffer(recording)}, {"SkyView", placeholder_buffer(recording)}};
-    return {{"Sky", sky_params_buffer(recording)}, {"SkyView", view_buffer(plan, recording)}};
+    return {{"Sky", plan.has_atmosphere() ? sky_params_buffer(recording) : constant_sky_buffer(recording)},
+            {"SkyView", view_buffer(plan, recording)},
+            {"SkyTexels", sky_texels_buffer(plan, recording)}};
 }
 
 void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& recording) {
+    record_sky_image(plan, scene.sky, recording);
     if (!plan.has_atmosphere()) return;
     gpu::SkyParams sky = sky_params(scene);
     sky.resolution = plan.sky_resolution;
@@ -123,7 +129,7 @@ void record_sky_build(const RenderPlan& plan, const Scene& scene, Recording& rec
 }
 
 bool traces_sky(const RenderPlan& plan) {
-    return plan.has_atmosphere() && plan.has(Effect::ao) && !plan.ao.uses_cells() && !plan.paths.runs();
+    return plan.has_sky_plane() && plan.has(Effect::ao) && !plan.ao.uses_cells() && !plan.paths.runs();
 }
 
 SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, const Plane& hits,
@@ -138,13 +144,13 @@ SkyPlanes record_sky_trace(const RenderPlan& plan, const DispatchTile& tile, con
                                    {"Spheres", spheres_buffer(plan, recording)},
                                    {"SphereTable", sphere_table_buffer(plan, recording)},
                                    {"SphereTree", sphere_tree_buffer(plan, recording)},
-                                   {"Sky", sky_params_buffer(recording)},
-                                   {"SkyView", view_buffer(plan, recording)},
-                                   {"SkyShares", shares_buffer(recording)},
+                                   {"SkyShares", shares_buffer(plan, recording)},
+                                   {"SkyTable", sky_table_buffer(plan, recording)},
                                    {"Hits", hits.buffer},
                                    {"Ao", planes.ao.buffer},
                                    {"SkyLight", planes.light.buffer}},
                       .constants = surface_constants(plan)};
+    std::ranges::copy(sky_bindings(plan, recording), std::back_inserter(dispatch.bindings));
     dispatch.constants.push_back({"hits_stride", hits.stride});
     dispatch.constants.push_back({"ao_rays", plan.settings.ao_rays});
     std::ranges::copy(seen_constants(plan), std::back_inserter(dispatch.constants));
@@ -163,17 +169,17 @@ Plane record_sky_resolve(const RenderPlan& plan, const DispatchTile& tile, const
                                     {"ao_stride", ao.stride},
                                     {"paths_find_sky", plan.paths.runs() ? 1u : 0u}};
     std::ranges::copy(seen_constants(plan), std::back_inserter(constants));
+    std::vector<Binding> bindings = sky_bindings(plan, recording);
+    bindings.insert(bindings.end(), {{"Frame", frame_buffer(recording)},
+                                     {"Spheres", spheres_buffer(plan, recording)},
+                                     {"SkyFaces", sky_faces_buffer(plan, recording)},
+                                     {"Hits", hits.buffer},
+                                     {"Ao", ao.buffer},
+                                     {"SkyLight", light.buffer}});
     recording.dispatch({.label = "sky.resolve",
                         .shader = "sky_resolve",
                         .extent = pixel_extent(plan, tile),
-                        .bindings = {{"Frame", frame_buffer(recording)},
-                                     {"Spheres", spheres_buffer(plan, recording)},
-                                     {"Sky", sky_params_buffer(recording)},
-                                     {"SkyView", view_buffer(plan, recording)},
-                                     {"SkyFaces", faces_buffer(plan, recording)},
-                                     {"Hits", hits.buffer},
-                                     {"Ao", ao.buffer},
-                                     {"SkyLight", light.buffer}},
+                        .bindings = std::move(bindings),
                         .constants = std::move(constants)});
     return light;
 }

@@ -38,14 +38,18 @@ std::string written(const Setting&, const glm::vec<N, T>& value) {
 std::string written(const Setting&, const HexColour&) {
     return "-";
 }
+std::string written(const Setting&, const std::string& text) {
+    return text.empty() ? "-" : text;
+}
 
 template <class T>
 std::string written(const Setting& row, const std::optional<T>& value) {
     return value ? written(row, *value) : "-";
 }
 
-std::string allowed(const Setting& row, bool is_colour) {
+std::string allowed(const Setting& row, bool is_colour, bool is_text) {
     if (!row.choices.empty()) return fmt::format("`{}`", fmt::join(row.choices, "`, `"));
+    if (is_text) return "a name";
     if (is_colour) return "`\"#rrggbb\"`";
     return row.range.low == row.range.high ? "true, false" : to_string(row.range);
 }
@@ -56,9 +60,10 @@ std::string table_of(const std::string& section) {
     Settings settings;
     visit_settings(settings, [&]<class T>(const Setting& row, T&& value) {
         constexpr bool is_colour = std::is_same_v<std::remove_cvref_t<T>, HexColour>;
+        constexpr bool is_text = std::is_same_v<std::remove_cvref_t<T>, std::string>;
         text += fmt::format("| `{}` | {} | {} | {} |\n", row.name,
-                            row.is_required ? "needed" : written(row, value), allowed(row, is_colour),
-                            row.sentence);
+                            row.is_required ? "needed" : written(row, value),
+                            allowed(row, is_colour, is_text), row.sentence);
     });
     return text + "\n";
 }

@@ -30,6 +30,12 @@ SceneFacts in_air(float haze) {
     return facts;
 }
 
+SceneFacts under_image() {
+    SceneFacts facts = rich();
+    facts.sky_image = {16, 8};
+    return facts;
+}
+
 SceneFacts without_surfaces() {
     SceneFacts facts = without(&SceneFacts::has_voxels);
     facts.has_spheres = false;
@@ -88,6 +94,7 @@ TEST(Effects, every_row_gives_its_reason) {
          "the sun is off, black or not above the horizon"},
         {"sun nothing", state(Effect::sun, without_surfaces()), false, "there is nothing to light"},
         {"sky needed", state(Effect::sky, rich()), true, "constant sky radiance"},
+        {"sky image", state(Effect::sky, under_image()), true, "an image of 16 x 8 texels"},
         {"sky", state(Effect::sky, without(&SceneFacts::has_sky)), false, "the sky is black"},
         {"aerial needed", state(Effect::aerial, in_air(0.001f)), true,
          "the air before the farthest surface takes 0.1 % of its light"},

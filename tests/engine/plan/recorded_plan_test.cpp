@@ -136,7 +136,7 @@ void expect_traces_follow_effects(const Scene& scene, const PlanRequest& request
             EXPECT_EQ(found, std::vector<std::string>{}) << name_of(traces.effect) << " is off";
         }
     }
-    EXPECT_EQ(!found_traces(render, {"sky.", "sky_"}).empty(), prepared.plan.has_atmosphere());
+    EXPECT_EQ(!found_traces(render, {"sky.", "sky_"}).empty(), prepared.plan.has_sky_plane());
     const RenderPlan& plan = prepared.plan;
     const auto is_found = [&](bool (RenderPlan::*by)(Effect) const) {
         return (plan.*by)(Effect::caustics) || (plan.*by)(Effect::indirect);

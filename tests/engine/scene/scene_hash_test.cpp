@@ -58,6 +58,9 @@ void change(T& value) {
     else
         value += T(1);
 }
+void change(std::string& name) {
+    name += "x";
+}
 template <class T>
 void change(std::optional<T>& value) {
     value = T{};
@@ -75,7 +78,8 @@ std::vector<Change> row_changes(std::vector<std::string>& names) {
     std::vector<Change> changes;
     Scene scene = full_scene();
     visit_sections(scene, [&](std::string_view section, auto& settings) {
-        visit_settings(settings, [&](const Setting& row, auto&&) {
+        visit_settings(settings, [&]<class T>(const Setting& row, T&&) {
+            if constexpr (std::is_same_v<std::remove_cvref_t<T>, std::string>) return;  // the name of a file
             names.push_back(std::string(section) + "." + std::string(row.name));
             changes.push_back([name = names.back()](Scene& to_change) {
                 visit_sections(to_change, [&](std::string_view in, auto& its) {
@@ -113,6 +117,25 @@ TEST(SceneHashRows, samples_do_not_matter_to_the_hash_of_samples) {
     const std::vector<std::size_t> same = unnoticed(changes, sample_hash);
     ASSERT_EQ(same.size(), 1u);
     EXPECT_EQ(names[same[0]], "render.spp");
+}
+
+TEST(SceneHash, texels_of_a_sky_matter_and_the_name_of_their_file_does_not) {
+    const std::vector<Change> changes = {
+        [](Scene& s) {
+            s.sky.image = {{1, 1}, {glm::vec3(1.0f)}};
+        },
+        [](Scene& s) {
+            s.sky.image = {{1, 1}, {glm::vec3(1.0f, 1.0f, 2.0f)}};
+        },
+        [](Scene& s) {
+            s.sky.image = {{2, 1}, {glm::vec3(1.0f), glm::vec3(1.0f)}};
+        },
+        [](Scene& s) {
+            s.sky.image = {{1, 2}, {glm::vec3(1.0f), glm::vec3(1.0f)}};
+        },
+    };
+    EXPECT_EQ(unnoticed(changes, scene_hash), std::vector<std::size_t>());
+    EXPECT_EQ(unnoticed({[](Scene& s) { s.sky.image_file = "a.exr"; }}, scene_hash).size(), 1u);
 }
 
 AnimatedVox& file_of(Scene& scene) {

@@ -85,8 +85,14 @@ TEST(VoxSettings, modes_of_the_sky) {
     EXPECT_EQ(scene_of(air).sky.model, SkyModel::constant);
     const Scene image = scene_of(object({{"_type", "_env"}, {"_mode", "2"}}) +
                                  object({{"_type", "_ibl"}, {"_path", "night.hdr"}}));
-    ASSERT_EQ(image.notes.size(), 1u);
-    EXPECT_EQ(image.notes[0], "the image of the sky, 'night.hdr', is not in the file: our sky is shown");
+    EXPECT_TRUE(image.notes.empty());
+    EXPECT_EQ(image.sky.model, SkyModel::image);
+    EXPECT_EQ(image.sky.image_file, "night.hdr");
+    EXPECT_FLOAT_EQ(image.sky.rotation_deg, 90.0f) << "the middle of the image is behind the model";
+    const Scene nameless = scene_of(object({{"_type", "_env"}, {"_mode", "2"}}));
+    EXPECT_EQ(nameless.sky.model, SkyModel::constant);
+    ASSERT_EQ(nameless.notes.size(), 1u);
+    EXPECT_EQ(nameless.notes[0], "the settings name no image of the sky: our sky is shown");
 }
 
 TEST(VoxSettings, ground_and_background) {

@@ -178,6 +178,26 @@ class Gathered(unittest.TestCase):
         with self.assertRaisesRegex(prices.Malformed, "other.toml was measured on another machine"):
             prices.gather([one, other])
 
+    def test_other_scenes_keep_their_prices(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            one, other = self.lists(name)
+            known = prices.gather([one, other])
+            (folder / "prices.csv").write_text(prices.csv_text(*known), encoding="utf-8")
+            for run in other["runs"]:
+                run["settings"]["photons"] = 7000
+            (folder / "other.json").write_text(json.dumps(other), encoding="utf-8")
+            words = ["--from", str(folder / "other.json"), "--keep", "--prices", str(folder / "prices.csv")]
+            price_list.update_prices(price_list.parse_arguments(words))
+            rows = prices.read_csv(folder / "prices.csv")[1]
+            self.assertEqual(len(rows), len(known[1]))
+            self.assertEqual({row["photons"] for row in rows if row["scene"] == "other"}, {7000})
+            self.assertNotIn(7000, {row["photons"] for row in rows if row["scene"] != "other"})
+            other["version"] = "0.0.0"
+            (folder / "other.json").write_text(json.dumps(other), encoding="utf-8")
+            with self.assertRaisesRegex(prices.Malformed, "of another machine, device or version"):
+                price_list.update_prices(price_list.parse_arguments(words))
+
     def test_command_writes_the_header(self):
         with tempfile.TemporaryDirectory() as folder:
             files, out = [], pathlib.Path(folder) / "presets.inc"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "support/frame_fixture.h"
@@ -75,6 +76,17 @@ TEST(Lens, another_focus_or_aperture_is_seen) {
     const double variance = spot_of(ball(8.0, 20.0)).variance;
     for (const double want : {variance_of(8.0, 21.0), variance_of(8.6, 20.0)})
         EXPECT_GT(std::abs(variance - want), kTolerance * want);
+}
+
+TEST(Lens, focus_at_infinity_behind_the_camera_and_at_the_lens_is_well_defined) {
+    const double far = variance_of(8.0, 1e9);
+    Scene behind = ball(8.0, 1.0);
+    behind.lens = {.aperture = 8.0, .focus_at = glm::dvec3(0.0, -2.0 * kDepth, 0.0)};
+    for (const Scene& scene : {ball(8.0, std::numeric_limits<double>::infinity()), behind})
+        EXPECT_NEAR(spot_of(scene).variance, far, kTolerance * far);
+    // The blur is thousands of times as wide as the picture.
+    const double light = spot_of(ball(8.0, 1e-300)).light;
+    EXPECT_TRUE(light >= 0.0 && light < 0.01 * spot_of(ball(0.0, 1.0)).light) << light;
 }
 
 // A picture changes little with a small aperture, and by no step where the lens comes in.
