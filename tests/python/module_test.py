@@ -4,10 +4,12 @@
 """
 
 import ast
+import gzip
 import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -76,20 +78,15 @@ class Render(Folder):
     def test_voxels_in_memory_give_the_picture_of_their_file(self):
         voxilux.write_vox(self.folder / "a.vox", blocks())
         of_file, _ = voxilux.render(self.folder / "a.vox", **SMALL)
+        red = of_file["R"]
+        self.assertEqual(type(red.base).__name__, "PyCapsule", "not a copy")
+        before = red.copy()
         of_array, _ = voxilux.render(blocks(), **SMALL)
+        self.assertTrue(np.array_equal(red, before), "planes outlive the render")
         self.assertEqual(of_file.keys(), of_array.keys())
         for name in of_file:
             self.assertTrue(np.array_equal(of_file[name], of_array[name]), name)
         self.assertGreater(of_file["R"].std(), 0.0)
-
-    def test_planes_are_not_copied_and_outlive_the_call(self):
-        channels, _ = voxilux.render(blocks(), **SMALL)
-        red = channels["R"]
-        self.assertEqual(type(red.base).__name__, "PyCapsule")
-        copy = red.copy()
-        del channels
-        voxilux.render(blocks(), **SMALL)
-        self.assertTrue(np.array_equal(red, copy))
 
     def test_flags_reach_the_engine(self):
         off, report = voxilux.render(blocks(), effect=["ao=off", "sun=off"], D={"render.seed": 9}, size=(8, 4), spp=1)
@@ -187,6 +184,39 @@ class Voxels(Folder):
         for key in ("voxels", "surface", "interior", "grid", "models", "palette", "warnings"):
             self.assertEqual(report[key], of_command[key], key)
         self.assertEqual(np.count_nonzero(voxels["voxels"]), report["voxels"])
+
+
+class Minecraft(Folder):
+    def test_blocks_of_a_schematic_are_voxels_with_materials(self):
+        """Against a writer of our own here, and colours that everybody knows."""
+        blocks = ["minecraft:air", "minecraft:lime_wool", "minecraft:lava", "minecraft:water", "mod:thing"]
+        rng = np.random.default_rng(1)
+        numbers = rng.integers(0, 5, (4, 3, 6), np.uint8)  # [y][z][x]
+        numbers[0, 0, 0] = numbers[-1, -1, -1] = 1
+        numbers[1, 0, :3] = 2, 3, 4
+
+        def tag(kind, name, payload):
+            return struct.pack(">BH", kind, len(name)) + name.encode() + payload
+
+        sides = zip(("Height", "Length", "Width"), numbers.shape)
+        body = b"".join(tag(2, name, struct.pack(">h", side)) for name, side in sides)
+        body += tag(10, "Palette", b"".join(tag(3, n, struct.pack(">i", i)) for i, n in enumerate(blocks)) + b"\0")
+        body += tag(7, "BlockData", struct.pack(">i", numbers.size) + numbers.tobytes())
+        file = self.folder / "a.schem"
+        file.write_bytes(gzip.compress(tag(10, "Schematic", body + b"\0")))
+        read = voxilux.read_vox(file)
+        indices = numbers[:, ::-1, :].transpose(2, 1, 0)  # x, -z, y
+        self.assertTrue(np.array_equal(read["voxels"] > 0, indices > 0))
+        types = {name: {read["materials"][int(i)]["_type"] for i in np.unique(read["voxels"][indices == number])}
+                 for number, name in enumerate(blocks) if number > 0}
+        self.assertEqual(list(types.values()), [{"_diffuse"}, {"_emit"}, {"_glass"}, {"_diffuse"}])
+        colours = read["palette"][read["voxels"]].astype(int)
+        lime, lava, water, grey = (colours[indices == number][0] for number in (1, 2, 3, 4))
+        self.assertTrue(lime[1] > lime[0] > lime[2] and lava[0] > lava[1] > lava[2] and water[2] > water[1] > water[0])
+        self.assertEqual(list(grey[:3]), [128, 128, 128])
+        run = command("convert", str(file), str(self.folder / "a.vox"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(f"warning: {np.count_nonzero(numbers == 4)} voxels are grey", run.stderr)
 
 
 class Compare(unittest.TestCase):
