@@ -397,7 +397,8 @@ inline Sample schem_sample(std::uint32_t seed) {
         nbt_tag(9, "BlockEntities",
                 std::string(1, 10) + big(2, 4) + nbt_string("Id", "chest") + '\0' +
                     nbt_tag(6, "d", big(7, 8)) + '\0') +
-        nbt_tag(9, "Empty", big(0, 1) + big(0, 4)) + nbt_tag(11, "Offset", big(3, 4) + big(0, 12)) +
+        nbt_tag(9, "Empty", big(0, 1) + big(0, 4)) +
+        nbt_tag(11, "Offset", big(3, 4) + std::string(12, '\0')) +
         nbt_tag(12, "Times", big(1, 4) + big(9, 8)) + nbt_tag(1, "b", "x") + nbt_tag(5, "f", big(1, 4)) +
         nbt_compound("Biomes",
                      nbt_compound("Palette", nbt_int("minecraft:plains", 0)) + nbt_bytes("Data", "xyz"));
