@@ -43,14 +43,14 @@ if [ "$*" = --nightly ]; then
     build sanitize unit_tests vox_fuzz mesh_fuzz voxel_formats_fuzz
     check "unit tests under sanitizers" run_tests build/sanitize --label-regex unit --label-exclude nightly
     check "long fuzzing" run_tests build/sanitize --label-regex fuzz-nightly
-    build release
+    build release-python
     check "nightly tests" run_tests build/release --label-regex nightly
     check "newer Mesa" test_newer_mesa
 else
     check "format (clang-format-14 -i mends it)" check_format
     build sanitize vox_fuzz mesh_fuzz voxel_formats_fuzz
     check "fuzzing under sanitizers" run_tests build/sanitize --label-regex fuzz --label-exclude nightly
-    build release
+    build release-python
     check "all tests" run_tests build/release --label-exclude nightly
 fi
 [ -z "$failed" ] || lack "failed: $failed"

@@ -76,6 +76,8 @@ std::map<std::string, std::string> seeds() {
         {"text.ply", mesh_file_builder::ply(mesh_file_builder::random_mesh(1), PlyWriting::text)},
         {"little.ply", mesh_file_builder::ply(mesh_file_builder::random_mesh(2), PlyWriting::little_endian)},
         {"big.ply", mesh_file_builder::ply_points(mesh_file_builder::random_mesh(3), PlyWriting::big_endian)},
+        {"colours.las", mesh_file_builder::las(mesh_file_builder::random_mesh(1), 2, 12)},
+        {"wide.las", mesh_file_builder::las(mesh_file_builder::random_mesh(2), 7, 14)},
         {"a.mtl",
          "newmtl a\nKd 0.5 0.5 1\nKe 1 1 1\nd 0.5\nNs 9\nNi 1.4\nillum 7\nPm 1\nPr 0.2\n"
          "map_Kd -s 2 2 -o 0.5 0 -clamp on a b.png\nmap_Ke a.png\nmap_d x.png\nTr 0.1\n"},

@@ -1,6 +1,6 @@
-// libFuzzer target of the mesh readers: glTF, GLB, OBJ, MTL, STL and PLY. Property: whatever the bytes, the
-// reader stays within its memory bound and either refuses with one line or returns a mesh whose numbers are
-// finite and whose indices are inside its lists.
+// libFuzzer target of the mesh readers: glTF, GLB, OBJ, MTL, STL, PLY and LAS. Property: whatever the bytes,
+// the reader stays within its memory bound and either refuses with one line or returns a mesh whose numbers
+// are finite and whose indices are inside its lists.
 
 #include <cmath>
 #include <string_view>
@@ -8,6 +8,7 @@
 #include "require.h"
 #include "support/allocation_counter.h"
 #include "voxelizer/load_gltf.h"
+#include "voxelizer/load_las.h"
 #include "voxelizer/load_mtl.h"
 #include "voxelizer/load_obj.h"
 #include "voxelizer/load_ply.h"
@@ -70,6 +71,7 @@ Mesh load(std::span<const std::byte> bytes, MeshNotes& notes) {
     const bool is_gltf = text.starts_with('{') || text.starts_with("glTF");
     if (is_gltf) return load_gltf(bytes, "no-such-folder", request, notes);
     if (text.starts_with("ply")) return load_ply(bytes, "no-such-folder", request, notes);
+    if (text.starts_with("LASF")) return load_las(bytes, "no-such-folder", request, notes);
     if (text.starts_with("solid")) return load_stl(bytes, "no-such-folder", request, notes);
     Mesh materials;
     MtlLibrary library{

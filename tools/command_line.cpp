@@ -112,6 +112,11 @@ int end_of_parse(const CLI::App& app, const CLI::ParseError& error) {
     return usage_error(error.what(), name);
 }
 
+// What parsing an app needs whatever its flags are.
+void prepare_app(CLI::App& app) {
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
 // Ends where the first word is missing or names no subcommand; returns nothing where the rest can be parsed.
 std::optional<int> check_subcommand(const CLI::App& app, int argc, const char* const* argv) {
     if (argc < 2) {
@@ -218,7 +223,7 @@ int run_command_line(int argc, const char* const* argv) {
     app.set_help_flag("-h,--help", "print this help and exit");
     app.get_formatter()->column_width(kHelpColumn);
     app.require_subcommand(1);
-    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    prepare_app(app);
 
     const std::vector<const char*> given = with_transparent(argc, argv);
     Commands commands({given.begin() + std::min(argc, 2), given.end()});
@@ -263,6 +268,21 @@ int run_command_line(int argc, const char* const* argv) {
         return end_of_parse(app, error);
     }
     return commands.run();
+}
+
+void parse_words(std::vector<std::string> words, const std::function<void(Flags&)>& add_flags) {
+    CLI::App app;
+    app.set_help_flag();
+    prepare_app(app);
+    Flags flags(app);
+    add_flags(flags);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    try {
+        app.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+        const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+        throw Error(ExitCode::usage, is_unknown ? unexpected_words(app, app) : error.what());
+    }
 }
 
 }  // namespace voxilux

@@ -102,6 +102,7 @@ Scene open_standard_input(const LoadOptions& load) {
 
 // The one place where inputs are opened.
 Scene open_input(const SceneOptions& options, const LoadOptions& load, bool says_notes) {
+    if (options.voxels != nullptr) return scene_of_file(*options.voxels, options.input, load);
     if (options.input == kStandardStream) return open_standard_input(load);
     if (!is_importable(options.input)) return load_scene(options.input, load);
     const ImportedVoxels imported = import_voxels(options.input, options.grid);

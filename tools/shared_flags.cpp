@@ -54,9 +54,9 @@ void add_mesh_flags(Flags& flags, GridRequest& grid) {
             },
             "voxels along the longest side of a mesh")
         .shows(fmt::format("{}", grid.resolution));
-    flags.add_parsed(
-        "--up", "AXIS", grid.up, checked_up,
-        "the axis of a mesh that points up: x, y, z, -x, -y or -z; default: y, or z in .stl, .ply and .xyz");
+    flags.add_parsed("--up", "AXIS", grid.up, checked_up,
+                     "the axis of a mesh that points up: x, y, z, -x, -y or -z; default: y, or z in .stl, "
+                     ".ply, .xyz and .las");
 }
 
 void add_tone_flags(Flags& flags, ToneMapOptions& tone) {

@@ -5,7 +5,7 @@
 
 namespace voxilux {
 
-// The cells as a set of diffuse voxels that keep their positions: cell (0, 0, 0) is at the origin of the
+// The cells as a set of voxels that keep their positions: cell (0, 0, 0) is at the origin of the
 // scene. `voxels` holds at least one, and spans at most kMaxCellSide. Consumes them, so that memory holds
 // them once.
 [[nodiscard]] VoxelSet voxel_set_of(VoxelCells&& voxels);

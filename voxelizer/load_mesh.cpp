@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/printable.h"
 #include "voxelizer/load_gltf.h"
+#include "voxelizer/load_las.h"
 #include "voxelizer/load_obj.h"
 #include "voxelizer/load_ply.h"
 #include "voxelizer/load_stl.h"
@@ -25,9 +26,9 @@ struct MeshFormat {
     bool may_be_points = false;  // without triangles
 };
 
-constexpr MeshFormat kMeshFormats[] = {{".gltf", load_gltf},     {".glb", load_gltf},
-                                       {".obj", load_obj},       {".stl", load_stl},
-                                       {".ply", load_ply, true}, {".xyz", load_xyz, true}};
+constexpr MeshFormat kMeshFormats[] = {
+    {".gltf", load_gltf},     {".glb", load_gltf},      {".obj", load_obj},      {".stl", load_stl},
+    {".ply", load_ply, true}, {".xyz", load_xyz, true}, {".las", load_las, true}};
 
 // The format of a file's extension, or nullptr.
 const MeshFormat* mesh_format_of(const std::filesystem::path& path) {

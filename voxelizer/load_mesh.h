@@ -23,7 +23,7 @@ struct MeshLimits {
 struct MeshRequest {
     bool is_strict = false;            // every warning is an error
     std::optional<std::size_t> scene;  // of a glTF file; without it, the file's own choice
-    bool allows_points = false;        // a .ply or .xyz file needs no triangle
+    bool allows_points = false;        // a .ply, .xyz or .las file needs no triangle
     MeshLimits limits;
 };
 

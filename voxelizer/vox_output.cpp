@@ -92,28 +92,17 @@ void add_palette(VoxFile& file, const VoxelPalette& palette) {
     }
 }
 
-void add_graph(VoxFile& file, const std::vector<ModelPart>& parts, const MeshGrid& grid,
-               const std::string& name) {
-    file.nodes.push_back(VoxTransform{.id = 0, .child = 1, .frames = {{}}});
-    VoxGroup group{.id = 1};
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        group.children.push_back(checked_cast<std::int32_t>(kFirstModelNode + 2 * i, "node"));
-    file.nodes.push_back(group);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const std::int32_t id = group.children[i];
-        const glm::ivec3 at = parts[i].low + parts[i].size / 2 - grid.origin;
-        const glm::ivec3 model = parts[i].low / kModelCells;
+// Where the models stand, in cells of the scene.
+std::vector<PlacedModel> placed_models(const std::vector<ModelPart>& parts, const MeshGrid& grid,
+                                       const std::string& name) {
+    std::vector<PlacedModel> placed;
+    for (const ModelPart& part : parts) {
+        const glm::ivec3 model = part.low / kModelCells;
         const std::string own_name =
             parts.size() == 1 ? name : fmt::format("{} {} {} {}", name, model.x, model.y, model.z);
-        file.nodes.push_back(VoxTransform{.id = id,
-                                          .attributes = {{"_name", own_name}},
-                                          .child = id + 1,
-                                          .layer = 0,
-                                          .frames = {{{"_t", fmt::format("{} {} {}", at.x, at.y, at.z)}}}});
-        file.nodes.push_back(
-            VoxShape{.id = id + 1, .models = {{.model = checked_cast<std::int32_t>(i, "model")}}});
+        placed.push_back({own_name, part.low - grid.origin, part.size});
     }
-    file.layers.push_back({.id = 0, .attributes = {{"_name", name}}});
+    return placed;
 }
 
 // Rounded to 4 decimal places, without negative zero.
@@ -143,7 +132,7 @@ VoxDict camera_attributes(const MeshCamera& camera, const MeshGrid& grid) {
 VoxFile file_around(const std::vector<ModelPart>& parts, const VoxelSet& set, const VoxelPalette& palette,
                     const Mesh& mesh, const std::string& name) {
     VoxFile rest{.version = 200};
-    add_graph(rest, parts, set.grid, name);
+    add_graph(rest, placed_models(parts, set.grid, name), name);
     add_palette(rest, palette);
     for (std::size_t i = 0; i < mesh.cameras.size(); ++i) {
         rest.cameras.push_back({.id = checked_cast<std::int32_t>(i, "camera"),
@@ -157,6 +146,26 @@ constexpr int kLowestPlace = -1000;
 constexpr int kHighestPlace = 999;
 
 }  // namespace
+
+void add_graph(VoxFile& file, std::span<const PlacedModel> models, const std::string& name) {
+    file.nodes.push_back(VoxTransform{.id = 0, .child = 1, .frames = {{}}});
+    VoxGroup group{.id = 1};
+    for (std::size_t i = 0; i < models.size(); ++i)
+        group.children.push_back(checked_cast<std::int32_t>(kFirstModelNode + 2 * i, "node"));
+    file.nodes.push_back(group);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const std::int32_t id = group.children[i];
+        const glm::ivec3 at = models[i].low + models[i].size / 2;
+        file.nodes.push_back(VoxTransform{.id = id,
+                                          .attributes = {{"_name", models[i].name}},
+                                          .child = id + 1,
+                                          .layer = 0,
+                                          .frames = {{{"_t", fmt::format("{} {} {}", at.x, at.y, at.z)}}}});
+        file.nodes.push_back(
+            VoxShape{.id = id + 1, .models = {{.model = checked_cast<std::int32_t>(i, "model")}}});
+    }
+    file.layers.push_back({.id = 0, .attributes = {{"_name", name}}});
+}
 
 std::optional<std::string> range_warning(const MeshGrid& grid) {
     const glm::ivec3 low = -grid.origin, high = grid.cells - grid.origin - 1;

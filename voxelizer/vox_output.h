@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "voxelizer/mesh.h"
@@ -15,6 +16,17 @@ struct VoxOutput {
     std::uint64_t voxels = 0;
     std::uint64_t bytes = 0;
 };
+
+// A model whose first cell is the cell `low` of the scene.
+struct PlacedModel {
+    std::string name;
+    glm::ivec3 low{0};
+    glm::ivec3 size{0};
+};
+
+// Adds the nodes that place the models of the file, in their order: one transform each, in a group called
+// `name` on a layer of that name.
+void add_graph(VoxFile& file, std::span<const PlacedModel> models, const std::string& name);
 
 // A warning for a grid whose cells are outside what MagicaVoxel shows; our own reader accepts them.
 [[nodiscard]] std::optional<std::string> range_warning(const MeshGrid& grid);

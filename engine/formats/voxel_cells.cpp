@@ -9,10 +9,8 @@ namespace voxilux {
 namespace {
 
 constexpr VoxelFormat kVoxelFormats[] = {
-    {".qb", read_qb},
-    {".kv6", read_kv6},
-    {".vxl", read_vxl},
-    {".binvox", read_binvox},
+    {".qb", read_qb},         {".kv6", read_kv6},     {".vxl", read_vxl},
+    {".binvox", read_binvox}, {".schem", read_schem}, {".litematic", read_litematic},
 };
 
 // Empty files and those that spread too far would fail later, without an offset.

@@ -11,6 +11,7 @@ promise was broken, and each is a line on standard error.
 """
 
 import argparse
+import gzip
 import itertools
 import os
 import pathlib
@@ -251,6 +252,28 @@ def tiny_qb() -> bytes:
     return struct.pack("<6I", 257, 0, 0, 0, 0, 1) + matrix
 
 
+def nbt(kind: int, name: bytes, payload: bytes) -> bytes:
+    return struct.pack(">BH", kind, len(name)) + name + payload
+
+
+def tiny_schem(rng: random.Random) -> bytes:
+    """Damaged before it is packed, half of the time."""
+    sides = b"".join(nbt(2, side, struct.pack(">h", 2)) for side in (b"Width", b"Height", b"Length"))
+    palette = b"".join(nbt(3, name, struct.pack(">i", i)) for i, name in enumerate((b"minecraft:air", b"minecraft:lava")))
+    data = nbt(7, b"BlockData", struct.pack(">i", 8) + bytes((0, 1) * 4))
+    whole = nbt(10, b"Schematic", sides + nbt(10, b"Palette", palette + b"\0") + data + b"\0")
+    return gzip.compress(mutated(whole, rng) if rng.random() < 0.5 else whole, mtime=0)
+
+
+def tiny_las() -> bytes:
+    head = bytearray(227)
+    struct.pack_into("<4s20x2B", head, 0, b"LASF", 1, 2)
+    struct.pack_into("<HII", head, 94, 227, 227, 0)
+    struct.pack_into("<BHI", head, 104, 2, 26, 3)
+    struct.pack_into("<6d", head, 131, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0)
+    return bytes(head) + b"".join(struct.pack("<3i8x3H", 4 * i, i, 7 * i, 9000 * i, 500, 60000) for i in range(3))
+
+
 PLY = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
        b"property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
        b"property list uchar int vertex_indices\nend_header\n"
@@ -290,7 +313,8 @@ def mutated(data: bytes, rng: random.Random) -> bytes:
 
 def feed_file(bench: Bench, rng: random.Random) -> str | None:
     seeds = {"a.vox": tiny_vox(), "a.qb": tiny_qb(), "a.binvox": BINVOX, "a.toml": SCENE.read_bytes(), "a.obj": OBJ,
-             "a.gltf": GLTF, "a.stl": tiny_stl(), "a.ply": PLY, "a.xyz": XYZ}
+             "a.gltf": GLTF, "a.stl": tiny_stl(), "a.ply": PLY, "a.xyz": XYZ,
+             "a.schem": tiny_schem(rng), "a.las": tiny_las()}
     for picture in ("seed.exr", "seed.png"):
         file = bench.folder.parent / picture
         seeds[picture.replace("seed", "a")] = file.read_bytes()
@@ -307,7 +331,7 @@ def feed_file(bench: Bench, rng: random.Random) -> str | None:
 def command_for(name: str, rng: random.Random) -> list:
     if name.endswith((".exr", ".png")):
         return ["compare", name, name] if rng.random() < 0.7 else ["merge", name, "-o", "b.exr"]
-    if name.endswith((".qb", ".binvox", ".xyz")):
+    if name.endswith((".qb", ".binvox", ".xyz", ".schem", ".las")):
         return ["convert", name, "b.vox"]
     if name.endswith((".obj", ".gltf", ".stl", ".ply")):
         return ["voxelize", name, "-o", "b.vox", "--resolution", "8"]

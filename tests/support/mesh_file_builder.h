@@ -1,11 +1,15 @@
 #pragma once
 
-// .stl, .ply and .xyz files written value by value from the published formats, without the engine's readers.
+// .stl, .ply, .xyz and .las files written value by value from the published formats, without the engine's
+// readers.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -135,6 +139,57 @@ inline std::string xyz(const PlainMesh& mesh) {
         out += fmt::format("{} {}\t{}  {} {} {}\r\n", p.x, p.y, p.z, +c.r, +c.g, +c.b);
     }
     return out;
+}
+
+// Bytes of a little-endian value.
+template <class T>
+std::string le(T value) {
+    return {reinterpret_cast<const char*>(&value), sizeof(value)};
+}
+
+// The steps of coordinates in a .las file: powers of two, so that the places of random_mesh are exact.
+inline constexpr double kLasScale = 1.0 / 1024, kLasOffset = 500000.0;
+
+inline bool las_has_colours(int format) {
+    return std::set<int>{2, 3, 5, 7, 8, 10}.contains(format);
+}
+
+// A .las file of version 1.0 (10) to 1.4 (14). Formats 2, 3, 5, 7, 8 and 10 have colours, of 16 bits from 1.2
+// on.
+inline std::string las(const PlainMesh& mesh, int format, int version) {
+    const std::map<int, std::size_t> bytes = {{0, 20}, {1, 28}, {2, 26}, {3, 34}, {4, 57}, {5, 63},
+                                              {6, 30}, {7, 36}, {8, 38}, {9, 59}, {10, 67}};
+    const std::map<int, std::size_t> colours = {{2, 20}, {3, 28}, {5, 28}, {7, 30}, {8, 30}, {10, 30}};
+    const std::size_t stride = bytes.at(format) + 3, head_bytes = version == 14 ? 375 : 227;
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    std::string head(head_bytes, '\0'), points;
+    const auto put = [](std::string& text, std::size_t at, const std::string& value) {
+        text.replace(at, value.size(), value);
+    };
+    put(head, 0, "LASF");
+    put(head, 24, std::string{static_cast<char>(version / 10), static_cast<char>(version % 10)});
+    put(head, 94, le(static_cast<std::uint16_t>(head_bytes)));
+    put(head, 96, le(static_cast<std::uint32_t>(head_bytes + 5)));
+    put(head, 104, std::string{static_cast<char>(format)} + le(static_cast<std::uint16_t>(stride)));
+    put(head, 107, le(version == 14 ? 0u : count));
+    if (version == 14) put(head, 247, le(std::uint64_t{count}));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        put(head, 131 + 8 * axis, le(kLasScale));
+        put(head, 155 + 8 * axis, le(kLasOffset));
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        std::string point(stride, '\x55');
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto n = static_cast<std::size_t>(axis);
+            put(point, 4 * n,
+                le(static_cast<std::int32_t>(std::lround(mesh.positions[i][axis] / kLasScale))));
+            const unsigned code = mesh.colours[i][axis] * (version >= 12 ? 257u : 1u);
+            if (las_has_colours(format))
+                put(point, colours.at(format) + 2 * n, le(static_cast<std::uint16_t>(code)));
+        }
+        points += point;
+    }
+    return head + "extra" + points;
 }
 
 }  // namespace mesh_file_builder

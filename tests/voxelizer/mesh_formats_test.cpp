@@ -9,6 +9,7 @@
 #include "base/colour.h"
 #include "support/allocation_counter.h"
 #include "support/mesh_file_builder.h"
+#include "voxelizer/load_las.h"
 #include "voxelizer/load_ply.h"
 #include "voxelizer/load_stl.h"
 #include "voxelizer/load_xyz.h"
@@ -151,7 +152,8 @@ TEST(MeshFormats, mutated_files_are_refused_or_load_in_bounded_memory) {
                                                         {load_ply, ply(mesh, PlyWriting::text)},
                                                         {load_ply, ply(mesh, PlyWriting::little_endian)},
                                                         {load_ply, ply(mesh, PlyWriting::big_endian)},
-                                                        {load_xyz, xyz(mesh)}};
+                                                        {load_xyz, xyz(mesh)},
+                                                        {load_las, las(mesh, 3, 13)}};
     std::mt19937 random(77);
     for (const auto& [load, text] : files) {
         int refused = 0, loaded = 0;
@@ -221,6 +223,51 @@ TEST(PointClouds, cells_hold_the_mean_of_their_points_in_linear_light) {
                     EXPECT_EQ(glm::ivec3(voxel.r, voxel.g, voxel.b),
                               glm::ivec3(srgb_code(mean.r), srgb_code(mean.g), srgb_code(mean.b)));
                 }
+        }
+    }
+}
+
+TEST(PointClouds, las_points_of_every_format_have_their_places_and_colours) {
+    for (int format = 0; format <= 10; ++format) {
+        const PlainMesh mesh = random_mesh(static_cast<std::uint32_t>(format) + 5);
+        const bool has_colours = las_has_colours(format);
+        for (const int version : {10, 12, 14}) {
+            const Mesh loaded = loaded_by(load_las, las(mesh, format, version));
+            ASSERT_EQ(loaded.positions.size(), mesh.positions.size());
+            EXPECT_TRUE(loaded.is_z_up);
+            ASSERT_EQ(loaded.colors.size(), has_colours ? mesh.positions.size() : 0u) << format;
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                EXPECT_EQ(loaded.positions[i] - kLasOffset, glm::dvec3(mesh.positions[i])) << format;
+                const glm::u8vec3 c = mesh.colours[i];
+                const glm::vec4 linear(linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b),
+                                       1);
+                if (!has_colours) continue;
+                EXPECT_EQ(loaded.colors[i], linear) << format << " " << version;
+            }
+        }
+    }
+}
+
+TEST(PointClouds, las_files_that_lie_or_are_compressed_are_refused) {
+    const std::string good = las(random_mesh(3), 2, 12);
+    const auto changed = [&](std::size_t at, const std::string& value) {
+        return std::string(good).replace(at, value.size(), value);
+    };
+    for (const auto& [text, words] : {std::pair{good.substr(0, 200), "LASF"},
+                                      {changed(0, "LASX"), "LASF"},
+                                      {changed(24, "\2"), "version"},
+                                      {changed(104, "\x82"), "LAZ"},
+                                      {changed(104, "\x0b"), "format 11"},
+                                      {changed(105, le(std::uint16_t{25})), "25 bytes"},
+                                      {changed(107, le(0u)), "no point"},
+                                      {changed(107, le(0x7FFFFFFFu)), "not read"},
+                                      {changed(96, le(0xFFFFFFFFu)), "too short"},
+                                      {good.substr(0, good.size() - 1), "too short"}}) {
+        try {
+            (void)loaded_by(load_las, text);
+            ADD_FAILURE() << words;
+        } catch (const MeshFault& fault) {
+            EXPECT_NE(std::string_view(fault.what()).find(words), std::string_view::npos) << fault.what();
         }
     }
 }

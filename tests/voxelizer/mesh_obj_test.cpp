@@ -238,7 +238,7 @@ TEST(LoadMesh, refusals_name_the_file_and_the_reason) {
     write(folder / "a.GLTF", "{");
     const std::string place = folder.path().string();
     EXPECT_EQ(refusal_of_text(folder / "a.stp"),
-              place + "/a.stp: not a mesh: .gltf, .glb, .obj, .stl, .ply, .xyz files are read");
+              place + "/a.stp: not a mesh: .gltf, .glb, .obj, .stl, .ply, .xyz, .las files are read");
     EXPECT_EQ(refusal_of_text(folder / "a.stl"), place + "/a.stl: no triangles");
     EXPECT_EQ(refusal_of_text(folder / "a.xyz"),
               place + "/a.xyz: a cloud of points; 'voxilux convert' makes it voxels");

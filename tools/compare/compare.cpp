@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/print.h"
-#include "estimators/compare_images.h"
 #include "formats/image_file.h"
 #include "jobs/or_null.h"
 #include "parse_values.h"
@@ -22,20 +21,6 @@ ImageComparison compare(const CompareOptions& options) {
     const Image reference = read_image(options.ref);  // read first: where both are broken, this one is named
     return compare_images(reference, read_image(options.test),
                           {.box = options.box, .mask = mask ? &*mask : nullptr});
-}
-
-// The contract has exactly these keys; a number that is not finite prints as null.
-nlohmann::ordered_json json_of(const ImageComparison& c) {
-    const Metrics& m = c.metrics;
-    return {{"rmse", m.rmse},
-            {"mae", m.mae},
-            {"relmse", m.relmse},
-            {"smape", m.smape},
-            {"flip", or_null(c.flip_mean)},
-            {"psnr", or_null(m.psnr)},
-            {"mean_ref", m.mean_ref},
-            {"mean_test", m.mean_test},
-            {"max_abs", m.max_abs}};
 }
 
 void print_facts(const ImageComparison& c) {
@@ -78,6 +63,19 @@ int check_limits(const ImageComparison& comparison, const std::map<std::string, 
 
 }  // namespace
 
+nlohmann::ordered_json metrics_json(const ImageComparison& comparison) {
+    const Metrics& m = comparison.metrics;
+    return {{"rmse", m.rmse},
+            {"mae", m.mae},
+            {"relmse", m.relmse},
+            {"smape", m.smape},
+            {"flip", or_null(comparison.flip_mean)},
+            {"psnr", or_null(m.psnr)},
+            {"mean_ref", m.mean_ref},
+            {"mean_test", m.mean_test},
+            {"max_abs", m.max_abs}};
+}
+
 void add_compare_flags(Flags& flags, CompareOptions& options) {
     flags.add("REF", "", options.ref, "reference image").required();
     flags.add("TEST", "", options.test, "image to compare with it").required();
@@ -111,7 +109,7 @@ int run_compare(const CompareOptions& options) {
         print_message("voxilux: note: {}\n", words);
     }
     if (options.json != "-") print_facts(comparison);
-    write_json(options.json, json_of(comparison));
+    write_json(options.json, metrics_json(comparison));
     if (comparison.metrics.non_finite > 0) {
         print_message("{} of {} pixels hold a NaN or an infinity: no metric is defined\n",
                       comparison.metrics.non_finite, comparison.metrics.pixels);

@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "estimators/metrics.h"
+#include "estimators/compare_images.h"
 #include "flags.h"
 
 namespace voxilux {
@@ -20,6 +21,9 @@ struct CompareOptions {
     bool strict = false;                // different crop windows are refused
     std::string diff;                   // picture of the difference, .exr or .png
 };
+
+// The metrics of the command line contract, with exactly its keys; a number that is not finite is null.
+[[nodiscard]] nlohmann::ordered_json metrics_json(const ImageComparison& comparison);
 
 void add_compare_flags(Flags& flags, CompareOptions& options);
 

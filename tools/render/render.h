@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jobs/checkpoint.h"
+#include "parse_values.h"
 #include "scene_options.h"
 #include "shared_flags.h"
 

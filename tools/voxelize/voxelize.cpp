@@ -99,37 +99,43 @@ void add_voxelize_flags(Flags& flags, VoxelizeCommand& command) {
     add_progress_flag(flags, command.progress);
 }
 
-int run_voxelize(const VoxelizeCommand& command) {
-    StepTimes times;
+Voxelized voxelize(const VoxelizeCommand& command, StepTimes& times) {
     VoxelizeRequest request = command.request;
     if (command.thin) request.coverage = Coverage::thin;
     if (command.parity && !request.is_solid) refuse("--parity: it is for --solid");
     if (command.parity) request.inside = InsideRule::parity;
+    Mesh mesh = read_mesh(command);
+    times.end_step("load");
+    VoxelSet set = voxelize_mesh(mesh, request);
+    times.end_step("voxelize");
+    VoxelPalette palette(set, command.dither);
+    times.end_step("palette");
+    std::vector<std::string> warnings = warnings_of(mesh, set, request.inside, palette.error());
+    refuse_warnings(command, warnings);
+    return {std::move(mesh), std::move(set), std::move(palette), std::move(warnings)};
+}
+
+int run_voxelize(const VoxelizeCommand& command) {
+    StepTimes times;
     const std::string output = output_of(command);
     check_outputs({output, command.report.json}, {command.mesh});
     ProgressLine progress(command.progress, command.report.quiet);
     const std::atomic<bool>& is_interrupted = interrupted_by_signal();
-    request.progress = [&](double done) {
+    VoxelizeCommand shown = command;
+    shown.request.progress = [&](double done) {
         if (is_interrupted) throw Error(ExitCode::interrupted, "interrupted; nothing was written");
         const double elapsed_s = times.total().wall;
         progress.show(done, elapsed_s, [=](bool as_json) { return progress_text(done, elapsed_s, as_json); });
     };
-
-    const Mesh mesh = read_mesh(command);
-    times.end_step("load");
-    const VoxelSet set = voxelize_mesh(mesh, request);
+    const Voxelized made = voxelize(shown, times);
     progress.finish();
-    times.end_step("voxelize");
-    const VoxelPalette palette(set, command.dither);
-    times.end_step("palette");
-    const std::vector<std::string> warnings = warnings_of(mesh, set, request.inside, palette.error());
-    refuse_warnings(command, warnings);
-    const VoxOutput written =
-        write_voxels(output, set, palette, mesh, std::filesystem::path(command.mesh).stem().string());
+    const VoxOutput written = write_voxels(output, made.set, made.palette, made.mesh,
+                                           std::filesystem::path(command.mesh).stem().string());
     times.end_step("write");
 
-    const VoxelizeFacts facts{command, mesh, set, palette, written, times, warnings, output};
-    for (const std::string& warning : warnings)
+    const VoxelizeFacts facts{command, made.mesh, made.set,      made.palette,
+                              written, times,     made.warnings, output};
+    for (const std::string& warning : made.warnings)
         print_message("voxilux: warning: {}\n", warning);
     if (command.report.prints()) print_result("{}", describe(facts));
     write_json(command.report.json, report_json(facts));

@@ -2,8 +2,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "shared_flags.h"
+#include "base/step_times.h"
+#include "voxelizer/mesh.h"
+#include "voxelizer/voxel_palette.h"
 #include "voxelizer/voxelize_mesh.h"
 
 namespace voxilux {
@@ -22,7 +26,18 @@ struct VoxelizeCommand {
     ReportOptions report;
 };
 
+// A mesh and its voxels.
+struct Voxelized {
+    Mesh mesh;
+    VoxelSet set;
+    VoxelPalette palette;
+    std::vector<std::string> warnings;
+};
+
 void add_voxelize_flags(Flags& flags, VoxelizeCommand& command);
+
+// Reads a mesh and voxelizes it; `times` gets the steps. Throws Error: usage, input_refused.
+[[nodiscard]] Voxelized voxelize(const VoxelizeCommand& command, StepTimes& times);
 
 // Reads a mesh and writes it as a .vox file. Returns the exit code. Throws Error: usage, input_refused,
 // cannot_write, interrupted.

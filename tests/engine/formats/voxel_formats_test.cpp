@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
+#include <set>
 
+#include "formats/block_looks.h"
 #include "formats/voxel_cells.h"
 #include "support/allocation_counter.h"
 #include "support/voxel_file_builder.h"
@@ -89,7 +92,8 @@ TEST(VoxelFormats, map_without_a_header_is_512_by_512_by_64) {
 
 TEST(VoxelFormats, mutated_files_are_refused_with_an_offset_or_load_in_bounded_memory) {
     constexpr std::size_t kMost = 4096;
-    constexpr std::size_t kBytesOfTexts = 4096;  // texts
+    constexpr std::size_t kBytesOfTexts = 4096;    // texts
+    constexpr std::size_t kBytesOfBlocks = 32768;  // palettes of Minecraft, and what unpacks them
     for (const auto& [ending, make] : kSampledFormats) {
         std::mt19937 random(kMutationSeed);
         std::size_t refused = 0, loaded = 0;
@@ -107,7 +111,8 @@ TEST(VoxelFormats, mutated_files_are_refused_with_an_offset_or_load_in_bounded_m
             }
             const PeakAllocation peak;
             const auto voxels = read_voxel_cells(format_of(ending), as_bytes_of(bytes), kMost);
-            EXPECT_LE(peak.bytes(), 2 * sizeof(ColouredCell) * kMost + kBytesOfTexts) << ending << round;
+            EXPECT_LE(peak.bytes(), 2 * sizeof(ColouredCell) * kMost + kBytesOfTexts + kBytesOfBlocks)
+                << ending << round;
             ++(voxels ? loaded : refused);
             EXPECT_TRUE(voxels || voxels.reason().starts_with("at byte "));
         }
@@ -123,6 +128,129 @@ TEST(VoxelFormats, every_truncation_is_refused) {
             EXPECT_FALSE(read_voxel_cells(format_of(ending), as_bytes_of(bytes.substr(0, length))))
                 << ending << length;
     }
+}
+
+// A gzip stream hides the counts, so its content is damaged before it is packed, too.
+TEST(VoxelFormats, mutated_content_of_minecraft_files_is_refused_or_loads_in_bounded_memory) {
+    constexpr std::size_t kMost = 4096, kBytesOfBlocks = std::size_t{2} << 20;
+    std::mt19937 random(kMutationSeed);
+    for (const auto make : {schem_sample, litematic_sample}) {
+        const VoxelFormat& format = format_of(make == schem_sample ? ".schem" : ".litematic");
+        int refused = 0, loaded = 0;
+        for (std::uint32_t round = 0; round < 1000; ++round) {
+            std::string bytes = unpacked(make(round % 10).bytes);
+            for (std::uint_fast32_t i = 1 + random() % 3; i > 0; --i)
+                bytes[random() % bytes.size()] =
+                    static_cast<char>(random() % 2 == 0 ? random() : random() % 13);
+            const PeakAllocation peak;
+            const auto voxels = read_voxel_cells(format, as_bytes_of(gzipped(bytes)), kMost);
+            EXPECT_LE(peak.bytes(), 2 * sizeof(ColouredCell) * kMost + kBytesOfBlocks) << round;
+            ++(voxels ? loaded : refused);
+        }
+        EXPECT_GT(refused, 200) << format.ending;
+        EXPECT_GT(loaded, 50) << format.ending;
+    }
+}
+
+TEST(VoxelFormats, blocks_have_the_looks_of_their_names) {
+    const auto colour = [](const char* name) { return glm::ivec3(look_of_block(name).colour); };
+    EXPECT_EQ(colour("minecraft:red_concrete"), colour("minecraft:red_wool"));
+    EXPECT_EQ(colour("minecraft:oak_stairs[half=top,facing=east]"), colour("minecraft:oak_planks"));
+    EXPECT_EQ(colour("minecraft:stone_brick_stairs"), colour("minecraft:stone"));
+    EXPECT_EQ(colour("minecraft:waxed_oxidized_cut_copper_slab"), colour("minecraft:oxidized_copper"));
+    EXPECT_EQ(colour("minecraft:deepslate_brick_wall"), colour("minecraft:deepslate"));
+    EXPECT_EQ(colour("minecraft:dead_tube_coral_wall_fan"), colour("minecraft:tube_coral"));
+    EXPECT_EQ(colour("minecraft:deepslate_gold_ore"), colour("minecraft:gold_ore"));
+    EXPECT_NE(colour("minecraft:oak_log"), colour("minecraft:oak_planks"));
+    EXPECT_NE(colour("minecraft:light_blue_wool"), colour("minecraft:blue_wool"));
+    EXPECT_EQ(look_of_block("minecraft:lime_stained_glass_pane").look, CellLook::glass);
+    EXPECT_EQ(look_of_block("minecraft:water[level=0]").look, CellLook::water);
+    EXPECT_EQ(look_of_block("minecraft:lava").look, CellLook::light);
+    EXPECT_EQ(look_of_block("minecraft:redstone_lamp[lit=true]").look, CellLook::light);
+    EXPECT_EQ(look_of_block("minecraft:redstone_lamp[lit=false]").look, CellLook::diffuse);
+    EXPECT_TRUE(look_of_block("minecraft:cave_air").is_empty);
+    EXPECT_EQ(look_of_block("mod:gadget"), (BlockLook{.colour = {128, 128, 128}, .is_known = false}));
+}
+
+TEST(VoxelFormats, every_dye_and_wood_is_known_in_every_form) {
+    const std::string dyes[] = {"white", "orange", "magenta",    "light_blue", "yellow", "lime",
+                                "pink",  "gray",   "light_gray", "cyan",       "purple", "blue",
+                                "brown", "green",  "red",        "black"};
+    const std::string dyed[] = {"wool",          "carpet",
+                                "concrete",      "concrete_powder",
+                                "terracotta",    "glazed_terracotta",
+                                "stained_glass", "stained_glass_pane",
+                                "bed",           "shulker_box"};
+    std::set<std::array<int, 3>> colours;
+    for (const std::string& dye : dyes)
+        for (const std::string& form : dyed) {
+            const BlockLook look = look_of_block("minecraft:" + dye + "_" + form);
+            EXPECT_TRUE(look.is_known) << dye << form;
+            colours.insert({look.colour.r, look.colour.g, look.colour.b});
+        }
+    EXPECT_EQ(colours.size(), std::size(dyes)) << "one colour for each dye";
+    for (const char* wood : {"oak", "spruce", "birch", "jungle", "acacia", "dark_oak", "mangrove", "cherry"})
+        for (const char* form : {"planks", "log", "wood", "stairs", "slab", "fence", "fence_gate", "door",
+                                 "trapdoor", "button", "sign", "leaves", "pressure_plate"})
+            EXPECT_TRUE(look_of_block(std::string("minecraft:") + wood + "_" + form).is_known)
+                << wood << form;
+}
+
+TEST(VoxelFormats, unknown_blocks_are_grey_and_counted) {
+    const std::string body =
+        nbt_compound("Schematic", nbt_short("Width", 4) + nbt_short("Height", 1) + nbt_short("Length", 1) +
+                                      nbt_compound("Palette", nbt_int("mod:a", 0) + nbt_int("mod:b", 1) +
+                                                                  nbt_int("minecraft:dirt", 2)) +
+                                      nbt_bytes("BlockData", std::string("\0\0\1\2", 4)));
+    const auto voxels = read_voxel_cells(format_of(".schem"), as_bytes_of(gzipped(body)));
+    ASSERT_TRUE(voxels) << voxels.reason();
+    EXPECT_EQ(voxels.value().cells[0].colour, glm::u8vec3(128));
+    ASSERT_EQ(voxels.value().warnings.size(), 1u);
+    EXPECT_EQ(voxels.value().warnings[0],
+              "3 voxels are grey: the colours of 2 kinds of blocks are unknown, 'mod:a' among them");
+}
+
+TEST(VoxelFormats, minecraft_files_that_do_not_add_up_are_refused) {
+    const auto schem = [](int width, const std::string& data, const std::string& more = "") {
+        return nbt_compound("Schematic", nbt_short("Width", width) + nbt_short("Height", 1) +
+                                             nbt_short("Length", 1) +
+                                             nbt_compound("Palette", nbt_int("minecraft:dirt", 0)) +
+                                             nbt_bytes("BlockData", data) + more);
+    };
+    const std::string good = schem(2, std::string(2, '\0'));
+    ASSERT_TRUE(read_voxel_cells(format_of(".schem"), as_bytes_of(good)));
+    std::string deep;
+    for (int i = 0; i < 600; ++i)
+        deep += nbt_tag(10, "", "");
+    std::string wrong_sum = gzipped(good);
+    wrong_sum[wrong_sum.size() - 6] ^= 1;
+    for (const auto& [bytes, words] :
+         {std::pair{schem(3, std::string(2, '\0')), "3 x 1 x 1"},
+          {schem(1, std::string(2, '\0')), "1 x 1 x 1"},
+          {schem(1, "\1"), "not in the palette"},
+          {schem(1, "\x80"), "does not end"},
+          {schem(0, ""), "no Width"},
+          {schem(1, std::string(1, '\0'), nbt_tag(13, "x", "")), "type 13"},
+          {schem(1, std::string(1, '\0'), nbt_tag(11, "x", big(0xFFFFFFFF, 4))), "-1 elements"},
+          {schem(1, std::string(1, '\0'), deep), "nested"},
+          {nbt_compound("Schematic", nbt_short("Width", 1) + nbt_short("Height", 1) + nbt_short("Length", 1)),
+           "no blocks"},
+          {std::string("PK"), "type 80"},
+          {wrong_sum, "damaged"}}) {
+        const auto voxels = read_voxel_cells(format_of(".schem"), as_bytes_of(bytes));
+        ASSERT_FALSE(voxels) << words;
+        EXPECT_NE(voxels.reason().find(words), std::string::npos) << voxels.reason();
+    }
+}
+
+TEST(VoxelFormatsNightly, gzip_bomb_is_refused_at_the_bound_in_little_memory) {
+    const std::string bomb = schem_bomb();
+    ASSERT_LT(bomb.size(), std::size_t{8} << 20);
+    const PeakAllocation peak;
+    const auto voxels = read_voxel_cells(format_of(".schem"), as_bytes_of(bomb));
+    ASSERT_FALSE(voxels);
+    EXPECT_NE(voxels.reason().find("over 1024 MiB"), std::string::npos) << voxels.reason();
+    EXPECT_LE(peak.bytes(), std::size_t{1} << 16);
 }
 
 TEST(VoxelFormats, files_that_claim_too_much_are_refused_before_memory_is_taken) {

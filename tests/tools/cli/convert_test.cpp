@@ -145,6 +145,7 @@ TEST(Convert, each_mesh_and_cloud_becomes_voxels) {
         {"a.ply", mesh_file_builder::ply(mesh, PlyWriting::big_endian)},
         {"b.ply", mesh_file_builder::ply_points(mesh, PlyWriting::text)},
         {"a.xyz", mesh_file_builder::xyz(mesh)},
+        {"a.las", mesh_file_builder::las(mesh, 7, 14)},
     };
     std::map<std::string, Cells> cells;
     for (const auto& [name, bytes] : files) {
@@ -156,6 +157,7 @@ TEST(Convert, each_mesh_and_cloud_becomes_voxels) {
     }
     EXPECT_EQ(cells["a.stl"], cells["b.stl"]);
     EXPECT_EQ(cells["b.ply"], cells["a.xyz"]);
+    EXPECT_EQ(cells["a.las"], cells["a.xyz"]);
     EXPECT_LE(cells["a.xyz"].size(), mesh.positions.size());
     EXPECT_GT(cells["a.ply"].size(), 100u);
     EXPECT_EQ(run({"voxelize", (folder / "a.xyz").string(), "-o", (folder / "b.vox").string()}).code, 3);
