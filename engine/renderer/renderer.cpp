@@ -82,7 +82,11 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
     scene_ = without_voxels(scene);
     request_ = request;
     prepared_ = std::move(next);
-    if (editing_) editing_->is_grown = limits_.is_cpu;
+    if (editing_) {
+        editing_->is_grown = limits_.is_cpu;
+        editing_->has_stale_boxes = false;
+        editing_->regrowth.reset();
+    }
     add_step_times(built_, prepared_->times.steps());
     pending_ = {};
     record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -45,6 +46,11 @@ class Renderer {
     // EditableVoxels::apply do. Returns the edits that undo it.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
 
+    // Empty boxes around edited voxels are at first smaller than in a structure built anew, and rays take
+    // more steps. Takes one step of some milliseconds towards larger ones; false where none is left. Pictures
+    // do not depend on them.
+    bool regrow_boxes();
+
     // The voxels that edit() changes; null where there are none.
     [[nodiscard]] const VoxelWorld* voxels() const { return editing_ ? &editing_->voxels.world() : nullptr; }
 
@@ -81,13 +87,15 @@ class Renderer {
         EditableVoxels voxels;
         bool is_grown = false;  // the structure on the host has the boxes that grow on the device
         bool is_stale = false;  // the structure does not match the voxels
+        bool has_stale_boxes = false;
+        std::unique_ptr<Regrowth> regrowth;  // of the structure as it is, once it has begun
     };
 
     [[nodiscard]] PreparedScene prepare_again(const Scene& scene, const PlanRequest& request) const;
     void replan(Scene scene, const PlanRequest& request);
     void adopt(PreparedScene next, const Scene& scene, const PlanRequest& request);
     void fetch_boxes();
-    [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells);
+    [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells, StepTimes& times);
     void start_plan(const FrameState& state);
     void upload();
     [[nodiscard]] StepResult with_uploads(StepResult step);

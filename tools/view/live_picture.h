@@ -23,9 +23,10 @@ struct SampleEnds {
 
 // What a frame of the window did.
 struct LiveFrame {
-    glm::ivec2 size{0};         // of the rendered picture
-    std::uint32_t samples = 0;  // in its film
-    double step_s = 0.0;        // spent in the renderer
+    glm::ivec2 size{0};             // of the rendered picture
+    std::uint32_t samples = 0;      // in its film
+    double step_s = 0.0;            // spent in the renderer
+    std::vector<StepTime> built{};  // what making, editing and uploading worlds took before its first step
 };
 
 // The picture of a window: a scene, a camera and a size, each of which may change at any time. While
