@@ -39,6 +39,12 @@ struct DisplayCellsPush {
     float high;  // and end
 };
 
+// Push constants of display_steps.
+struct DisplayRangePush {
+    float low;   // log10 of the steps where colours begin
+    float high;  // and end
+};
+
 // Push constants of what is drawn over the image in a window.
 struct WindowPush {
     vec2 window;  // pixels of the window
