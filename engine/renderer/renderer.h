@@ -37,6 +37,9 @@ class Renderer {
     // does.
     void set_camera(const Camera& camera);
 
+    // The same scene under another sun. Occlusion that frames share stays. Throws as change() does.
+    void set_sun(const Sun& sun);
+
     // Other settings, techniques or effects, as a fresh renderer would have them, except that the structure
     // of the world stays, whichever one `request` names. Throws as prepare does.
     void change(const RenderSettings& settings, const PlanRequest& request);
@@ -92,7 +95,7 @@ class Renderer {
     };
 
     [[nodiscard]] PreparedScene prepare_again(const Scene& scene, const PlanRequest& request) const;
-    void replan(Scene scene, const PlanRequest& request);
+    void replan(Scene scene, const PlanRequest& request, bool keeps_cells = false);
     void adopt(PreparedScene next, const Scene& scene, const PlanRequest& request);
     void fetch_boxes();
     [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells, StepTimes& times);

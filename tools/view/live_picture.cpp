@@ -77,6 +77,11 @@ void LivePicture::set_camera(const Camera& camera) {
     camera_ = camera;
 }
 
+void LivePicture::set_sun(const Sun& sun) {
+    begin_motion();
+    renderer_.set_sun(sun);
+}
+
 // An orthographic camera depends on the size of the image, so it follows the size of the plan.
 void LivePicture::fit_camera() {
     if (camera_.projection == Projection::orthographic)

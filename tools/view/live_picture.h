@@ -41,6 +41,8 @@ class LivePicture {
     void load(const Scene& scene, const PlanRequest& request);
     // Throws as Renderer::set_camera, and keeps the old camera then.
     void set_camera(const Camera& camera);
+    // Throws as Renderer::set_sun, and keeps the old sun then.
+    void set_sun(const Sun& sun);
     void set_size(glm::ivec2 size);
     // Shows a frame of an animation, which has other voxels or another sun. Its voxels cannot be edited.
     void set_frame(const Scene& still);
