@@ -47,7 +47,8 @@ struct DisplayRangePush {
 
 // Push constants of what is drawn over the image in a window.
 struct WindowPush {
-    vec2 window;  // pixels of the window
+    vec2 window;      // pixels of the window
+    uint font_width;  // texels
 };
 
 VX_END
