@@ -116,15 +116,17 @@ DisplayBuffer FilmSteps::display(const DisplayLook& look) {
     VX_ASSERT(start_ == FilmPosition{});
     clear_film();
     Recording recording;
-    DisplayLook seen = look;  // before the first sample there are no cells
-    if (look.channel == DisplayChannel::cells && state_.samples_done == 0)
-        seen.channel = DisplayChannel::color;
-    const DisplayBuffer shown =
-        seen.channel == DisplayChannel::cells
-            ? record_display_cells(*plan_, state_.samples_done - 1, seen, recording)
-            : record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, seen, recording);
+    const DisplayBuffer shown = record_display(look, recording);
     (void)executor_->run(recording);
     return shown;
+}
+
+DisplayBuffer FilmSteps::record_display(DisplayLook look, Recording& recording) const {
+    if (look.channel == DisplayChannel::steps) return record_display_steps(*plan_, params_, look, recording);
+    if (look.channel == DisplayChannel::cells && state_.samples_done > 0)
+        return record_display_cells(*plan_, state_.samples_done - 1, look, recording);
+    if (look.channel == DisplayChannel::cells) look.channel = DisplayChannel::color;  // there are none yet
+    return record_display_resolve(*plan_, {position_.samples, position_.rows_ahead}, look, recording);
 }
 
 FilmSums FilmSteps::read() {

@@ -85,6 +85,7 @@ class FilmSteps {
 
   private:
     void clear_film();
+    DisplayBuffer record_display(DisplayLook look, Recording& recording) const;
     [[nodiscard]] FilmSums counted(FilmSums film, std::uint32_t first_row = 0) const;
 
     const RenderPlan* plan_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/error.h"
 #include "frame/footprint.h"
 #include "frame/frame.h"
 #include "passes/upload.h"
@@ -82,7 +83,11 @@ void Renderer::adopt(PreparedScene next, const Scene& scene, const PlanRequest& 
     scene_ = without_voxels(scene);
     request_ = request;
     prepared_ = std::move(next);
-    if (editing_) editing_->is_grown = limits_.is_cpu;
+    if (editing_) {
+        editing_->is_grown = limits_.is_cpu;
+        editing_->has_stale_boxes = false;
+        editing_->regrowth.reset();
+    }
     add_step_times(built_, prepared_->times.steps());
     pending_ = {};
     record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
@@ -110,6 +115,23 @@ void Renderer::set_camera(const Camera& camera) {
     scene_.camera = camera;
 }
 
+void Renderer::set_sun(const Sun& sun) {
+    StepTimes times;
+    Scene scene = scene_;
+    scene.sun = sun;
+    if (is_framed_) scene.camera.reset();
+    const SceneFacts before = prepared_->facts;
+    measure_sun(scene, prepared_->facts);
+    try {
+        replan(std::move(scene), request_, true);
+    } catch (const Error&) {
+        prepared_->facts = before;
+        throw;
+    }
+    times.end_step("sun.plan");
+    add_step_times(built_, times.steps());
+}
+
 void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted) {
     PlanRequest request = wanted;
     request.leaves_room = editing_.has_value();
@@ -119,8 +141,8 @@ void Renderer::change(const RenderSettings& settings, const PlanRequest& wanted)
     replan(std::move(scene), request);
 }
 
-// Plans a scene with the same voxels; the structure of the world stays.
-void Renderer::replan(Scene scene, const PlanRequest& request) {
+// Plans a scene with the same voxels; the structure of the world stays, and if wanted the occlusion cells.
+void Renderer::replan(Scene scene, const PlanRequest& request, bool keeps_cells) {
     first_radius_.reset();
     if (!prepared_->facts.has_voxels) return adopt(prepare_again(scene, request), scene, request);
     if (!scene.camera) scene.camera = framing_camera_of(scene, prepared_->facts.box);
@@ -132,6 +154,7 @@ void Renderer::replan(Scene scene, const PlanRequest& request) {
                 world.lights);
     RenderPlan plan = plan_within_memory(scene, prepared_->facts, world, request, limits_);
     upload();
+    const FrameState state = keeps_cells && plan.ao == prepared_->plan.ao ? steps_->state() : FrameState{};
     request_ = request;
     scene_ = std::move(scene);
     prepared_->plan = std::move(plan);
@@ -140,7 +163,7 @@ void Renderer::replan(Scene scene, const PlanRequest& request) {
                                 pending_);
     else
         record_scene_upload(prepared_->plan, scene_, prepared_->march_world, prepared_->lights, pending_);
-    start_plan({});
+    start_plan(state);
 }
 
 // Begins with a new plan. One photon radius serves all cameras, so that frames do not flicker.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,9 @@ class Renderer {
     // does.
     void set_camera(const Camera& camera);
 
+    // The same scene under another sun. Occlusion that frames share stays. Throws as change() does.
+    void set_sun(const Sun& sun);
+
     // Other settings, techniques or effects, as a fresh renderer would have them, except that the structure
     // of the world stays, whichever one `request` names. Throws as prepare does.
     void change(const RenderSettings& settings, const PlanRequest& request);
@@ -44,6 +48,11 @@ class Renderer {
     // unless the bounding box of all voxels changes or room is short. Throws as prepare and
     // EditableVoxels::apply do. Returns the edits that undo it.
     std::vector<BoxEdit> edit(std::span<const BoxEdit> edits);
+
+    // Empty boxes around edited voxels are at first smaller than in a structure built anew, and rays take
+    // more steps. Takes one step of some milliseconds towards larger ones; false where none is left. Pictures
+    // do not depend on them.
+    bool regrow_boxes();
 
     // The voxels that edit() changes; null where there are none.
     [[nodiscard]] const VoxelWorld* voxels() const { return editing_ ? &editing_->voxels.world() : nullptr; }
@@ -81,13 +90,15 @@ class Renderer {
         EditableVoxels voxels;
         bool is_grown = false;  // the structure on the host has the boxes that grow on the device
         bool is_stale = false;  // the structure does not match the voxels
+        bool has_stale_boxes = false;
+        std::unique_ptr<Regrowth> regrowth;  // of the structure as it is, once it has begun
     };
 
     [[nodiscard]] PreparedScene prepare_again(const Scene& scene, const PlanRequest& request) const;
-    void replan(Scene scene, const PlanRequest& request);
+    void replan(Scene scene, const PlanRequest& request, bool keeps_cells = false);
     void adopt(PreparedScene next, const Scene& scene, const PlanRequest& request);
     void fetch_boxes();
-    [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells);
+    [[nodiscard]] bool edit_structure(std::span<const VoxelEdit> cells, StepTimes& times);
     void start_plan(const FrameState& state);
     void upload();
     [[nodiscard]] StepResult with_uploads(StepResult step);

@@ -156,10 +156,8 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
         facts.extent = facts.box.extent();
         facts.fill_ratio = static_cast<double>(facts.voxel_count) / cell_count(facts.box);
     }
-    facts.sun_reaches = any_positive(sunlight(scene));
     facts.has_atmosphere = scene.sky.is_atmosphere();
-    if (scene.sky.is_image()) facts.sky_image = scene.sky.image.size;
-    facts.has_sky = has_sky(scene);
+    measure_sun(scene, facts);
     if (facts.has_atmosphere) facts.haze = haze_before_surfaces(scene, facts.box);
     facts.aperture = scene.lens.aperture;
     measure_materials(scene, std::move(voxels.used), facts);
@@ -169,6 +167,12 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
                      double{std::max({scene.ground.albedo.x, scene.ground.albedo.y, scene.ground.albedo.z})});
     facts.simplified.insert(facts.simplified.end(), scene.notes.begin(), scene.notes.end());
     return facts;
+}
+
+void measure_sun(const Scene& scene, SceneFacts& facts) {
+    facts.sun_reaches = any_positive(sunlight(scene));
+    facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
+                                         : any_positive(scene.sky.radiance);
 }
 
 std::string describe(const SceneFacts& facts) {

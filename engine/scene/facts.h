@@ -58,6 +58,9 @@ struct VoxelFacts {
 // The facts of a scene with these voxels instead of its own.
 [[nodiscard]] SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels);
 
+// Measures again what depends on the sun.
+void measure_sun(const Scene& scene, SceneFacts& facts);
+
 // One "name: value" line per fact, stable between runs.
 [[nodiscard]] std::string describe(const SceneFacts& facts);
 

@@ -92,7 +92,8 @@ struct PresenterState {
     UniqueFence fence;
     UniqueSemaphore acquired;
     std::optional<Swapchain> swapchain;
-    bool is_stale = true;       // the swapchain no longer fits the window
+    bool is_stale = true;  // the swapchain no longer fits the window
+    std::uint32_t font_width = 0;
     glm::ivec2 window_size{0};  // when the swapchain was made, pixels
     std::array<Buffer, kWindowBuffers> buffers;
     Buffer captured;
@@ -104,14 +105,17 @@ namespace {
 void bind_buffers(const PresenterState& state) {
     std::array<VkDescriptorBufferInfo, kWindowBuffers> infos{};
     std::array<VkWriteDescriptorSet, kWindowBuffers> writes{};
+    std::array<VkBufferView, kWindowBuffers> views{};
     for (std::uint32_t i = 0; i < kWindowBuffers; ++i) {
         infos[i] = {state.buffers[i].handle.get(), 0, VK_WHOLE_SIZE};
+        views[i] = state.buffers[i].words.get();
         writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                      .dstSet = state.programs.set,
                      .dstBinding = i,
                      .descriptorCount = 1,
-                     .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                     .pBufferInfo = &infos[i]};
+                     .descriptorType = descriptor_type(static_cast<WindowBuffer>(i)),
+                     .pBufferInfo = &infos[i],
+                     .pTexelBufferView = &views[i]};
     }
     vkUpdateDescriptorSets(state.device.handle, kWindowBuffers, writes.data(), 0, nullptr);
 }
@@ -178,7 +182,8 @@ void draw_window(PresenterState& state, std::uint32_t image, const ShownPicture&
     const VkPipelineLayout layout = state.programs.layout.get();
     vkCmdBindDescriptorSets(state.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                             &state.programs.set, 0, nullptr);
-    const gpu::WindowPush push{.window = glm::vec2(size_of(*state.swapchain))};
+    const gpu::WindowPush push{.window = glm::vec2(size_of(*state.swapchain)),
+                               .font_width = state.font_width};
     vkCmdPushConstants(state.commands, layout, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                        sizeof push, &push);
     draw_overlay(state, overlay);
@@ -257,11 +262,8 @@ Presenter::~Presenter() {
 }
 
 void Presenter::set_font(std::span<const std::uint8_t> coverage, glm::ivec2 size) {
-    std::vector<std::byte> bytes(sizeof(std::uint32_t) + coverage.size());
-    const auto width = static_cast<std::uint32_t>(size.x);
-    std::memcpy(bytes.data(), &width, sizeof width);
-    std::memcpy(bytes.data() + sizeof width, coverage.data(), coverage.size());
-    state_->fill(WindowBuffer::font, bytes);
+    state_->font_width = static_cast<std::uint32_t>(size.x);
+    state_->fill(WindowBuffer::font, std::as_bytes(coverage));
 }
 
 bool Presenter::present(const ShownPicture& picture, const Overlay& overlay, glm::ivec2 window,

@@ -16,7 +16,7 @@ UniqueSetLayout create_set_layout(const DeviceState& device) {
     std::array<VkDescriptorSetLayoutBinding, kWindowBuffers> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i)
         bindings[i] = {.binding = i,
-                       .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                       .descriptorType = descriptor_type(static_cast<WindowBuffer>(i)),
                        .descriptorCount = 1,
                        .stageFlags = kStages};
     const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
@@ -40,11 +40,13 @@ UniquePipelineLayout create_layout(const DeviceState& device, VkDescriptorSetLay
 }
 
 UniqueDescriptorPool create_pool(const DeviceState& device) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kWindowBuffers};
+    constexpr std::array<VkDescriptorPoolSize, 2> kSizes{
+        {{VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, 1},
+         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kWindowBuffers - 1}}};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = 1,
-                                          .poolSizeCount = 1,
-                                          .pPoolSizes = &size};
+                                          .poolSizeCount = kSizes.size(),
+                                          .pPoolSizes = kSizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
     vk_check(vkCreateDescriptorPool(device.handle, &info, nullptr, &pool), "create the window's pool");
     return {device.handle, pool};

@@ -11,9 +11,13 @@
 
 namespace voxilux {
 
-// Storage buffers that the shaders of a window read, by binding.
+// Buffers that the shaders of a window read, by binding.
 enum class WindowBuffer : std::uint8_t { font, vertices, indices };
 inline constexpr std::size_t kWindowBuffers = 3;
+[[nodiscard]] constexpr VkDescriptorType descriptor_type(WindowBuffer buffer) {
+    return buffer == WindowBuffer::font ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
+                                        : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
 
 // The pipeline that draws triangles over an image, and the descriptor set that it reads.
 struct WindowPrograms {

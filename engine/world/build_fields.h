@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "shared/gpu_types.h"
 #include "world/march_world.h"
 
 namespace voxilux {
@@ -21,10 +22,26 @@ void build_unexpanded(const VoxelWorld& world, MarchWorld& built);
 // For each block of 64 cells of a level, the cell of its parent; empty for chunks, which have no blocks.
 [[nodiscard]] std::vector<glm::ivec3> level_homes(const MarchWorld& built, int log2);
 
-// Grows the boxes of such a level; those of all larger cells must have grown before.
-void grow_level(MarchWorld& built, int log2);
+// Grows the boxes of all levels of an unexpanded structure, step by step.
+class BoxGrowth {
+  public:
+    explicit BoxGrowth(MarchWorld& built) : built_(&built), levels_(growing_levels(built.traversal)) {}
 
-// Grows the boxes of all levels of an unexpanded structure.
+    // Takes the next step; false when there is none.
+    bool step();
+
+  private:
+    void begin_level();
+
+    MarchWorld* built_;
+    std::vector<int> levels_;
+    std::size_t level_ = 0;
+    gpu::uint number_ = 0;  // of the next step in the level
+    std::vector<glm::ivec3> homes_;
+    std::vector<std::uint32_t> grown_;
+};
+
+// Takes all steps.
 void grow_boxes(MarchWorld& built);
 
 // A level with cells whose boxes grow.

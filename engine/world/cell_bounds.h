@@ -32,6 +32,10 @@ struct CellBounds {
         return extent.x * extent.y * extent.z;
     }
     [[nodiscard]] CellBounds children() const { return empty() ? *this : CellBounds{low * 4, high * 4}; }
+    // All parents of 4^3 cells.
+    [[nodiscard]] CellBounds parents() const {
+        return empty() ? *this : CellBounds{low >> 2, ((high - 1) >> 2) + 1};
+    }
     [[nodiscard]] bool contains(glm::ivec3 c) const {
         return c.x >= low.x && c.y >= low.y && c.z >= low.z && c.x < high.x && c.y < high.y && c.z < high.z;
     }

@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <functional>
 #include <span>
-#include <tuple>
+#include <utility>
 
 #include "base/checked_cast.h"
 #include "world/build_fields.h"
-#include "world/growing_box.h"
+#include "world/cut_box.h"
 #include "world/leaf_block.h"
 #include "world/world_view.h"
 
 namespace voxilux {
 namespace {
 
-// Most bricks whose boxes are redone for a batch of edits; each takes five bytes.
-constexpr std::int64_t kMostRegrown = std::int64_t{1} << 26;
-
-// Changed words with at most so many words between them share a range.
-constexpr std::size_t kMaxGap = 16;
+// Cells that a box reaches.
+constexpr int kLongest = static_cast<int>(gpu::kDistanceOnes);
 // In place of a block's number, until the block is stored.
 constexpr std::uint32_t kNoBlock = gpu::kCellPayloadMask;
 
@@ -31,27 +28,12 @@ void for_each_cell(CellBounds bounds, glm::ivec3 size, const Visit& visit) {
                 visit(glm::ivec3(x, y, z));
 }
 
-// Ranges that cover the words with these numbers, and all from `first_new` to `end`.
-std::vector<WordRange> ranges_of(std::vector<std::size_t> words, std::size_t first_new, std::size_t end) {
-    std::ranges::sort(words);
-    std::vector<WordRange> ranges;
-    for (const std::size_t word : words) {
-        if (word >= first_new) break;
-        if (ranges.empty() || ranges.back().end + kMaxGap < word)
-            ranges.push_back({word, word + 1});
-        else
-            ranges.back().end = word + 1;
-    }
-    if (first_new < end) ranges.push_back({first_new, end});
-    return ranges;
-}
-
 bool is_empty(std::uint32_t cell) {
     return gpu::cell_state(cell) == gpu::kCellEmpty;
 }
 
-// One edit of a structure with free boxes: first the states of cells, then the boxes from the largest cells
-// down.
+// One edit of a structure with free boxes: first the states of cells, then the boxes that reach into what has
+// been filled.
 class Edit {
   public:
     Edit(const VoxelWorld& world, MarchWorld& built)
@@ -67,19 +49,17 @@ class Edit {
         if (is_empty(before) && is_empty(after)) return;  // its box stays
         if (has_nodes_) open_chunk(brick >> 2);
         assign(brick_word(brick), after);
-        if (is_empty(before) != is_empty(after)) bricks_.include(brick);
+        has_stale_boxes_ |= is_empty(before) != is_empty(after);
+        if (is_empty(before)) filled_bricks_.include(brick);
+        if (is_empty(after)) cleared_bricks_.push_back(brick);
         if (has_nodes_) close_chunk(brick >> 2);
     }
 
-    // False, with stale boxes, when edits lie so far apart that the bounds of all are too large.
-    [[nodiscard]] bool grow() {
-        if (has_nodes_)
-            bricks_.include(
-                regrow(gpu::kChunkLog2, chunks_.grown(glm::ivec3(GrowingBox::kReach))).children());
-        const CellBounds bounds = bricks_.grown(glm::ivec3(GrowingBox::kReach));
-        if (bounds.inside(built_.size() >> gpu::kBrickLog2).count() > kMostRegrown) return false;
-        regrow(gpu::kBrickLog2, bounds);
-        return true;
+    void change_boxes() {
+        if (has_nodes_) cut_chunks();
+        cut_bricks();
+        grow_boxes_of(gpu::kChunkLog2, cleared_chunks_);
+        grow_boxes_of(gpu::kBrickLog2, cleared_bricks_);
     }
 
     // Gives a mixed brick the block that follows from its voxels and those of the bricks around it.
@@ -99,26 +79,31 @@ class Edit {
         built_.leaves.insert(built_.leaves.end(), block.begin(), block.end());
     }
 
-    [[nodiscard]] WorldChanges changes() const {
-        return {.roots = ranges_of(changed_roots_, built_.roots.size(), built_.roots.size()),
-                .nodes = ranges_of(changed_nodes_, first_new_node_, built_.nodes.size()),
-                .leaves = ranges_of({}, first_new_leaf_, built_.leaves.size())};
+    [[nodiscard]] WorldChanges changes() {
+        if (first_new_node_ < built_.nodes.size())
+            changed_nodes_.push_back({first_new_node_, built_.nodes.size()});
+        WorldChanges changes{.has_stale_boxes = has_stale_boxes_,
+                             .roots = joined_ranges(std::move(changed_roots_)),
+                             .nodes = joined_ranges(std::move(changed_nodes_)),
+                             .leaves = {}};
+        if (first_new_leaf_ < built_.leaves.size())
+            changes.leaves.push_back({first_new_leaf_, built_.leaves.size()});
+        return changes;
     }
 
   private:
     void assign(std::uint32_t* word, std::uint32_t value) {
         *word = value;
-        note(word);
+        note(word, 1);
     }
 
-    // Remembers that a root or a node has changed.
-    void note(const std::uint32_t* word) {
+    // Remembers that roots or nodes have changed.
+    void note(const std::uint32_t* words, std::size_t count) {
         const std::uint32_t* roots = built_.roots.data();
-        const bool is_root = !std::less<>()(word, roots) && std::less<>()(word, roots + built_.roots.size());
-        if (is_root)
-            changed_roots_.push_back(static_cast<std::size_t>(word - roots));
-        else
-            changed_nodes_.push_back(static_cast<std::size_t>(word - built_.nodes.data()));
+        const bool are_roots =
+            !std::less<>()(words, roots) && std::less<>()(words, roots + built_.roots.size());
+        const auto first = static_cast<std::size_t>(words - (are_roots ? roots : built_.nodes.data()));
+        (are_roots ? changed_roots_ : changed_nodes_).push_back({first, first + count});
     }
 
     // The word of a brick; null inside a chunk that has no nodes.
@@ -152,13 +137,14 @@ class Edit {
     // Splits a chunk of one cell into 64 bricks.
     void open_chunk(glm::ivec3 chunk) {
         std::uint32_t& root = chunk_word(chunk);
-        if (gpu::cell_state(root) == gpu::kCellMixed) return;
-        const std::uint32_t content = is_empty(root) ? 0 : root;
-        if (is_empty(root)) chunks_.include(chunk);
-        bricks_.include(CellBounds{chunk, chunk + 1}.children());
+        const std::uint32_t before = root;
+        if (gpu::cell_state(before) == gpu::kCellMixed) return;
+        if (is_empty(before)) filled_chunks_.include(chunk);
         assign(&root, gpu::make_cell(gpu::kCellMixed,
                                      checked_cast<std::uint32_t>(built_.nodes.size() / 64, "mixed chunks")));
-        built_.nodes.insert(built_.nodes.end(), 64, content);
+        for (std::uint32_t slot = 0; slot < 64; ++slot)
+            built_.nodes.push_back(is_empty(before) ? gpu::inherited_distances(before, gpu::slot_cell(slot))
+                                                    : before);
         built_.node_homes.push_back(chunk);
     }
 
@@ -170,63 +156,89 @@ class Edit {
         const bool all_solid =
             gpu::cell_state(cells[0]) == gpu::kCellSolid &&
             std::ranges::all_of(cells, [&](std::uint32_t cell) { return cell == cells[0]; });
-        if (!all_empty && !all_solid) return;
-        if (all_empty) chunks_.include(chunk);
-        bricks_.include(CellBounds{chunk, chunk + 1}.children());
-        assign(&root, all_empty ? 0 : cells[0]);
+        if (all_empty || all_solid) assign(&root, all_empty ? 0 : cells[0]);
+        if (all_empty) cleared_chunks_.push_back(chunk);
     }
 
-    std::uint32_t* level_word(int log2, glm::ivec3 cell) {
-        return log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
+    // Gives cells that were cleared boxes from those around them.
+    void grow_boxes_of(int log2, const std::vector<glm::ivec3>& cleared) {
+        for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
+            for (const glm::ivec3 cell : cleared) {
+                std::uint32_t* const word = log2 == gpu::kChunkLog2 ? &chunk_word(cell) : brick_word(cell);
+                if (word != nullptr)
+                    assign(word, gpu::grown_word(built_, *word, cell, log2, built_.chunks_size,
+                                                 gpu::growth_step(number)));
+            }
+        }
     }
 
-    // Redoes the boxes of the roots or nodes in the bounds and returns the cells whose boxes have changed.
-    CellBounds regrow(int log2, const CellBounds& bounds) {
-        const glm::ivec3 level = built_.size() >> log2;
-        GrowingBox box(bounds, level);
-        for_each_cell(box.cells(), level, [&](glm::ivec3 cell) {
-            const std::uint32_t* const word = level_word(log2, cell);
-            if (word != nullptr && is_empty(*word))
-                box.set_empty(cell);
-            else
-                box.set_fixed(cell, gpu::distances_at(built_, cell, log2, built_.chunks_size));
+    void cut_chunks() {
+        for_each_cell(filled_chunks_.grown(glm::ivec3(kLongest)), built_.chunks_size, [&](glm::ivec3 chunk) {
+            std::uint32_t& root = chunk_word(chunk);
+            cut_run(std::span(&root, 1), filled_chunks_, [&](std::size_t) { return chunk; });
         });
-        box.grow();
-        CellBounds changed;
-        for_each_cell(bounds, level, [&](glm::ivec3 cell) {
-            std::uint32_t* const word = level_word(log2, cell);
-            if (word == nullptr || !is_empty(*word) || *word == box.distances(cell)) return;
-            assign(word, box.distances(cell));
-            changed.include(cell);
+    }
+
+    void cut_bricks() {
+        const CellBounds near = filled_bricks_.grown(glm::ivec3(kLongest)).parents();
+        for_each_cell(near, built_.chunks_size, [&](glm::ivec3 chunk) {
+            std::size_t block = gpu::grid_index(chunk, built_.chunks_size);
+            if (has_nodes_) {
+                const std::uint32_t root = built_.roots[block];
+                if (gpu::cell_state(root) != gpu::kCellMixed) return;
+                block = gpu::cell_payload(root);
+            }
+            const auto bricks = std::span(has_nodes_ ? built_.nodes : built_.roots).subspan(64 * block, 64);
+            cut_run(bricks, filled_bricks_,
+                    [&](std::size_t slot) { return gpu::child_cell(chunk, static_cast<gpu::uint>(slot)); });
         });
-        return changed;
+    }
+
+    // Cuts the boxes of cells whose words follow each other.
+    template <class CellOf>
+    void cut_run(std::span<std::uint32_t> words, const CellBounds& filled, const CellOf& cell_of) {
+        std::size_t first = words.size();
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            if (!is_empty(words[i])) continue;
+            const std::uint32_t cut = cut_distances(words[i], cell_of(i), filled);
+            if (std::exchange(words[i], cut) == cut) continue;
+            first = std::min(first, i);
+            end = i + 1;
+        }
+        if (first < end) note(&words[first], end - first);
     }
 
     const VoxelWorld& world_;
     MarchWorld& built_;
     bool has_nodes_;
+    bool has_stale_boxes_ = false;
     std::size_t first_new_node_;
     std::size_t first_new_leaf_;
-    std::vector<std::size_t> changed_roots_;
-    std::vector<std::size_t> changed_nodes_;
-    CellBounds chunks_;  // that became empty or stopped being so
-    CellBounds bricks_;  // the same, and those whose chunk got or lost its nodes
+    std::vector<WordRange> changed_roots_;
+    std::vector<WordRange> changed_nodes_;
+    CellBounds filled_chunks_;  // around those that were empty
+    CellBounds filled_bricks_;
+    std::vector<glm::ivec3> cleared_chunks_;
+    std::vector<glm::ivec3> cleared_bricks_;
 };
 
 void sort_unique(std::vector<glm::ivec3>& bricks) {
     std::ranges::sort(bricks, [](glm::ivec3 a, glm::ivec3 b) {
-        return std::tuple(a.z, a.y, a.x) < std::tuple(b.z, b.y, b.x);
+        return a.z != b.z ? a.z < b.z : a.y != b.y ? a.y < b.y : a.x < b.x;
     });
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
 }
 
-// The bricks and those around them, each once.
-std::vector<glm::ivec3> with_neighbours(const std::vector<glm::ivec3>& bricks) {
+// The bricks and those around them that are not empty, each once.
+std::vector<glm::ivec3> with_neighbours(const std::vector<glm::ivec3>& bricks, const VoxelWorld& world) {
     std::vector<glm::ivec3> all;
-    all.reserve(27 * bricks.size());
-    for (const glm::ivec3 brick : bricks)
-        for (int i = 0; i < 27; ++i)
-            all.push_back(brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+    for (const glm::ivec3 brick : bricks) {
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 near = brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+            if (world.brick_number(near) != VoxelWorld::kNoBrick) all.push_back(near);
+        }
+    }
     sort_unique(all);
     return all;
 }
@@ -237,7 +249,8 @@ WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const Vo
     std::vector<glm::ivec3> bricks;
     for (const VoxelEdit& edit : edits) {
         world.put(edit.local, edit.voxel);
-        bricks.push_back(edit.local >> gpu::kBrickLog2);
+        const glm::ivec3 brick = edit.local >> gpu::kBrickLog2;
+        if (bricks.empty() || bricks.back() != brick) bricks.push_back(brick);
     }
     if (!has_free_boxes(built.traversal)) {
         built = build_march_world(world, built.traversal);
@@ -247,13 +260,35 @@ WorldChanges edit_world(VoxelWorld& world, MarchWorld& built, std::span<const Vo
     Edit edit(world, built);
     for (const glm::ivec3 brick : bricks)
         edit.touch(brick);
-    if (!edit.grow()) {
-        built = build_march_world(world, built.traversal);
-        return {.is_rebuilt = true};
-    }
-    for (const glm::ivec3 brick : with_neighbours(bricks))
+    edit.change_boxes();
+    for (const glm::ivec3 brick : with_neighbours(bricks, world))
         edit.store_leaf(brick);
     return edit.changes();
+}
+
+Regrowth::Regrowth(const MarchWorld& built)
+    : grown_{.traversal = built.traversal,
+             .origin = built.origin,
+             .chunks_size = built.chunks_size,
+             .roots = built.roots,
+             .nodes = built.nodes,
+             .leaves = {},
+             .node_homes = built.node_homes} {
+    for (const int log2 : growing_levels(built.traversal))
+        for (std::uint32_t& word : level_words(grown_, log2))
+            if (is_empty(word)) word = 0;
+    growth_.emplace(grown_);
+}
+
+WorldChanges Regrowth::finish(MarchWorld& built) {
+    while (growth_->step()) {
+    }
+    WorldChanges changes{.roots = differing_words(built.roots, grown_.roots),
+                         .nodes = differing_words(built.nodes, grown_.nodes),
+                         .leaves = {}};
+    built.roots = std::move(grown_.roots);
+    built.nodes = std::move(grown_.nodes);
+    return changes;
 }
 
 }  // namespace voxilux

@@ -139,23 +139,29 @@ std::vector<glm::ivec3> level_homes(const MarchWorld& built, int log2) {
     return homes;
 }
 
-void grow_level(MarchWorld& built, int log2) {
-    std::vector<std::uint32_t>& words = level_words(built, log2);
-    const std::vector<glm::ivec3> homes = level_homes(built, log2);
-    std::vector<std::uint32_t> grown = words;
-    for (gpu::uint number = 0; number < gpu::kGrowthSteps; ++number) {
-        const gpu::GrowthStep step = gpu::growth_step(number);
-        if (log2 == gpu::kChunkLog2)
-            grow_chunks(built, step, grown);
-        else
-            grow_bricks(built, homes, step, grown);
-        words.swap(grown);
-    }
+void BoxGrowth::begin_level() {
+    homes_ = level_homes(*built_, levels_[level_]);
+    grown_ = level_words(*built_, levels_[level_]);
+}
+
+bool BoxGrowth::step() {
+    if (level_ == levels_.size()) return false;
+    if (number_ == 0) begin_level();
+    const gpu::GrowthStep step = gpu::growth_step(number_);
+    if (levels_[level_] == gpu::kChunkLog2)
+        grow_chunks(*built_, step, grown_);
+    else
+        grow_bricks(*built_, homes_, step, grown_);
+    level_words(*built_, levels_[level_]).swap(grown_);
+    if (++number_ < gpu::kGrowthSteps) return true;
+    number_ = 0;
+    return ++level_ < levels_.size();
 }
 
 void grow_boxes(MarchWorld& built) {
-    for (const int log2 : growing_levels(built.traversal))
-        grow_level(built, log2);
+    BoxGrowth growth(built);
+    while (growth.step()) {
+    }
 }
 
 GrowthNeeds growth_needs(const MarchWorld& unexpanded) {

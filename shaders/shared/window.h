@@ -39,9 +39,16 @@ struct DisplayCellsPush {
     float high;  // and end
 };
 
+// Push constants of display_steps.
+struct DisplayRangePush {
+    float low;   // log10 of the steps where colours begin
+    float high;  // and end
+};
+
 // Push constants of what is drawn over the image in a window.
 struct WindowPush {
-    vec2 window;  // pixels of the window
+    vec2 window;      // pixels of the window
+    uint font_width;  // texels
 };
 
 VX_END

@@ -6,15 +6,17 @@
 
 #include "shared/window.h"
 
-layout(scalar, set = 0, binding = 0) readonly buffer Font {
-    uint font_width;
-    uint coverage[];  // four texels per word
+// Four texels per word. As a texel buffer, since lavapipe loads from it for eight fragments at once.
+layout(r32ui, set = 0, binding = 0) readonly uniform uimageBuffer Font;
+layout(push_constant, scalar) uniform Push {
+    WindowPush push;
 };
 layout(location = 0) in vec2 texel;
 layout(location = 1) in vec4 colour;
 layout(location = 0) out vec4 shown;
 
 void main() {
-    uint i = uint(texel.y) * font_width + uint(texel.x);
-    shown = vec4(colour.rgb, colour.a * unpackUnorm4x8(coverage[i / 4u])[i % 4u]);
+    uint i = uint(texel.y) * push.font_width + uint(texel.x);
+    uint coverage = imageLoad(Font, int(i / 4u)).x >> (8u * (i % 4u)) & 0xFFu;
+    shown = vec4(colour.rgb, colour.a * float(coverage) / 255.0);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
 #include "view/mesh_drop.h"
 #include "view/picture_look.h"
 #include "view/quality_choice.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kFlightPerSecond = 0.5;  // of the distance to the centre
 constexpr float kExposureStep = 0.5f;     // stops
+constexpr float kSunTurn = 5.0f;          // degrees
+constexpr float kSunRise = 2.5f;          // likewise
 
 void look_from(View side, glm::ivec2 window, ViewState& state) {
     Camera looking = looking_along(side, state.view.camera.fov_y_deg);
@@ -46,6 +49,45 @@ void show_frame(std::int64_t frame, ViewState& state) {
     if (!state.frames) return;
     const auto& [first, last] = *state.frames;
     state.frame = frame > last ? first : frame < first ? last : frame;
+}
+
+// Turns or raises the sun.
+void move_sun(float azimuth_deg, float elevation_deg, ViewState& state) {
+    if (!state.picture.is_loaded()) return;
+    Sun sun = state.picture.renderer().scene().sun;
+    if (!sun.on) {
+        state.message = "the scene has no sun";
+        return;
+    }
+    sun.azimuth_deg = std::remainder(sun.azimuth_deg + azimuth_deg, 360.0f);
+    sun.elevation_deg = std::clamp(sun.elevation_deg + elevation_deg, -90.0f, 90.0f);
+    try {
+        state.picture.set_sun(sun);
+        state.has_moved_sun = true;
+        state.message = fmt::format("sun: azimuth {}, elevation {}", sun.azimuth_deg, sun.elevation_deg);
+    } catch (const Error& error) {
+        state.message = error.what();
+    }
+}
+
+// What a key that is held down does again and again; false for other keys.
+bool take_repeating_key(int key, ViewState& state) {
+    switch (key) {
+        case GLFW_KEY_LEFT:
+            move_sun(kSunTurn, 0.0f, state);
+            return true;
+        case GLFW_KEY_RIGHT:
+            move_sun(-kSunTurn, 0.0f, state);
+            return true;
+        case GLFW_KEY_UP:
+            move_sun(0.0f, kSunRise, state);
+            return true;
+        case GLFW_KEY_DOWN:
+            move_sun(0.0f, -kSunRise, state);
+            return true;
+        default:
+            return false;
+    }
 }
 
 void choose_tool(int key, ViewState& state) {
@@ -168,7 +210,7 @@ void hold(const KeyEvent& key, InputState& held) {
 void take_event(const InputEvent& event, glm::ivec2 window, ViewState& state) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) {
         hold(*key, state.held);
-        if (!key->is_down || key->is_repeat) return;
+        if (!key->is_down || take_repeating_key(key->key, state) || key->is_repeat) return;
         if (state.held.control)
             take_shortcut(key->key, state);
         else
@@ -197,7 +239,7 @@ void fly(double seconds, ViewState& state) {
 }
 
 std::span<const std::pair<const char*, const char*>> key_sheet() {
-    static constexpr std::array<std::pair<const char*, const char*>, 25> kSheet{{
+    static constexpr std::array<std::pair<const char*, const char*>, 26> kSheet{{
         {"left drag", "orbit"},
         {"middle or shift drag", "pan"},
         {"right drag", "look around"},
@@ -206,6 +248,7 @@ std::span<const std::pair<const char*, const char*>> key_sheet() {
         {"1 3 7 9", "front, right, top, iso"},
         {"5", "parallel rays or perspective"},
         {"Enter", "the first view again"},
+        {"arrows", "turn the sun, raise or lower it"},
         {"+ -", "exposure"},
         {"C, shift C", "the next channel, the one before"},
         {"X", "compare with the reference"},

@@ -77,6 +77,11 @@ void LivePicture::set_camera(const Camera& camera) {
     camera_ = camera;
 }
 
+void LivePicture::set_sun(const Sun& sun) {
+    begin_motion();
+    renderer_.set_sun(sun);
+}
+
 // An orthographic camera depends on the size of the image, so it follows the size of the plan.
 void LivePicture::fit_camera() {
     if (camera_.projection == Projection::orthographic)
@@ -209,6 +214,8 @@ LiveFrame LivePicture::advance(double budget_s, std::uint32_t end_samples) {
     if (is_moving()) return advance_motion(budget_s);
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t end = std::min(end_samples, max_samples());
+    while (renderer_.regrow_boxes() && seconds_since(start) < budget_s) {
+    }
     if (samples() < end && !is_done()) take_samples(budget_s, end);
     compute_flip();
     return {renderer_.plan().settings.size, samples(), seconds_since(start)};
@@ -233,10 +240,12 @@ LiveFrame LivePicture::advance_motion(double budget_s) {
     if (std::exchange(has_other_size_, false)) replan_motion();
     const auto start = std::chrono::steady_clock::now();
     const std::uint32_t before = samples();
+    LiveFrame frame{.size = renderer_.plan().settings.size};
     while (samples() == before)
-        (void)renderer_.step(budget_s, before + 1);
+        add_step_times(frame.built, renderer_.step(budget_s, before + 1).built);
     has_news_ = true;
-    const LiveFrame frame{renderer_.plan().settings.size, samples(), seconds_since(start)};
+    frame.samples = samples();
+    frame.step_s = seconds_since(start);
     has_other_size_ = resolution_.learn(frame.step_s);
     return frame;
 }

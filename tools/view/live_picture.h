@@ -23,9 +23,10 @@ struct SampleEnds {
 
 // What a frame of the window did.
 struct LiveFrame {
-    glm::ivec2 size{0};         // of the rendered picture
-    std::uint32_t samples = 0;  // in its film
-    double step_s = 0.0;        // spent in the renderer
+    glm::ivec2 size{0};             // of the rendered picture
+    std::uint32_t samples = 0;      // in its film
+    double step_s = 0.0;            // spent in the renderer
+    std::vector<StepTime> built{};  // what making, editing and uploading worlds took before its first step
 };
 
 // The picture of a window: a scene, a camera and a size, each of which may change at any time. While
@@ -40,6 +41,8 @@ class LivePicture {
     void load(const Scene& scene, const PlanRequest& request);
     // Throws as Renderer::set_camera, and keeps the old camera then.
     void set_camera(const Camera& camera);
+    // Throws as Renderer::set_sun, and keeps the old sun then.
+    void set_sun(const Sun& sun);
     void set_size(glm::ivec2 size);
     // Shows a frame of an animation, which has other voxels or another sun. Its voxels cannot be edited.
     void set_frame(const Scene& still);

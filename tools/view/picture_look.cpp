@@ -13,10 +13,10 @@ namespace {
 constexpr float kLowError = -3.0f;  // powers of ten of radiance
 constexpr float kHighError = 0.0f;
 constexpr float kHighCells = 5.0f;  // powers of ten of samples in an occlusion cell
+constexpr float kHighSteps = 3.0f;  // powers of ten of steps
 
 bool is_aov(DisplayChannel channel) {
-    return channel != DisplayChannel::color && channel != DisplayChannel::error &&
-           channel != DisplayChannel::cells;
+    return channel != DisplayChannel::color && channel < DisplayChannel::error;
 }
 
 // Depths of the nearest and the farthest corner of the scene.
@@ -70,6 +70,7 @@ void fit_range(ViewState& state) {
         look.high = glm::vec3(kHighError);
     }
     if (look.channel == DisplayChannel::cells) look.high = glm::vec3(kHighCells);
+    if (look.channel == DisplayChannel::steps) look.high = glm::vec3(kHighSteps);
     if (state.box.empty()) return;
     if (look.channel == DisplayChannel::position) {
         look.low = glm::vec3(state.box.lo);

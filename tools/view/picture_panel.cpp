@@ -53,6 +53,11 @@ void draw_legend(const ViewState& state) {
             if (has_channel(state.picture.renderer().plan(), look.channel))
                 return draw_legend("1 ray in the cell", fmt::format("{:.0e}", std::pow(10.0f, look.high.x)));
             return ImGui::TextUnformatted("this picture keeps no occlusion in cells");
+        case DisplayChannel::steps:
+            if (!has_channel(state.picture.renderer().plan(), look.channel))
+                return ImGui::TextUnformatted("this scene has no voxels");
+            draw_legend("1 step", fmt::format("{:.0f}", std::pow(10.0f, look.high.x)));
+            return ImGui::TextUnformatted("of the camera ray and the shadow ray");
         default:
             return;
     }

@@ -59,9 +59,10 @@ void add_camera(const Camera& camera, std::vector<std::string>& line) {
 // The frame, and what a window shows differently from the file.
 void add_frame(const ViewState& state, std::vector<std::string>& line) {
     if (state.frames) line.push_back(fmt::format("--frame {}", state.frame));
-    const auto azimuth_deg = static_cast<double>(state.picture.renderer().scene().sun.azimuth_deg);
-    if (state.turns_sun)  // --viewpoint stops the turntable
-        line.push_back(fmt::format("-D sun.azimuth={}", azimuth_deg));
+    const Sun& sun = state.picture.renderer().scene().sun;
+    if (state.turns_sun || state.has_moved_sun)  // --viewpoint stops the turntable
+        line.push_back(fmt::format("-D sun.azimuth={}", sun.azimuth_deg));
+    if (state.has_moved_sun) line.push_back(fmt::format("-D sun.elevation={}", sun.elevation_deg));
     if (state.had_shadow_only) line.emplace_back("-D ground.shadow_only=false");
     line.emplace_back("--background sky");
 }

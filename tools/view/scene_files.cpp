@@ -59,6 +59,7 @@ void SceneFiles::show(Scene scene, const std::string& input, const FileWatch& wa
     state_.picture.set_max_samples(scene.settings.spp);
     state_.input = input;
     state_.edit = {};
+    state_.has_moved_sun = false;
     state_.had_shadow_only = had_shadow_only;
     state_.box = scene_bounds(still);
     state_.view = state_.home = view_of(*still.camera, state_.box);

@@ -56,21 +56,25 @@ void ViewReport::add_frame(double seconds, double show_s) {
                        .show_ms = 1000.0 * show_s,
                        .resident_mib = resident_mib(),
                        .samples = last_.samples,
-                       .size = last_.size});
+                       .size = last_.size,
+                       .built = std::exchange(built_, {})});
 }
 
 void ViewReport::write(const std::string& file, const ViewState& state, glm::ivec2 window,
                        const std::vector<std::string>& messages) const {
     const Camera& camera = state.view.camera;
     Json frames = Json::array();
-    for (const Frame& frame : frames_)
-        frames.push_back({{"ms", frame.ms},
-                          {"step_ms", frame.step_ms},
-                          {"show_ms", frame.show_ms},
-                          {"samples", frame.samples},
-                          {"width", frame.size.x},
-                          {"height", frame.size.y},
-                          {"resident_mib", frame.resident_mib}});
+    for (const Frame& frame : frames_) {
+        Json& row = frames.emplace_back(Json{{"ms", frame.ms},
+                                             {"step_ms", frame.step_ms},
+                                             {"show_ms", frame.show_ms},
+                                             {"samples", frame.samples},
+                                             {"width", frame.size.x},
+                                             {"height", frame.size.y},
+                                             {"resident_mib", frame.resident_mib}});
+        for (const StepTime& step : frame.built)
+            row["built_ms"][step.label] = 1000.0 * step.time.wall;
+    }
     write_json(file, {{"first_picture_ms", 1000.0 * first_s_},
                       {"frames", frames},
                       {"shown",

@@ -14,6 +14,7 @@ class ViewReport {
     void add_step(const LiveFrame& frame) {
         last_ = frame;
         step_s_ += frame.step_s;
+        add_step_times(built_, frame.built);
     }
     // Sets the seconds from the start to the first shown frame.
     void set_first(double seconds) { first_s_ = seconds; }
@@ -32,11 +33,13 @@ class ViewReport {
         double resident_mib = 0.0;
         std::uint32_t samples = 0;
         glm::ivec2 size{0};
+        std::vector<StepTime> built{};
     };
 
     std::vector<Frame> frames_;
     LiveFrame last_;
     double step_s_ = 0.0;  // since the last frame
+    std::vector<StepTime> built_;
     double first_s_ = 0.0;
 };
 

@@ -39,6 +39,7 @@ struct ViewState {
     std::int64_t frame = 0;
     bool is_playing = false;
     bool turns_sun = false;
+    bool has_moved_sun = false;
     bool had_shadow_only = false;  // of the ground, which a window always shows
     bool has_saved = false;        // the edits to the scene's file
     bool has_newer_file = false;   // somebody wrote it, and loading it would lose edits

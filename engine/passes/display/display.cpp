@@ -37,6 +37,7 @@ ChannelSource source_of(DisplayChannel channel) {
             return {.plane = {"beauty_a", 3}, .has_halves = true, .shows = gpu::kShowsError};
         case DisplayChannel::color:
         case DisplayChannel::cells:
+        case DisplayChannel::steps:
             break;
     }
     return {.plane = {"beauty_a", 3}, .has_halves = true};
@@ -78,6 +79,7 @@ std::string values_of(const RenderPlan& plan, const ChannelSource& source, std::
 bool has_channel(const RenderPlan& plan, DisplayChannel channel) {
     if (channel == DisplayChannel::color || channel == DisplayChannel::error) return true;
     if (channel == DisplayChannel::cells) return plan.has(Effect::ao) && plan.ao.uses_cells();
+    if (channel == DisplayChannel::steps) return plan.has(Effect::voxels);
     if (channel == DisplayChannel::ao && !plan.has(Effect::ao)) return false;
     if (channel == DisplayChannel::sun && !plan.has(Effect::sun)) return false;
     return plan.has(Effect::aov);
@@ -85,7 +87,7 @@ bool has_channel(const RenderPlan& plan, DisplayChannel channel) {
 
 DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts& counts,
                                      const DisplayLook& look, Recording& recording) {
-    VX_ASSERT(has_channel(plan, look.channel) && look.channel != DisplayChannel::cells);
+    VX_ASSERT(has_channel(plan, look.channel) && look.channel < DisplayChannel::cells);
     const ChannelSource source = source_of(look.channel);
     const DisplayBuffer display = display_buffer(plan, recording);
     const bool compares = look.comparison != DisplayComparison::none;
@@ -135,6 +137,27 @@ DisplayBuffer record_display_cells(const RenderPlan& plan, std::uint64_t sample,
          .bindings = {{"Slots", cells.slots}, {"Samples", cells.samples}, {"Display", display.buffer}},
          .constants = {{"is_bgr", look.is_bgr ? 1u : 0u}},
          .push = to_bytes(push)});
+    return display;
+}
+
+DisplayBuffer record_display_steps(const RenderPlan& plan, gpu::FrameParams params, const DisplayLook& look,
+                                   Recording& recording) {
+    VX_ASSERT(has_channel(plan, DisplayChannel::steps));
+    const DisplayBuffer display = display_buffer(plan, recording);
+    params.first_row = static_cast<gpu::uint>(plan.first_pixel.y);
+    params.row_count = static_cast<gpu::uint>(display.size.y);
+    recording.upload(frame_buffer(recording), to_bytes(params));
+    Dispatch dispatch{.label = "display.steps",
+                      .shader = "display_steps",
+                      .extent = pixel_extent(plan, {.row_count = params.row_count}),
+                      .bindings = {{"Frame", frame_buffer(recording)}, {"Display", display.buffer}},
+                      .constants = {sequence_constant(plan),
+                                    projection_constant(plan),
+                                    {"has_shadows", plan.has(Effect::sun) ? 1u : 0u},
+                                    {"is_bgr", look.is_bgr ? 1u : 0u}},
+                      .push = to_bytes(gpu::DisplayRangePush{.low = look.low.x, .high = look.high.x})};
+    point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
+    recording.dispatch(std::move(dispatch));
     return display;
 }
 

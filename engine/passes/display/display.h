@@ -11,15 +11,28 @@
 #include "film/tonemap.h"
 #include "plan/render_plan.h"
 #include "record/recording.h"
+#include "shared/gpu_types.h"
 
 namespace voxilux {
 
 // What a display can show of a film. `error` is the standard error of the luminance, as in film_image().
-// `cells` are not part of the film: they show how many occlusion rays each occlusion cell of the last sample
-// holds.
-enum class DisplayChannel : std::uint8_t { color, albedo, normal, position, depth, ao, sun, error, cells };
-inline constexpr std::array<std::string_view, 9> kDisplayChannelNames{
-    "color", "albedo", "normal", "position", "depth", "ao", "sun", "error", "cells"};
+// The last two are not part of the film: `cells` shows how many occlusion rays each occlusion cell of the
+// last sample holds, and `steps` what a pixel costs, as the steps that its camera ray and its shadow ray
+// take.
+enum class DisplayChannel : std::uint8_t {
+    color,
+    albedo,
+    normal,
+    position,
+    depth,
+    ao,
+    sun,
+    error,
+    cells,
+    steps
+};
+inline constexpr std::array<std::string_view, 10> kDisplayChannelNames{
+    "color", "albedo", "normal", "position", "depth", "ao", "sun", "error", "cells", "steps"};
 
 // What is shown to the right of the divider. `map` shows numbers from 0 to 1 in place of the reference.
 enum class DisplayComparison : std::uint8_t { none, reference, difference, map };
@@ -30,7 +43,7 @@ struct DisplayLook {
     float exposure = 1.0f;  // multiplies `color`
     ToneMap curve = ToneMap::filmic;
     glm::vec3 low{0.0f};   // where false colours begin; of scalar channels the first component
-    glm::vec3 high{1.0f};  // where they end; for `error` and `cells` both are logarithms to base 10
+    glm::vec3 high{1.0f};  // where they end; for the last three channels both are logarithms to base 10
     DisplayComparison comparison = DisplayComparison::none;  // of `color`, against a reference
     std::uint32_t divider = 0;                               // first column that is compared
     bool is_bgr = false;                                     // the lowest byte of a code is blue, not red
@@ -50,7 +63,7 @@ struct DisplayBuffer {
     glm::ivec2 size{0};  // pixels
 };
 
-// Whether the film of a plan has the channel.
+// Whether a plan has the channel.
 [[nodiscard]] bool has_channel(const RenderPlan& plan, DisplayChannel channel);
 
 // The film as codes, for whatever presents it on the device. Pixels without a sample are black. It is
@@ -62,6 +75,11 @@ DisplayBuffer record_display_resolve(const RenderPlan& plan, const SampleCounts&
 // The occlusion cells as codes, black where a pixel has none. `sample` is the last one that the plan took,
 // counted from 0 since its cells were emptied.
 DisplayBuffer record_display_cells(const RenderPlan& plan, std::uint64_t sample, const DisplayLook& look,
+                                   Recording& recording);
+
+// The steps through the structure as codes. They are counted now, with rays of the first sample of the frame
+// with these parameters.
+DisplayBuffer record_display_steps(const RenderPlan& plan, gpu::FrameParams params, const DisplayLook& look,
                                    Recording& recording);
 
 // Uploads the reference: [height][width][3] radiance in the size of the image, or the number of a map three

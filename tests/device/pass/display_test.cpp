@@ -7,6 +7,7 @@
 
 #include "film/film.h"
 #include "film/film_sums.h"
+#include "frame/frame.h"
 #include "passes/ao/ao.h"
 #include "renderer/renderer.h"
 #include "shared/cell_age.h"
@@ -15,6 +16,9 @@
 #include "support/device_fixture.h"
 #include "support/light_scenes.h"
 #include "support/test_scenes.h"
+#include "world/world_view.h"
+// After it, because it marches rays, too.
+#include "shared/camera.h"
 
 namespace voxilux::test {
 namespace {
@@ -115,6 +119,66 @@ TEST(Display, shows_numbers_between_their_ends_as_false_colours) {
         }
         EXPECT_GT(colours.size(), 2u) << name;
     }
+}
+
+// The steps of the rays of a pixel on the host.
+int host_steps(const gpu::FrameParams& frame, const MarchWorld& world, gpu::uint x, gpu::uint y,
+               bool has_shadows) {
+    const auto projection = static_cast<gpu::uint>(Projection::perspective);
+    const gpu::WorldEntry entry = gpu::enter_world(
+        gpu::camera_ray(frame, projection, gpu::kSequenceSobol, x, y), frame.chunks << gpu::kChunkLog2);
+    if (!entry.enters) return 0;
+    const gpu::MarchHit hit = gpu::march(world, entry.ray, frame.chunks);
+    const auto steps = static_cast<int>(hit.steps);
+    if (!has_shadows || hit.face >= gpu::kFaceInside) return steps;
+    const float outward = (hit.face & 1u) != 0 ? 1.0f : -1.0f;
+    if (outward * frame.sun_direction[static_cast<int>(hit.face >> 1u)] <= 0.0f) return steps;
+    const gpu::Ray shadow = gpu::spawn_ray(hit.cell, hit.face, gpu::hit_fraction(entry.ray, hit),
+                                           frame.sun_direction, gpu::kUnbounded);
+    return steps + static_cast<int>(gpu::march(world, shadow, frame.chunks).steps);
+}
+
+// Pixels whose shown colour is not that of the steps counted on the host.
+std::size_t steps_off(const std::vector<std::uint32_t>& shown, const Renderer& renderer,
+                      const DisplayLook& look, bool has_shadows) {
+    const gpu::FrameParams frame =
+        frame_params(renderer.plan(), renderer.scene(), renderer.prepared().march_world);
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const int steps = host_steps(frame, renderer.prepared().march_world, static_cast<gpu::uint>(i % 39),
+                                     static_cast<gpu::uint>(i / 39), has_shadows);
+        const float taken = std::log10(static_cast<float>(std::max(steps, 1)));
+        const gpu::vec3 expected = gpu::false_colour((taken - look.low.x) / (look.high.x - look.low.x));
+        bool is_off = false;
+        for (std::size_t c = 0; c < 3; ++c)
+            is_off |= std::abs(static_cast<float>(code_of(shown[i], c)) -
+                               255.0f * expected[static_cast<int>(c)]) > 1.0f;
+        off += is_off ? 1 : 0;
+    }
+    return off;
+}
+
+TEST(Display, shows_the_steps_that_the_camera_ray_and_the_shadow_ray_take) {
+    const DisplayLook look{.channel = DisplayChannel::steps, .low = glm::vec3(0.0f), .high = glm::vec3(2.0f)};
+    Renderer renderer(test_device(), {.poison_transients = true});
+    renderer.prepare(display_scene({39, 24}), {});
+    const auto before = displayed(renderer, look);
+    EXPECT_EQ(steps_off(before, renderer, look, true), 0u) << "before the first sample";
+    take_samples(renderer, 2);
+    const auto shown = displayed(renderer, look);
+    EXPECT_EQ(shown, before) << "and after it";
+    EXPECT_GT(steps_off(shown, renderer, look, false), 20u) << "the negative control: without shadow rays";
+    EXPECT_GT(std::set(shown.begin(), shown.end()).size(), 5u);
+}
+
+TEST(Display, has_no_steps_without_voxels) {
+    Scene scene = white_scene();
+    scene.settings = {.size = {8, 8}, .spp = 1};
+    scene.spheres.push_back({.radius = 3.0, .material = add_diffuse(scene, 0.5f)});
+    scene.camera = camera_towards({0, -10, 0}, {0, 0, 0});
+    Renderer renderer(test_device(), {});
+    renderer.prepare(scene, {});
+    EXPECT_FALSE(has_channel(renderer.plan(), DisplayChannel::steps));
 }
 
 TEST(Display, shows_the_samples_of_the_cells_that_the_last_sample_saw) {

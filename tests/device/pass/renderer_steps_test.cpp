@@ -197,6 +197,76 @@ TEST(RendererAir, camera_that_goes_far_away_and_back_ends_as_a_fresh_render) {
     EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene));
 }
 
+TEST(RendererSun, sun_that_moves_sets_and_rises_ends_as_a_fresh_render) {
+    const Scene first = yard();
+    Renderer renderer(test_device(), poisoned());
+    prepared(renderer, first);
+    (void)renderer.step(0.0);
+    Scene scene = first;
+    const auto set_sun = [&](bool is_on, float elevation_deg) {
+        scene.sun.on = is_on;
+        scene.sun.elevation_deg = elevation_deg;
+        scene.sun.azimuth_deg = 100.0f;
+        renderer.set_sun(scene.sun);
+    };
+    set_sun(true, -20.0f);
+    EXPECT_FALSE(renderer.plan().has(Effect::sun));
+    set_sun(true, 30.0f);
+    EXPECT_TRUE(renderer.plan().has(Effect::sun));
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene));
+    renderer.set_sun(first.sun);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(first));
+    EXPECT_NE(renderer.read_film(), fresh_film(scene)) << "the sun shows";
+}
+
+TEST(RendererSun, occlusion_that_frames_share_stays) {
+    Scene scene = yard_of_cells();
+    scene.sun.on = true;
+    Renderer moved(test_device(), poisoned());
+    (void)film_after(prepared(moved, scene), 2);
+    Renderer still(test_device(), poisoned());
+    (void)film_after(prepared(still, scene), 2);
+    still.set_camera(*scene.camera);
+    scene.sun.elevation_deg = 12.0f;
+    moved.set_sun(scene.sun);
+    const auto occlusion = film_after(moved, 2).sums.at("ao");
+    EXPECT_EQ(occlusion, film_after(still, 2).sums.at("ao"));
+    EXPECT_NE(occlusion, fresh_film(scene, 2).sums.at("ao")) << "the negative control";
+    EXPECT_NE(moved.read_film(), still.read_film()) << "the sun shows";
+}
+
+// The table of the sky follows the sun.
+TEST(RendererAir, sun_that_moves_in_an_atmosphere_ends_as_a_fresh_render) {
+    Scene scene = yard();
+    scene.sky.model = SkyModel::atmosphere;
+    scene.sun.on = true;
+    Renderer renderer(test_device(), poisoned());
+    prepared(renderer, scene);
+    (void)renderer.step(0.0);
+    scene.sun.elevation_deg = 3.0f;
+    renderer.set_sun(scene.sun);
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene));
+}
+
+// The air before a wall far away is seen.
+TEST(RendererAir, edit_that_widens_the_scene_and_its_undo_end_as_a_fresh_render) {
+    Scene scene = yard();
+    scene.sky.model = SkyModel::atmosphere;
+    scene.sky.metres_per_voxel = 0.25f;
+    scene.sun.on = true;
+    Renderer renderer(test_device(), poisoned());
+    prepared(renderer, scene);
+    (void)renderer.step(0.0);
+    EXPECT_FALSE(renderer.plan().has(Effect::aerial));
+    const BoxEdit wall{.box = {{-700, -9, 0}, {-699, 9, 9}}, .material = 1};
+    const std::vector<BoxEdit> back = renderer.edit(std::span(&wall, 1));
+    EXPECT_TRUE(renderer.plan().has(Effect::aerial));
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(edited_scene(scene, std::span(&wall, 1))));
+    renderer.edit(back);
+    EXPECT_FALSE(renderer.plan().has(Effect::aerial));
+    EXPECT_EQ(film_after(renderer, kSamples), fresh_film(scene));
+}
+
 TEST_P(RendererSteps, last_edit_ends_as_a_fresh_render) {
     Renderer renderer(test_device(), poisoned());
     (void)film_after(prepared(renderer, scene_), 2);
@@ -324,6 +394,10 @@ TEST_P(RendererEdits, device_has_the_words_of_the_edited_structure) {
         edits.push_back({.box = {low, low + glm::ivec3(3, 2, 1 + i % 3)}, .material = i % 3 == 2 ? 0 : 1});
         if (i == 4) edits.back().material.reset();
         renderer.edit(std::span(&edits.back(), 1));
+        expect_device_holds(renderer, renderer.prepared().march_world);
+        // Boxes grow to the end, or are about to when the next edit comes.
+        for (int steps = 0; (i % 2 == 1 || steps < 2) && renderer.regrow_boxes(); ++steps) {
+        }
         expect_device_holds(renderer, renderer.prepared().march_world);
         EXPECT_EQ(built_a_world(renderer.step_tile()), !has_free_boxes(GetParam())) << "edit " << i;
         EXPECT_EQ(film_after(renderer, 1), fresh_film(edited_scene(scene, edits), 1, request))

@@ -96,6 +96,7 @@ const std::vector<Layout>& layouts() {
                   VX_MEMBER(DisplayResolvePush, first_row), VX_MEMBER(DisplayResolvePush, samples),
                   VX_MEMBER(DisplayResolvePush, rows_ahead), VX_MEMBER(DisplayResolvePush, exposure),
                   VX_MEMBER(DisplayResolvePush, divider)),
+        VX_LAYOUT(DisplayRangePush, VX_MEMBER(DisplayRangePush, low), VX_MEMBER(DisplayRangePush, high)),
         VX_LAYOUT(DisplayCellsPush, VX_MEMBER(DisplayCellsPush, pixel_count),
                   VX_MEMBER(DisplayCellsPush, low), VX_MEMBER(DisplayCellsPush, high)),
         VX_LAYOUT(Ray, VX_MEMBER(Ray, cell), VX_MEMBER(Ray, fraction), VX_MEMBER(Ray, direction),

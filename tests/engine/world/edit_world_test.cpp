@@ -54,6 +54,17 @@ void expect_changes_suffice(MarchWorld before, const WorldChanges& changes, cons
     EXPECT_EQ(before.leaves, after.leaves);
 }
 
+// Edits a world and its structure, which must then equal one built anew as soon as its boxes have grown.
+void expect_edit_equals_a_rebuild(VoxelWorld& world, MarchWorld& built, std::span<const VoxelEdit> edits) {
+    const MarchWorld before = built;
+    expect_changes_suffice(before, edit_world(world, built, edits), built);
+    const MarchWorld edited = built;
+    Regrowth regrowth(built);
+    (void)regrowth.step();
+    expect_changes_suffice(edited, regrowth.finish(built), built);
+    ASSERT_EQ(first_difference(built, build_march_world(world, built.traversal)), "");
+}
+
 std::vector<VoxelEdit> random_edits(const VoxelWorld& world, int count, double clears, std::mt19937& dice) {
     std::vector<VoxelEdit> edits;
     for (int i = 0; i < count; ++i) {
@@ -72,11 +83,8 @@ TEST_P(EditWorld, random_edits_of_every_small_world_equal_a_rebuild) {
     for (test::NamedWorld& named : test::small_worlds(kEditSeed)) {
         MarchWorld built = build_march_world(named.world, GetParam());
         for (const int count : {1, 1, 7}) {
-            const MarchWorld before = built;
-            const WorldChanges changes =
-                edit_world(named.world, built, random_edits(named.world, count, 0.4, dice));
-            expect_changes_suffice(before, changes, built);
-            ASSERT_EQ(first_difference(built, build_march_world(named.world, GetParam())), "") << named.name;
+            SCOPED_TRACE(named.name);
+            expect_edit_equals_a_rebuild(named.world, built, random_edits(named.world, count, 0.4, dice));
         }
     }
 }
@@ -88,25 +96,40 @@ TEST_P(EditWorld, chunks_that_fill_empty_and_split_equal_a_rebuild) {
         std::vector<VoxelEdit> edits;
         for (int i = 0; i < 4096; ++i)
             edits.push_back({glm::ivec3(64 + i % 16, i / 16 % 16, i / 256), voxel});
-        edit_world(world, built, edits);
-        ASSERT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+        expect_edit_equals_a_rebuild(world, built, edits);
     };
     fill(0x8001);
     const VoxelEdit hole{{70, 5, 5}, VoxelWorld::kEmpty};
-    edit_world(world, built, std::span(&hole, 1));
-    ASSERT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+    expect_edit_equals_a_rebuild(world, built, std::span(&hole, 1));
     fill(0x8002);
     fill(VoxelWorld::kEmpty);
     EXPECT_EQ(world.voxel_count(), 0u);
 }
 
-TEST_P(EditWorld, a_voxel_far_away_keeps_the_boxes_around_it) {
+TEST_P(EditWorld, voxels_far_away_and_far_apart_equal_a_rebuild) {
     VoxelWorld world(glm::ivec3(0), glm::ivec3(40, 1, 1));
     world.set({8, 8, 8}, 1);
     MarchWorld built = build_march_world(world, GetParam());
     const VoxelEdit far{{630, 3, 3}, 0x8001};
-    edit_world(world, built, std::span(&far, 1));
-    EXPECT_EQ(first_difference(built, build_march_world(world, GetParam())), "");
+    expect_edit_equals_a_rebuild(world, built, std::span(&far, 1));
+    const VoxelEdit both_ends[] = {{{3, 3, 3}, 0x8001}, {{600, 9, 9}, 0x8002}};
+    expect_edit_equals_a_rebuild(world, built, both_ends);
+}
+
+// An edit alone leaves boxes that are too small, and says so.
+TEST(EditWorldBoxes, edit_that_clears_a_brick_has_stale_boxes_until_they_grow) {
+    VoxelWorld world(glm::ivec3(0), glm::ivec3(5));
+    for (int i = 0; i < 64; ++i)
+        world.set(glm::ivec3(40) + gpu::slot_cell(static_cast<gpu::uint>(i)), 1);
+    MarchWorld built = build_march_world(world, Traversal::wide);
+    const VoxelEdit one{{40, 40, 40}, VoxelWorld::kEmpty};
+    EXPECT_FALSE(edit_world(world, built, std::span(&one, 1)).has_stale_boxes) << "the brick is still mixed";
+    EXPECT_EQ(first_difference(built, build_march_world(world, Traversal::wide)), "");
+    std::vector<VoxelEdit> all;
+    for (int i = 0; i < 64; ++i)
+        all.push_back({glm::ivec3(40) + gpu::slot_cell(static_cast<gpu::uint>(i)), VoxelWorld::kEmpty});
+    EXPECT_TRUE(edit_world(world, built, all).has_stale_boxes);
+    EXPECT_NE(first_difference(built, build_march_world(world, Traversal::wide)), "");
 }
 
 TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
@@ -118,20 +141,6 @@ TEST_P(EditWorld, judge_sees_a_voxel_that_was_set_behind_the_structure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structure, EditWorld, ::testing::ValuesIn(all_traversals()), test::traversal_name);
-
-// The box of both edits has more than 2^26 bricks.
-TEST(EditWorldFarApart, edits_in_opposite_corners_of_a_large_world_build_it_anew) {
-    VoxelWorld world(glm::ivec3(0), glm::ivec3(260, 65, 65));
-    world.set({9, 9, 9}, 1);
-    MarchWorld built = build_march_world(world, Traversal::deep);
-    const VoxelEdit edits[] = {{{3, 3, 3}, 0x8001}, {world.size() - 4, 0x8002}};
-    EXPECT_TRUE(edit_world(world, built, edits).is_rebuilt);
-    const MarchWorld anew = build_march_world(world, Traversal::deep);
-    EXPECT_EQ(built.roots, anew.roots);
-    EXPECT_EQ(built.nodes, anew.nodes);
-    EXPECT_EQ(built.leaves, anew.leaves);
-    EXPECT_FALSE(edit_world(world, built, std::span(edits, 1)).is_rebuilt);
-}
 
 TEST(EditWorldBlocks, an_edit_inside_a_mixed_brick_adds_few_blocks) {
     std::mt19937 dice(kEditSeed);

@@ -111,6 +111,7 @@ TEST_P(EmptyBoxes, are_empty_after_random_edits) {
             edit_world(world, built, random_box_edits(world.size(), dice));
             ASSERT_EQ(test::first_lie(world, test::FilledCount(world), built), "")
                 << "filling " << filling << ", edit " << edit;
+            if (edit == 4) (void)Regrowth(built).finish(built);
         }
     }
 }

@@ -17,6 +17,18 @@ TEST(WindowCommand, copied_line_renders_the_same_film) {
     EXPECT_EQ(film_of_line(scratch, ending, "first_light"), film_of(scratch / "film.exr"));
 }
 
+TEST(WindowCommand, copied_line_has_the_sun_that_was_moved) {
+    SKIP_UNLESS_DISPLAY();
+    const ScratchFolder scratch;
+    const Ending ending = play(
+        scratch,
+        film(0, "first.exr") + key("Left") + key("Up") + key("Up") + film(9, "film.exr") + copy() + pause(12),
+        {"-D", "sun.elevation=30"});
+    EXPECT_EQ(film_of_line(scratch, ending, "first_light"), film_of(scratch / "film.exr"));
+    EXPECT_NE(film_of(scratch / "first.exr"), film_of(scratch / "film.exr")) << "the sun shows";
+    EXPECT_NE(printed_line(ending).find("sun.elevation=35"), std::string::npos) << printed_line(ending);
+}
+
 TEST(WindowCommandNightly, copied_line_has_the_lens) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;

@@ -148,12 +148,12 @@ TEST(WindowPicture, shows_every_channel_as_the_film_has_it) {
     EXPECT_EQ(report_of(scratch)["messages"], Json::array());
 }
 
-TEST(WindowPicture, shows_the_cells_of_occlusion) {
+TEST(WindowPicture, shows_the_cells_of_occlusion_and_the_steps_of_rays) {
     SKIP_UNLESS_DISPLAY();
     const ScratchFolder scratch;
-    const std::string last_channel =
-        "[[step]]\npress = 'Shift'\n" + key("c") + "[[step]]\nrelease = 'Shift'\n";
-    const std::string script = key("Tab") + film(0, "color.png") + last_channel + film(12, "cells.png");
+    const std::string back = held_key("Shift", "c");
+    const std::string script =
+        key("Tab") + film(0, "color.png") + back + film(12, "steps.png") + back + film(24, "cells.png");
     play(scratch, script, {"--effect", "ao=on", "--technique", "ao=hash"});
     EXPECT_EQ(report_of(scratch)["shown"]["channel"], "cells");
     EXPECT_EQ(report_of(scratch)["messages"], Json::array());
@@ -167,6 +167,11 @@ TEST(WindowPicture, shows_the_cells_of_occlusion) {
     }
     EXPECT_GT(black, 1000) << "the sky has no cell";
     EXPECT_GT(lit, 1000);
+    // Everywhere rays take steps. Where a colour lies follows from display_test.cpp.
+    const auto steps = beauty_of(scratch / "steps.png");
+    for (std::size_t i = 0; i < steps.at("R").size(); ++i)
+        EXPECT_GE(steps.at("R")[i], 0.5f * steps.at("G")[i]) << i;
+    EXPECT_NE(steps, cells);
     play(scratch, script, {"--effect", "ao=on", "--technique", "ao=brute"});
     EXPECT_EQ(beauty_of(scratch / "cells.png"), beauty_of(scratch / "color.png")) << "there are none";
 }
