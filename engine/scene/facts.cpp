@@ -157,6 +157,7 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
         facts.fill_ratio = static_cast<double>(facts.voxel_count) / cell_count(facts.box);
     }
     facts.has_atmosphere = scene.sky.is_atmosphere();
+    if (scene.sky.is_image()) facts.sky_image = scene.sky.image.size;
     measure_sun(scene, facts);
     if (facts.has_atmosphere) facts.haze = haze_before_surfaces(scene, facts.box);
     facts.aperture = scene.lens.aperture;
@@ -171,8 +172,7 @@ SceneFacts measure_scene(const Scene& scene, VoxelFacts voxels) {
 
 void measure_sun(const Scene& scene, SceneFacts& facts) {
     facts.sun_reaches = any_positive(sunlight(scene));
-    facts.has_sky = facts.has_atmosphere ? scene.sun.on && any_positive(scene.sun.irradiance)
-                                         : any_positive(scene.sky.radiance);
+    facts.has_sky = has_sky(scene);
 }
 
 std::string describe(const SceneFacts& facts) {
