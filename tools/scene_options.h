@@ -26,7 +26,7 @@ using SettingsChanges = std::vector<std::function<void(RenderSettings&)>>;
 struct SceneOptions {
     std::string input;
     const VoxFile* voxels = nullptr;  // instead of the file: voxels in memory, which `input` only names
-    GridRequest grid;  // of a mesh
+    GridRequest grid;                 // of a mesh
     const QualityPreset* quality = nullptr;
     std::vector<std::string> overrides;  // -D: KEY=VALUE of a scene file
     SettingsChanges changes;

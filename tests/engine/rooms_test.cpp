@@ -158,8 +158,8 @@ std::vector<std::string> wrong_voxelizer_includes(const std::vector<SourceFile>&
 const Rooms kSharedTools = {"render"};
 
 // A subcommand includes its own folder, what all share at the top of tools/, the engine and the voxelizer. Of
-// the files at the top, only the command line, which lists the subcommands, includes their folders; the Python
-// module calls them.
+// the files at the top, only the command line, which lists the subcommands, includes their folders; the
+// Python module calls them.
 bool may_tool_include(const Rooms& rooms, const std::string& path, const Include& include) {
     const std::string folder = first_folder(include.target);
     if (!include.quoted || folder.empty() || folder == "voxelizer" || folder == "shared" ||

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "shared_flags.h"
 #include "base/step_times.h"
+#include "shared_flags.h"
 #include "voxelizer/mesh.h"
 #include "voxelizer/voxel_palette.h"
 #include "voxelizer/voxelize_mesh.h"

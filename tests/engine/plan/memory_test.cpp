@@ -226,7 +226,8 @@ TEST(PlanNotes, light_between_surfaces_that_is_left_out_has_a_bound) {
         notes_without(Effect::indirect, matt),
         std::vector<std::string>{"indirect " + words + ": at most 100 % of the strongest direct irradiance"});
     EXPECT_EQ(notes_without(Effect::sun, matt), std::vector<std::string>{"sun " + words});
-    EXPECT_EQ(notes_without(Effect::indirect, "material.white.surface=\"metal\"").front(), "indirect " + words);
+    EXPECT_EQ(notes_without(Effect::indirect, "material.white.surface=\"metal\"").front(),
+              "indirect " + words);
     EXPECT_TRUE(notes_without(Effect::caustics, matt).empty()) << "the scene has none";
 }
 
