@@ -24,9 +24,11 @@ glm::ivec3 nearest_to_camera(const Scene& scene) {
 
 // Room for the bricks and chunks that edits make mixed, until the structure is built anew.
 constexpr std::uint64_t kMinRoomBytes = std::uint64_t{1} << 18;
-void leave_room(WorldFacts& world) {
+void leave_room(WorldFacts& world, MarchWorld& built) {
     for (std::uint64_t* bytes : {&world.node_bytes, &world.leaf_bytes})
         *bytes += std::max(*bytes / 4 & ~std::uint64_t{3}, kMinRoomBytes);
+    built.nodes.reserve(world.node_bytes / sizeof(std::uint32_t));
+    built.leaves.reserve(world.leaf_bytes / sizeof(std::uint32_t));
 }
 
 }  // namespace
@@ -68,7 +70,7 @@ PreparedScene prepare_scene(const Scene& scene, const SceneFacts& facts, const V
         world_facts.sphere_nodes = tree.size();
         world_facts.sphere_visits = mean_visits(tree);
     }
-    if (request.leaves_room) leave_room(world_facts);
+    if (request.leaves_room) leave_room(world_facts, prepared.march_world);
     prepared.plan = plan_within_memory(scene, prepared.facts, world_facts, request, limits);
     prepared.times.end_step("plan");
     return prepared;

@@ -186,6 +186,7 @@ class Flattening {
         for (VoxelWorld::ChunkBricks& bricks : world_.chunk_bricks_)
             for (std::uint32_t& number : bricks)
                 if (number != VoxelWorld::kNoBrick) number = count++;
+        world_.bricks_.reserve(count + count / 8);  // else the first edit would copy all of them
         world_.bricks_.resize(count);
         world_.is_shared_.resize(count);
     }
