@@ -64,6 +64,7 @@ FramePlayer::FramePlayer(Scene scene)
     if (animation_.is_still()) return;
     rest_ = camera_of(still_);
     rest_sun_ = still_.sun;
+    rest_sky_deg_ = still_.sky.rotation_deg;
     if (animation_.turntable) axis_ = middle(bounds_of_frames(still_));
     still_.animation = {};
 }
@@ -98,9 +99,11 @@ const Scene& FramePlayer::show(std::int64_t frame) {
         still_.camera = camera_on_path(animation_.camera_keys, animation_.camera_path, frame);
     else if (animation_.turntable) {
         still_.camera = camera_on_turntable(*animation_.turntable, rest_, axis_, frame);
-        const float before = still_.sun.azimuth_deg;
+        const float sun_before = still_.sun.azimuth_deg, sky_before = still_.sky.rotation_deg;
         still_.sun = sun_on_turntable(*animation_.turntable, rest_sun_, frame);
-        has_new_light_ = still_.sun.on && still_.sun.azimuth_deg != before;
+        still_.sky.rotation_deg = azimuth_on_turntable(*animation_.turntable, rest_sky_deg_, frame);
+        has_new_light_ = (still_.sun.on && still_.sun.azimuth_deg != sun_before) ||
+                         (still_.sky.is_image() && still_.sky.rotation_deg != sky_before);
     }
     return still_;
 }

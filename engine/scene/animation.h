@@ -36,7 +36,7 @@ class FramePlayer {
 
     // Whether the last show() changed the voxels; true of the first.
     [[nodiscard]] bool has_new_voxels() const { return has_new_voxels_; }
-    // Whether it moved the sun.
+    // Whether it moved the sun or an image of the sky.
     [[nodiscard]] bool has_new_light() const { return has_new_light_; }
 
   private:
@@ -47,6 +47,7 @@ class FramePlayer {
     std::vector<Instance> loaded_;  // the instances as they were loaded
     Camera rest_;                   // of the turntable at angle 0
     Sun rest_sun_;
+    float rest_sky_deg_ = 0.0f;  // rotation of an image of the sky
     glm::dvec2 axis_{0.0};
     bool has_new_voxels_ = true;
     bool has_new_light_ = false;

@@ -124,12 +124,15 @@ Camera camera_on_turntable(const Turntable& turntable, const Camera& rest, glm::
 }
 
 Sun sun_on_turntable(const Turntable& turntable, const Sun& rest, std::int64_t frame) {
-    if (turntable.turned == Turned::camera) return rest;
-    const double angle = (turntable.turned == Turned::model ? -1.0 : 1.0) * angle_of(turntable, frame);
     Sun sun = rest;
-    sun.azimuth_deg =
-        static_cast<float>(std::remainder(static_cast<double>(rest.azimuth_deg) + angle, 360.0));
+    sun.azimuth_deg = azimuth_on_turntable(turntable, rest.azimuth_deg, frame);
     return sun;
+}
+
+float azimuth_on_turntable(const Turntable& turntable, float rest_deg, std::int64_t frame) {
+    if (turntable.turned == Turned::camera) return rest_deg;
+    const double angle = (turntable.turned == Turned::model ? -1.0 : 1.0) * angle_of(turntable, frame);
+    return static_cast<float>(std::remainder(double{rest_deg} + angle, 360.0));
 }
 
 }  // namespace voxilux

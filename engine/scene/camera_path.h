@@ -26,4 +26,7 @@ namespace voxilux {
 // The sun of a turntable at `frame`.
 [[nodiscard]] Sun sun_on_turntable(const Turntable& turntable, const Sun& rest, std::int64_t frame);
 
+// The azimuth at `frame` of what goes round with the sun, `rest_deg` being that of angle 0.
+[[nodiscard]] float azimuth_on_turntable(const Turntable& turntable, float rest_deg, std::int64_t frame);
+
 }  // namespace voxilux

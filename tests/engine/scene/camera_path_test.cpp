@@ -161,6 +161,27 @@ TEST(TurntableCamera, radius_height_and_view_stay_the_same) {
     }
 }
 
+TEST(TurntableLight, image_of_the_sky_goes_round_with_the_sun) {
+    for (const auto& [turned, step] : {std::pair{Turned::camera, 0.0f}, std::pair{Turned::model, -90.0f},
+                                       std::pair{Turned::light, 90.0f}}) {
+        Scene scene;
+        scene.sun.azimuth_deg = 10.0f;
+        scene.sun.on = false;
+        scene.sky.model = SkyModel::image;
+        scene.sky.image = {{1, 1}, {glm::vec3(1.0f)}};
+        scene.sky.rotation_deg = 20.0f;
+        scene.camera = Camera{};
+        scene.animation.turntable = Turntable{.frames = 4, .turned = turned};
+        FramePlayer player(scene);
+        EXPECT_EQ(player.show(1).sky.rotation_deg, 20.0f);
+        EXPECT_FLOAT_EQ(player.show(2).sky.rotation_deg, 20.0f + step);
+        EXPECT_EQ(player.has_new_light(), turned != Turned::camera);
+        EXPECT_FLOAT_EQ(player.show(2).sun.azimuth_deg, 10.0f + step);
+        EXPECT_FALSE(player.has_new_light());
+        EXPECT_FLOAT_EQ(player.show(6).sky.rotation_deg, 20.0f + step);
+    }
+}
+
 TEST(TurntableCamera, turn_begins_at_rest_and_closes) {
     const Turntable table{.frames = 12};
     const auto at = [&](std::int64_t frame) { return camera_on_turntable(table, kRest, {1.0, 2.0}, frame); };
