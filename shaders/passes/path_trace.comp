@@ -70,7 +70,7 @@ void main() {
         if (walk.kind == kRayNone) {
             if (next_id >= end) break;
             walk = first_walk(path_start(next_id), direct_light(next_id));
-            if (has_glints && walk.throughput.x > 0.0) leave(walk, kRayNone);
+            if (has_glints && walk.throughput.x > 0.0 && !walk.starts_rough) leave(walk, kRayNone);
             next_id += push.lanes;
         }
         PathHit found = next_hit(walk.ray);

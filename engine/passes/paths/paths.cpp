@@ -22,6 +22,7 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
     const bool finds_media = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
     dispatch.constants.push_back({"finds_media", finds_media ? 1u : 0u});
     dispatch.constants.push_back({"keeps_normals", plan.paths_keep_normals() ? 1u : 0u});
+    dispatch.constants.push_back({"has_rough", plan.shows_rough ? 1u : 0u});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
@@ -44,6 +45,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
     dispatch.bindings.insert(dispatch.bindings.end(), {{"Lights", emitter_buffer(lights_buffer)},
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"Starts", starts},
+                                                       {"Gains", gains_buffer(plan, recording)},
                                                        {"Direct", direct.buffer},
                                                        {"States", states},
                                                        {"Light", light}});
@@ -63,7 +65,9 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
          {"shares_direct", plan.paths_share_direct() ? 1u : 0u},
          {"keeps_normals", plan.paths_keep_normals() ? 1u : 0u},
          {"direct_stride", direct.stride},
-         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
+         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u},
+         {"has_rough", plan.shows_rough ? 1u : 0u},
+         {"start_anywhere", plan.shows_rough ? 1u : 0u}});  // camera rays
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     return dispatch;
 }
