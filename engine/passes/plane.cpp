@@ -77,6 +77,12 @@ std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::SphereNode>(recording, "sphere.tree", plan.world.sphere_nodes, Lifetime::persistent);
 }
 
+std::string gains_buffer(const RenderPlan& plan, Recording& recording) {
+    if (!plan.shows_rough) return placeholder_buffer(recording);
+    return declare<float>(recording, "rough.gains", gpu::kGainPlaces * plan.gain_rows.size(),
+                          Lifetime::persistent);
+}
+
 std::string lights_buffer(const RenderPlan& plan, Recording& recording) {
     return declare<gpu::LightRecord>(recording, "light.records", plan.world.lights.count,
                                      Lifetime::persistent);

@@ -93,6 +93,9 @@ struct DispatchTile {
 // The hierarchy over many spheres, or the placeholder when they are few.
 [[nodiscard]] std::string sphere_tree_buffer(const RenderPlan& plan, Recording& recording);
 
+// The gains of rough surfaces, or the placeholder where the plan shows none.
+[[nodiscard]] std::string gains_buffer(const RenderPlan& plan, Recording& recording);
+
 // The lights, and the table from which one is drawn in proportion to its power.
 [[nodiscard]] std::string lights_buffer(const RenderPlan& plan, Recording& recording);
 [[nodiscard]] std::string light_table_buffer(const RenderPlan& plan, Recording& recording);

@@ -5,6 +5,7 @@
 #include "passes/photons/photon_trace.h"
 #include "passes/plane.h"
 #include "passes/sky/sky.h"
+#include "passes/specular/rough_gains.h"
 #include "passes/world.h"
 #include "plan/film_planes.h"
 #include "scene/lobe_weights.h"
@@ -17,15 +18,30 @@ std::vector<gpu::SurfaceMaterial> surface_materials(const RenderPlan& plan, cons
     std::vector<gpu::SurfaceMaterial> materials(plan.material_count);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        const LobeWeights shares = plan.has(Effect::specular) ? lobe_weights(material) : LobeWeights{};
+        const LobeWeights shares =
+            plan.has(Effect::specular) ? lobe_weights(material, plan.shows_rough) : LobeWeights{};
+        const float alpha = plan.shows_rough ? facet_alpha(material) : 0.0f;
         materials[i] = {.albedo = material.albedo,
                         .mirror = shares.mirror,
                         .emission = plan.has(Effect::emission) ? material.emission : glm::vec3(0.0f),
                         .glass = shares.glass,
-                        .ior = material.ior};
+                        .ior = material.ior,
+                        .alpha = alpha,
+                        .metal_row = gain_row_of(plan.gain_rows, {alpha, 0.0f}),
+                        .glass_row = gain_row_of(plan.gain_rows, {alpha, material.ior})};
     }
     if (plan.has_ground) materials[scene.materials.size()].albedo = scene.ground.albedo;
     return materials;
+}
+
+// The gains of all rough materials, row by row.
+std::vector<float> all_gains(const RenderPlan& plan) {
+    std::vector<float> gains;
+    for (const auto [alpha, eta] : plan.gain_rows) {
+        const std::vector<float> row = rough_gains(alpha, eta);
+        gains.insert(gains.end(), row.begin(), row.end());
+    }
+    return gains;
 }
 
 WorldBuffers build_buffers(const RenderPlan& plan, Recording& recording) {
@@ -60,6 +76,10 @@ void record_materials_upload(const RenderPlan& plan, const Scene& scene, glm::iv
     if (plan.has(Effect::voxels) || plan.has(Effect::spheres)) {
         const std::vector<gpu::SurfaceMaterial> materials = surface_materials(plan, scene);
         recording.upload(materials_buffer(plan, recording), std::as_bytes(std::span(materials)));
+    }
+    if (plan.shows_rough) {
+        const std::vector<float> gains = all_gains(plan);
+        recording.upload(gains_buffer(plan, recording), std::as_bytes(std::span(gains)));
     }
     record_photon_aims(plan, lights.aims, recording);
     const bool paths_aim = plan.paths.runs() && plan.has(Effect::emission) && plan.world.lights.count != 0;

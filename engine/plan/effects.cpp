@@ -78,7 +78,9 @@ Verdict verdict_of_emission(const SceneFacts& facts, const EffectRequest&) {
     return {true, true, "emissive materials are seen directly"};
 }
 
-Verdict verdict_of_specular(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_specular(const SceneFacts& facts, const EffectRequest& request) {
+    const bool shows_rough = facts.has_rough && request.traces_rough;
+    if (shows_rough && !facts.has_sharp) return {true, true, "camera rays end at rough metal or glass"};
     if (!facts.has_glass && !facts.has_metal) return {false, false, "no used material is glass or mirror"};
     return {true, true,
             fmt::format("camera rays follow {}", facts.has_glass && facts.has_metal ? "mirrors and glass"
@@ -91,7 +93,9 @@ Verdict verdict_of_direct(const SceneFacts& facts, const EffectRequest&) {
     return {true, true, "emitters light surfaces"};
 }
 
-Verdict verdict_of_caustics(const SceneFacts& facts, const EffectRequest&) {
+Verdict verdict_of_caustics(const SceneFacts& facts, const EffectRequest& request) {
+    if (facts.has_rough && request.traces_rough && !facts.has_sharp)
+        return {false, false, "glass and metal are rough: they light surfaces as diffuse ones do"};
     if (!facts.has_glass && !facts.has_metal)
         return {false, false, "neither glass nor mirror is in the light's way"};
     if (!facts.has_emitters && !facts.sun_reaches) return {false, false, "neither emitter nor sun shines"};

@@ -50,9 +50,10 @@ using EffectStates = std::array<EffectState, kEffectCount>;
 // What the user asked for beyond the scene file.
 struct EffectRequest {
     std::map<Effect, Switch> switches;
-    bool wants_aov = false;        // an output can hold more than colour
-    bool traces_paths = true;      // where indirect light is on, paths find it and the light of the sky
-    bool is_perspective = true;    // the camera's projection
+    bool wants_aov = false;      // an output can hold more than colour
+    bool traces_paths = true;    // where indirect light is on, paths find it and the light of the sky
+    bool traces_rough = true;    // rough metal and rough glass, which only paths that find all light can show
+    bool is_perspective = true;  // the camera's projection
     bool wants_occlusion = false;  // a technique of ao is named, and none of indirect light
 };
 

@@ -100,7 +100,9 @@ void check_paths(const RenderPlan& plan) {
 // Chooses the techniques of the effects that are on, and clears what belongs to the others.
 void decide_techniques(RenderPlan& plan) {
     if (!plan.has(Effect::ao)) plan.ao = {};
-    plan.techniques = choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres);
+    plan.shows_rough = shows_rough(plan.effects, plan.settings, plan.has_rough);
+    plan.techniques =
+        choose_techniques(plan.effects, plan.ao, plan.settings, plan.has_specular_spheres, plan.has_rough);
     if (plan.has_atmosphere()) plan.techniques.push_back(choose_sky_technique(plan.settings));
     plan.paths_find_sun_caustics =
         plan.has(Effect::caustics) &&
@@ -172,6 +174,8 @@ void add_notes(RenderPlan& plan, const SceneFacts& facts) {
         plan.notes.emplace_back(
             "sunlight by way of spheres of metal and glass is found by chance: it is noisy");
     plan.notes.insert(plan.notes.end(), facts.simplified.begin(), facts.simplified.end());
+    if (!plan.shows_rough)
+        plan.notes.insert(plan.notes.end(), facts.simplified_rough.begin(), facts.simplified_rough.end());
 }
 
 // What the passes have to know of the scene.
@@ -190,6 +194,8 @@ void take_scene(RenderPlan& plan, const Scene& scene, const SceneFacts& facts, c
     plan.glass_spheres = glass_sphere_count(scene);
     plan.has_glass_voxels = facts.has_glass && facts.has_voxels;
     plan.has_specular_spheres = facts.has_specular_spheres;
+    plan.has_rough = facts.has_rough;
+    if (facts.has_rough) plan.gain_rows = gain_rows(scene);
     if (facts.has_atmosphere) plan.sky_resolution = scene.sky.resolution;
     plan.sky_image = facts.sky_image;
     check_sky_image(plan.sky_image, limits);
@@ -293,6 +299,7 @@ bool aims_photons(const Scene& scene, const SceneFacts& facts, const PlanRequest
     plan.settings = scene.settings;
     plan.effects = decide_effects(facts, with_techniques(request.effects, plan.settings));
     plan.has_specular_spheres = facts.has_specular_spheres;
+    plan.has_rough = facts.has_rough;
     decide_techniques(plan);
     return plan.is_by_photons(Effect::caustics) && !plan.is_by_photons(Effect::indirect);
 }

@@ -15,6 +15,7 @@
 #include "plan/sample_set.h"
 #include "plan/techniques.h"
 #include "scene/facts.h"
+#include "scene/lobe_weights.h"
 #include "scene/scene.h"
 #include "shared/gpu_types.h"
 #include "world/build_fields.h"
@@ -76,6 +77,9 @@ struct RenderPlan {
     std::uint32_t glass_spheres = 0;  // the first so many in the device's order
     bool has_glass_voxels = false;
     bool has_specular_spheres = false;     // of glass or metal
+    bool has_rough = false;                // metal or glass
+    bool shows_rough = false;              // as such, by paths that find all light
+    std::vector<GainRow> gain_rows;        // of rough materials
     bool paths_find_sun_caustics = false;  // whatever finds those of emitters
     std::uint32_t sky_resolution = 0;      // of the atmosphere; 0: the sky is constant
     glm::ivec2 sky_image{0};               // columns and rows of an image of the sky; 0: there is none
@@ -135,9 +139,10 @@ struct RenderPlan {
         return has(Effect::direct) && is_by_paths(Effect::indirect) && !settings.paths.plain;
     }
     // Whether paths need the normal of the visible point: to weigh what they meet first, or to aim at the
-    // sun or at an image of the sky.
+    // sun or at an image of the sky. What rough visible points need instead is in its place.
     [[nodiscard]] bool paths_keep_normals() const {
-        return paths_share_direct() || paths_aim_at_sky() || (paths_find_sun_caustics && has(Effect::sun));
+        return shows_rough || paths_share_direct() || paths_aim_at_sky() ||
+               (paths_find_sun_caustics && has(Effect::sun));
     }
     // Invocations that trace the paths of `rows` rows.
     [[nodiscard]] std::uint32_t path_lanes(std::uint32_t rows) const {

@@ -104,14 +104,22 @@ bool traces_paths(const EffectStates& effects, const RenderSettings& settings) {
                                             !favours_photons(effects, settings.paths));
 }
 
+// Whether the settings leave all light to paths.
+bool may_trace_all(const RenderSettings& settings) {
+    return settings.paths.indirect.value_or(!names_photons(settings.photons)) &&
+           settings.paths.caustics.value_or(true);
+}
+
 ChosenTechnique way_of_photons(Effect effect, const PhotonSettings& settings, const char* reason) {
     if (settings.scatter) return {technique_named(effect, "splatting"), "asked for"};
     if (settings.classic) return {technique_named(effect, "pixel_radii"), "asked for"};
     return {technique_named(effect, "photons"), reason};
 }
 
-ChosenTechnique way_of_indirect(const EffectStates& effects, const RenderSettings& settings) {
+ChosenTechnique way_of_indirect(const EffectStates& effects, const RenderSettings& settings, bool has_rough) {
     const PathSettings& paths = settings.paths;
+    if (!paths.indirect && shows_rough(effects, settings, has_rough))
+        return {technique_named(Effect::indirect, "paths"), "nothing else shows rough metal and glass"};
     if (!traces_paths(effects, settings))
         return way_of_photons(
             Effect::indirect, settings.photons,
@@ -121,11 +129,12 @@ ChosenTechnique way_of_indirect(const EffectStates& effects, const RenderSetting
 }
 
 ChosenTechnique way_of_caustics(const EffectStates& effects, const RenderSettings& settings,
-                                bool has_specular_spheres) {
+                                bool has_specular_spheres, bool has_rough) {
     const auto paths = [](const char* reason) {
         return ChosenTechnique{technique_named(Effect::caustics, "paths"), reason};
     };
     if (settings.paths.caustics.value_or(false)) return paths("asked for");
+    if (shows_rough(effects, settings, has_rough)) return paths("they show rough metal and glass, too");
     const bool is_open = !settings.paths.caustics;
     if (is_open && settings.paths.plain && traces_paths(effects, settings))
         return paths("plain paths find all light");
@@ -151,8 +160,14 @@ bool leaves_sun_to_paths(const EffectStates& effects, const RenderSettings& sett
            !settings.paths.caustics && !names_photons(settings.photons) && !has_specular_spheres;
 }
 
+bool shows_rough(const EffectStates& effects, const RenderSettings& settings, bool has_rough) {
+    const auto is_on = [&](Effect effect) { return effects[static_cast<std::size_t>(effect)].on; };
+    return has_rough && is_on(Effect::specular) && is_on(Effect::indirect) && may_trace_all(settings);
+}
+
 std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
-                                               const RenderSettings& settings, bool has_specular_spheres) {
+                                               const RenderSettings& settings, bool has_specular_spheres,
+                                               bool has_rough) {
     std::vector<ChosenTechnique> chosen;
     if (effects[static_cast<std::size_t>(Effect::ao)].on)
         chosen.push_back({technique_named(Effect::ao, ao.uses_cells() ? "hash" : "brute"), ao.reason});
@@ -160,8 +175,9 @@ std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, cons
         const EffectState& state = effects[static_cast<std::size_t>(effect)];
         chosen.push_back(state.on ? way() : ChosenTechnique{technique_named(effect, "none"), state.reason});
     };
-    add(Effect::caustics, [&] { return way_of_caustics(effects, settings, has_specular_spheres); });
-    add(Effect::indirect, [&] { return way_of_indirect(effects, settings); });
+    add(Effect::caustics,
+        [&] { return way_of_caustics(effects, settings, has_specular_spheres, has_rough); });
+    add(Effect::indirect, [&] { return way_of_indirect(effects, settings, has_rough); });
     return chosen;
 }
 
@@ -180,6 +196,9 @@ EffectRequest with_techniques(EffectRequest request, const RenderSettings& setti
                               !names_photons(settings.photons);
     leave_out(Effect::caustics, settings.photons.caustics);
     leave_out(Effect::indirect, settings.photons.indirect);
+    const auto is_off = [&](Effect effect) { return request.switches[effect] == Switch::off; };
+    request.traces_rough = may_trace_all(settings) && !request.wants_occlusion && !is_off(Effect::specular) &&
+                           !is_off(Effect::indirect);
     return request;
 }
 

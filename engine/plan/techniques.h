@@ -55,11 +55,16 @@ struct ChosenTechnique {
 [[nodiscard]] bool leaves_sun_to_paths(const EffectStates& effects, const RenderSettings& settings,
                                        bool has_specular_spheres);
 
+// Whether rough metal and rough glass are shown as such, by paths that find all light; otherwise
+// lobe_weights() says what stands in for them.
+[[nodiscard]] bool shows_rough(const EffectStates& effects, const RenderSettings& settings, bool has_rough);
+
 // The techniques of ao where it is on, and of caustics and indirect light, which is `none` where they are
 // off.
 [[nodiscard]] std::vector<ChosenTechnique> choose_techniques(const EffectStates& effects, const AoPlan& ao,
                                                              const RenderSettings& settings,
-                                                             bool has_specular_spheres);
+                                                             bool has_specular_spheres,
+                                                             bool has_rough = false);
 
 // That of the light of an atmosphere.
 [[nodiscard]] ChosenTechnique choose_sky_technique(const RenderSettings& settings);

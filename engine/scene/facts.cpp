@@ -37,28 +37,24 @@ std::vector<bool> used_by_voxels(const Scene& scene) {
 
 // What a kind of material is shown as, where that is not what its file describes.
 std::string_view simplification(const Material& material) {
-    const bool is_rough = material.roughness > 0.0f;
-    switch (material.surface) {
-        case Surface::media:
-            return "a medium is shown as an opaque diffuse surface";
-        case Surface::metal:
-            return is_rough ? "rough metal is shown as a mix of a mirror and a diffuse surface" : "";
-        case Surface::glass:
-            return is_rough ? "rough glass is shown clear" : "";
-        case Surface::blend:
-            return "a blend is shown as a mix of a mirror, clear glass and a diffuse surface";
-        case Surface::diffuse:
-        case Surface::emit:
-            break;
-    }
+    if (material.surface == Surface::media) return "a medium is shown as an opaque diffuse surface";
+    if (material.surface == Surface::blend)
+        return "a blend is shown as a mix of metal, glass and a diffuse surface";
     return "";
+}
+
+// The same without microfacets.
+std::string_view simplification_of_rough(const Material& material) {
+    if (facet_alpha(material) == 0.0f) return "";
+    const LobeWeights weights = lobe_weights(material, true);
+    return weights.mirror > 0.0f ? "rough metal is shown as a mix of a mirror and a diffuse surface"
+                                 : "rough glass is shown clear";
 }
 
 // One sentence for each kind of simplification, which names the first of its materials.
 class Simplifications {
   public:
-    void add(const Material& material) {
-        const std::string_view words = simplification(material);
+    void add(const Material& material, std::string_view words) {
         if (words.empty()) return;
         Kind& kind = kinds_[words];
         if (kind.count++ == 0) kind.first = material.name;
@@ -91,7 +87,7 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
         used.at(sphere.material) = true;
         facts.has_specular_spheres |= is_specular(scene.materials[sphere.material]);
     }
-    Simplifications simplifications;
+    Simplifications simplifications, of_rough;
     for (std::size_t m = 0; m < used.size(); ++m) {
         if (!used[m]) continue;
         const Material& material = scene.materials[m];
@@ -105,9 +101,15 @@ void measure_materials(const Scene& scene, std::vector<bool> used, SceneFacts& f
             facts.max_albedo =
                 std::max(facts.max_albedo,
                          double{std::max({material.albedo.x, material.albedo.y, material.albedo.z})});
-        simplifications.add(material);
+        const LobeWeights lobes = lobe_weights(material, true);
+        const bool is_rough = facet_alpha(material) > 0.0f;
+        facts.has_rough |= is_rough;
+        facts.has_sharp |= !is_rough && lobes.mirror + lobes.glass > 0.0f;
+        simplifications.add(material, simplification(material));
+        of_rough.add(material, simplification_of_rough(material));
     }
     facts.simplified = simplifications.sentences();
+    facts.simplified_rough = of_rough.sentences();
 }
 
 bool has_sky(const Scene& scene) {
@@ -204,6 +206,7 @@ std::string describe(const SceneFacts& facts) {
     line("emitters", yes_no(facts.has_emitters));
     line("glass", yes_no(facts.has_glass));
     line("metal", yes_no(facts.has_metal));
+    if (facts.has_rough) line("rough metal or glass", "yes");
     for (const std::string& sentence : facts.simplified)
         line("note", sentence);
     return text;

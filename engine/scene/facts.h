@@ -35,12 +35,16 @@ struct SceneFacts {
     bool has_metal = false;             // a used material with a mirror lobe
     bool has_reflectors = false;        // a used material that is not black
     bool has_specular_spheres = false;  // of glass or metal
+    bool has_rough = false;             // a used material is rough metal or rough glass
+    bool has_sharp = false;  // a used material is a mirror or clear glass, where rough ones are shown as such
 
     float haze = 0.0f;        // share of the farthest surface's light that an atmosphere takes before it
     double max_albedo = 0.0;  // largest channel of a used material that is not all mirror and glass
 
     // Kinds of used materials that are shown as something simpler: a sentence for each, for the user.
     std::vector<std::string> simplified;
+    // Likewise, where microfacets are not shown.
+    std::vector<std::string> simplified_rough;
 
     bool operator==(const SceneFacts&) const = default;
 };

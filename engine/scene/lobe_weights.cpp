@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shared/bsdf.h"
+
 namespace voxilux {
 namespace {
 
@@ -12,9 +14,10 @@ bool has_glass(const Scene& scene, std::uint32_t sphere) {
 
 }  // namespace
 
-LobeWeights lobe_weights(const Material& material) {
+LobeWeights lobe_weights(const Material& material, bool shows_rough) {
     if (glm::any(glm::greaterThan(material.emission, glm::vec3(0.0f)))) return {};
-    const float polish = std::clamp(material.metallic * (1.0f - material.roughness), 0.0f, 1.0f);
+    const float dull = shows_rough ? 0.0f : material.roughness;
+    const float polish = std::clamp(material.metallic * (1.0f - dull), 0.0f, 1.0f);
     const float clear = std::clamp(material.transmission, 0.0f, 1.0f);
     switch (material.surface) {
         case Surface::metal:
@@ -29,6 +32,31 @@ LobeWeights lobe_weights(const Material& material) {
             break;
     }
     return {};
+}
+
+float facet_alpha(const Material& material) {
+    const LobeWeights weights = lobe_weights(material, true);
+    return weights.mirror + weights.glass > 0.0f ? gpu::rough_alpha(material.roughness) : 0.0f;
+}
+
+std::vector<GainRow> gain_rows(const Scene& scene) {
+    std::vector<GainRow> rows;
+    const auto add = [&](std::initializer_list<GainRow> wanted) {
+        if (std::ranges::find(rows, *wanted.begin()) == rows.end()) rows.insert(rows.end(), wanted);
+    };
+    for (const Material& material : scene.materials) {
+        const float alpha = facet_alpha(material);
+        if (alpha == 0.0f) continue;
+        const LobeWeights weights = lobe_weights(material, true);
+        if (weights.mirror > 0.0f) add({{alpha, 0.0f}});
+        if (weights.glass > 0.0f) add({{alpha, material.ior}, {alpha, 1.0f / material.ior}});
+    }
+    return rows;
+}
+
+std::uint32_t gain_row_of(const std::vector<GainRow>& rows, const GainRow& row) {
+    const auto found = std::ranges::find(rows, row);
+    return found == rows.end() ? 0 : static_cast<std::uint32_t>(found - rows.begin());
 }
 
 std::vector<std::uint32_t> sphere_order(const Scene& scene) {

@@ -35,6 +35,9 @@ SurfaceMaterial load_material(uint material) {
     loaded.emission = texels[1].xyz;
     loaded.glass = texels[1].w;
     loaded.ior = texels[2].x;
+    loaded.alpha = texels[2].y;
+    loaded.metal_row = floatBitsToUint(texels[2].z);
+    loaded.glass_row = floatBitsToUint(texels[2].w);
     return loaded;
 }
 

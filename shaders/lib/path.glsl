@@ -10,11 +10,12 @@
 #include "lib/constants.glsl"
 #include "lib/materials.glsl"
 #include "lib/surface.glsl"
-#include "shared/dielectric.h"
+#include "shared/bsdf.h"
 #include "shared/sppm.h"
 
 VX_SPECIALIZED(uint, has_glass_voxels, 0u);
 VX_SPECIALIZED(uint, start_anywhere, 0u);  // rays may start off surfaces
+VX_SPECIALIZED(uint, has_rough, 0u);       // rough metal or rough glass
 
 const uint kNoMedium = 0xFFFFFFFFu;
 
@@ -245,12 +246,15 @@ const uint kEventDiffuse = 0u;  // the path ends at a diffuse surface
 const uint kEventPass = 1u;     // the ray goes on as if there were no surface
 const uint kEventMirror = 2u;
 const uint kEventRefract = 3u;
+const uint kEventRough = 4u;  // the path ends at rough metal or rough glass
 
 struct BsdfSample {
     uint kind;
     vec3 albedo;     // of the surface
     vec3 direction;  // in which the path goes on
     float eta;       // far index of refraction / near one
+    float alpha;     // of a rough surface, whose eta is 0 for metal
+    uint gain_row;   // likewise
 };
 
 // Which lobe of the material a ray takes, and its new direction. `u` are two numbers in [0, 1): for the
@@ -265,13 +269,23 @@ BsdfSample path_event(PathRay path, PathHit found, vec2 u) {
     event.kind = is_mirror_here ? kEventMirror : kEventDiffuse;
     event.albedo = material.albedo;
     event.eta = 1.0;
+    event.alpha = material.alpha;
+    event.gain_row = material.metal_row;
     event.direction = mirror_direction(path.direction, found.normal);
+    if (has_rough != 0u && is_mirror_here && is_rough(material.alpha, 0.0)) {
+        event.kind = kEventRough;
+        event.eta = 0.0;
+    }
     if (is_glass_here) {
         Interface between = interface_at(path, found, material.ior);
         event.eta = between.far / between.near;
         Dielectric surface = dielectric(-dot(path.direction, found.normal), event.eta);
         bool reflects = u.y < surface.reflectance || surface.is_total;
         event.kind = reflects ? kEventMirror : kEventRefract;
+        if (has_rough != 0u && is_rough(material.alpha, event.eta)) {
+            event.kind = kEventRough;
+            event.gain_row = material.glass_row + (event.eta < 1.0 ? 1u : 0u);
+        }
         if (between.is_none) event.kind = kEventPass;
         if (!reflects) event.direction = refracted_direction(path.direction, found.normal, event.eta, surface);
         if (between.is_none) event.direction = path.direction;

@@ -14,7 +14,15 @@ void put_path_start(uint i, PathStart start) {
     imageStore(Starts, first, uvec4(start.cell, start.stream));
     imageStore(Starts, first + 1, uvec4(floatBitsToUint(start.fraction), start.own));
     imageStore(Starts, first + 2, uvec4(floatBitsToUint(start.direction), start.medium));
-    if (keeps_normals != 0u) imageStore(Starts, first + 3, uvec4(floatBitsToUint(start.normal), 0u));
+    if (keeps_normals != 0u) imageStore(Starts, first + 3, uvec4(floatBitsToUint(start.normal), start.is_rough));
+}
+
+bool starts_rough(uint i) {
+    return imageLoad(Starts, int(kPathStartTexels * i) + 3).w != 0u;
+}
+
+void put_no_rough_start(uint i) {
+    imageStore(Starts, int(kPathStartTexels * i) + 3, uvec4(0u));
 }
 
 PathStart path_start(uint i) {
@@ -30,7 +38,12 @@ PathStart path_start(uint i) {
     start.direction = uintBitsToFloat(direction.xyz);
     start.medium = direction.w;
     start.normal = vec3(0.0, 0.0, 1.0);
-    if (keeps_normals != 0u) start.normal = uintBitsToFloat(imageLoad(Starts, first + 3).xyz);
+    start.is_rough = 0u;
+    if (keeps_normals != 0u) {
+        uvec4 last = imageLoad(Starts, first + 3);
+        start.normal = uintBitsToFloat(last.xyz);
+        start.is_rough = last.w;
+    }
     return start;
 }
 

@@ -14,7 +14,10 @@
 #include "lib/film_group.glsl"
 #include "lib/film_sums.glsl"
 
+#include "lib/black_hit.glsl"
+
 VX_SPECIALIZED(uint, has_specular, 1u);
+VX_SPECIALIZED(uint, has_rough, 0u);
 VX_SPECIALIZED(uint, sums_coverage, 0u);
 
 layout(rgba32ui) readonly uniform uimageBuffer FirstHits;
@@ -50,6 +53,7 @@ void main() {
     vec4 offset = vec4(0.0);
     for (uint k = 0u; k < kGroupPixels; ++k) {
         Hit hit = group.hits[k];
+        if (has_rough != 0u) hit = true_hit(hit);
         bool has_normal = is_surface(hit) && hit.face != kFaceInside;
         vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
         sharp[k] = group.inside[k] ? sharp_radiance(group, k) : vec3(0.0);

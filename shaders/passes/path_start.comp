@@ -29,6 +29,7 @@ void main() {
     init_world();
     Pixel pixel = this_pixel();
     if (!pixel.inside) return;
+    if (has_rough != 0u && starts_rough(pixel.index)) return;  // specular_trace has found it
     Hit hit = load_hit(pixel.index);
     PathStart start;
     start.cell = ivec3(-1);
@@ -38,6 +39,7 @@ void main() {
     start.own = kNoSphere;
     start.medium = kNoMedium;
     start.stream = pixel_stream(pixel);
+    start.is_rough = 0u;
     if (is_surface(hit) && hit.face != kFaceInside) {
         vec2 u = draw_2d(pixel_key(pixel), kPairPath);
         start.normal = surface_normal(hit);

@@ -70,7 +70,8 @@ void main() {
         if (walk.kind == kRayNone) {
             if (next_id >= end) break;
             walk = first_walk(path_start(next_id), direct_light(next_id));
-            if ((has_glints || aims_at_sky != 0u) && walk.throughput.x > 0.0) leave(walk, kRayNone);
+            bool may_aim = (has_glints || aims_at_sky != 0u) && !walk.starts_rough;
+            if (may_aim && walk.throughput.x > 0.0) leave(walk, kRayNone);
             next_id += push.lanes;
         }
         PathHit found = next_hit(walk.ray);

@@ -4,7 +4,8 @@
 
 // Follows each camera ray through mirrors and glass to the diffuse surface or the sky that is seen there. `t`
 // of the result is the total length of the path; at the sky, `fraction` is the direction of the ray.
-// Reflection or refraction at glass is drawn anew in each sample.
+// Reflection or refraction at glass is drawn anew in each sample. At rough metal and rough glass, the path of the
+// pixel finds all light: there the result is a black hit, and the path starts with the ray that has led there.
 
 #include "lib/address.glsl"
 
@@ -12,6 +13,10 @@
 #include "lib/invocation.glsl"
 
 #include "lib/path.glsl"
+
+#include "lib/path_start.glsl"
+#include "lib/black_hit.glsl"
+#include "shared/dimensions.h"
 
 layout(scalar) readonly buffer FirstHits {
     Hit first_hits[];
@@ -46,6 +51,20 @@ PathRay first_ray(Pixel pixel) {
     return path;
 }
 
+// `lobe` is the number that has chosen the lobe of the surface.
+void start_before(Pixel pixel, PathRay path, float lobe) {
+    PathStart start;
+    start.cell = path.cell;
+    start.stream = pixel_stream(pixel);
+    start.fraction = path.fraction;
+    start.own = path.own;
+    start.direction = path.direction;
+    start.medium = path.medium;
+    start.normal = vec3(draw_2d(pixel_key(pixel), kPairPath), lobe);
+    start.is_rough = 1u;
+    put_path_start(pixel.index, start);
+}
+
 void main() {
     init_scene();
     Pixel pixel = this_pixel();
@@ -57,6 +76,7 @@ void main() {
     float length_so_far = found.hit.t;
     uint segments = 0u;
     bool is_open = true;
+    if (has_rough != 0u) put_no_rough_start(pixel.index);
     uint bounce = 0u;
     for (; bounce < kMaxBounces; ++bounce) {
         if (!is_surface(found.hit)) break;
@@ -64,6 +84,11 @@ void main() {
         vec2 u = bounce < kSureBounces ? draw_2d(key, pair) : sample_2d(kSequenceWhite, key, pair);
         BsdfSample event = path_event(path, found, u);
         if (event.kind == kEventDiffuse) break;
+        if (has_rough != 0u && event.kind == kEventRough) {
+            start_before(pixel, path, u.x);
+            found.hit = black_hit(found.hit);
+            break;
+        }
         if (event.kind != kEventPass) weight *= event.albedo;
         if (event.kind == kEventRefract) weight *= radiance_scale(event.eta);
         if (bounce >= kSureBounces) {

@@ -4,6 +4,7 @@
 #define VX_PROBE_FUNCTIONS_H
 
 #include "shared/alias.h"
+#include "shared/bsdf.h"
 #include "shared/dielectric.h"
 #include "shared/film_sum.h"
 #include "shared/sampling.h"
@@ -197,6 +198,31 @@ VX_FN SphereOut probe_sphere(SphereIn v) {
     r.hit = hit.hit ? 1u : 0u;
     r.t = hit.t;
     r.normal = hit.normal;
+    return r;
+}
+
+struct BsdfIn {
+    vec3 outward;  // unit, on the side of the normal
+    vec3 normal;   // unit
+    vec3 u;
+    float alpha;
+    float eta;
+};
+struct BsdfOut {
+    vec3 inward;
+    float pdf;
+    float weight;
+    float place;  // on a row of gains
+    uint crosses;
+};
+VX_FN BsdfOut probe_bsdf(BsdfIn v) {
+    BsdfOut r;
+    r.inward = sample_rough(v.outward, v.normal, v.alpha, v.eta, v.u);
+    RoughValue value = evaluate_rough(v.outward, r.inward, v.normal, v.alpha, v.eta);
+    r.pdf = value.pdf;
+    r.weight = value.weight;
+    r.place = gain_place(dot(v.outward, v.normal), v.alpha);
+    r.crosses = value.crosses ? 1u : 0u;
     return r;
 }
 

@@ -45,17 +45,17 @@ VX_FN uint beam_count(uint pixels) {
     return (pixels + kBeamPixels - 1u) / kBeamPixels;
 }
 
-// How light leaves a surface, as the passes read it: lobe weights of a mirror and of clear glass; the rest is
-// diffuse. All three lobes are multiplied by the albedo.
+// How light leaves a surface, as the passes read it: lobe weights of metal and of glass; the rest is diffuse.
+// All three lobes are multiplied by the albedo.
 struct SurfaceMaterial {
-    vec3 albedo;    // linear, [0,1]
-    float mirror;   // lobe weight, [0,1]
-    vec3 emission;  // radiance; where it is not 0 both lobe weights are
-    float glass;    // lobe weight; mirror + glass <= 1
-    float ior;      // of the glass
-    uint pad_0;     // three texels of four words
-    uint pad_1;
-    uint pad_2;
+    vec3 albedo;     // linear, [0,1]
+    float mirror;    // lobe weight, [0,1]
+    vec3 emission;   // radiance; where it is not 0 both lobe weights are
+    float glass;     // lobe weight; mirror + glass <= 1
+    float ior;       // of the glass
+    float alpha;     // of microfacets, bsdf.h; 0: a mirror, and clear glass
+    uint metal_row;  // of gains, where alpha is not 0
+    uint glass_row;  // likewise, from outside; the next one is from inside
 };
 VX_CONST(uint, kMaterialTexels, 3u);
 
@@ -156,9 +156,9 @@ struct PathStart {
     vec3 fraction;
     uint own;  // the sphere on which it starts, or kNoSphere
     vec3 direction;
-    uint medium;  // material of the glass voxel that the visible point is in, or kNoMedium
-    vec3 normal;  // unit, on the side that was hit; only where the plan needs it
-    uint pad_0;   // four texels of four words
+    uint medium;    // material of the glass voxel that the visible point is in, or kNoMedium
+    vec3 normal;    // unit, on the side that was hit, where needed; at a rough surface three random numbers
+    uint is_rough;  // 1: there (two for its direction, one for its lobe), and the ray leads there
 };
 VX_CONST(uint, kPathStartTexels, 4u);
 
@@ -175,7 +175,7 @@ struct PathState {
     vec3 light;
     uint surfaces;
     uint vertices;
-    uint is_straight;
+    uint flags;    // 1: is_straight, 2: off a rough surface
     uint next_id;  // next pixel of the tile for this invocation; 0 before the first round
 };
 

@@ -139,6 +139,18 @@ VX_CONST(uint, kRoundTurns, 49152u);
 // Glass. Largest ratio of two indices of refraction: scene files allow 1 to 4, so ratios are in [1/4, 4].
 VX_CONST(float, kMaxEta, 16.0f);
 
+// Rough surfaces. Below this roughness they are smooth: microfacets then lean by 10^-4 radians, a fiftieth of
+// the sun's radius, and directions in floats still tell them apart.
+VX_CONST(float, kMinRoughness, 0.01f);
+// The same for glass that hardly bends light, for which half vectors lose bits: microfacets of roughness
+// alpha turn light by about alpha * |eta - 1| radians.
+VX_CONST(float, kMinSpread, 1.0e-5f);
+// Places on a row of gains (bsdf.h), and the widest scale on which they get denser. A white metal then keeps
+// its light within 0.5 %, glass of ior 1.3 or more within 1 %. Towards ior 1 very rough glass errs more: 2 %
+// at 1.1, near the horizon.
+VX_CONST(uint, kGainPlaces, 32u);
+VX_CONST(float, kGainScale, 0.25f);
+
 // Photons. Smallest radius of a kernel, in voxels: the spacing of floats between 1024 and 2048. A smaller
 // kernel would measure the rounding of positions.
 VX_CONST(float, kMinPhotonRadius, 1.220703125e-4f);  // 2^-13

@@ -132,6 +132,20 @@ void design_indirect(const RenderPlan& plan, Designer& designer) {
     });
 }
 
+// What stands in for rough metal and glass is that of a plan whose caustics are not left to paths.
+void design_rough(Designer& designer) {
+    designer.begin({.name = "rough",
+                    .label = "rough metal and glass",
+                    .axis = "how rough surfaces scatter",
+                    .why =
+                        "Microfacets, or in their place a mix of a mirror and a diffuse surface, and clear "
+                        "glass, whose caustics are found by photons."});
+    designer.add("microfacets", [](Configuration&) {});
+    designer.add("stand-in", [](Configuration& configuration) {
+        choose_technique("caustics", "photons", configuration.settings);
+    });
+}
+
 void set_photon_method(const std::string& method, PhotonSettings& photons) {
     photons.classic = method == "classic";
     photons.scatter = method == "scatter";
@@ -246,6 +260,7 @@ ParameterDesign design_parameters(const RenderPlan& plan, const Configuration& b
     if (plan.has(Effect::voxels)) design_traversal(plan, designer);
     if (plan.has(Effect::ao)) design_occlusion(plan, designer);
     if (plan.is_by_paths(Effect::indirect)) design_indirect(plan, designer);
+    if (plan.shows_rough) design_rough(designer);
     if (plan.photons.runs()) {
         design_photon_numbers(plan, designer);
         design_photon_methods(designer);

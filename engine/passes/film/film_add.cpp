@@ -90,6 +90,7 @@ void record_denoise_guide(const RenderPlan& plan, const DispatchTile& tile, cons
     Dispatch dispatch = shading_dispatch(plan, tile, inputs, recording);
     dispatch.label = "denoise.guide";
     dispatch.shader = "denoise_guide";
+    dispatch.constants.push_back({"has_rough", plan.shows_rough ? 1u : 0u});
     const std::string half = half_of(sample);
     for (const auto& [block, name] : {std::pair<const char*, std::string>{"GuideSharp", "guide_sharp" + half},
                                       {"GuideAlbedo", "guide_albedo" + half},

@@ -23,6 +23,7 @@ void record_path_start(const RenderPlan& plan, const DispatchTile& tile, const P
     const bool finds_media = plan.paths_find_sun_caustics && plan.has(Effect::sun) && plan.has_glass_voxels;
     dispatch.constants.push_back({"finds_media", finds_media ? 1u : 0u});
     dispatch.constants.push_back({"keeps_normals", plan.paths_keep_normals() ? 1u : 0u});
+    dispatch.constants.push_back({"has_rough", plan.shows_rough ? 1u : 0u});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
 }
@@ -46,6 +47,7 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
                                                        {"LightTable", emitter_buffer(light_table_buffer)},
                                                        {"SkyTable", sky_table_buffer(plan, recording)},
                                                        {"Starts", starts},
+                                                       {"Gains", gains_buffer(plan, recording)},
                                                        {"Direct", direct.buffer},
                                                        {"States", states},
                                                        {"Light", light}});
@@ -66,7 +68,9 @@ Dispatch path_trace(const RenderPlan& plan, std::uint32_t lanes, const Plane& di
          {"shares_direct", plan.paths_share_direct() ? 1u : 0u},
          {"keeps_normals", plan.paths_keep_normals() ? 1u : 0u},
          {"direct_stride", direct.stride},
-         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u}});
+         {"has_rounds", plan.paths.rounds > 1 ? 1u : 0u},
+         {"has_rough", plan.shows_rough ? 1u : 0u},
+         {"start_anywhere", plan.shows_rough ? 1u : 0u}});  // camera rays
     const std::vector<Constant> image = sky_image_constants(plan);
     dispatch.constants.insert(dispatch.constants.end(), image.begin(), image.end());
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);

@@ -29,7 +29,14 @@ SpecularPlanes record_specular_trace(const RenderPlan& plan, const DispatchTile&
                       .constants = path_constants(plan)};
     dispatch.bindings.insert(
         dispatch.bindings.end(),
-        {{"FirstHits", first_hits.buffer}, {"Hits", planes.hits.buffer}, {"Weights", planes.weights.buffer}});
+        {{"FirstHits", first_hits.buffer},
+         {"Hits", planes.hits.buffer},
+         {"Weights", planes.weights.buffer},
+         {"Starts", plan.shows_rough ? declare_plane<gpu::PathStart>(plan, "path.starts", recording)
+                                     : placeholder_buffer(recording)}});
+    dispatch.constants.insert(
+        dispatch.constants.end(),
+        {{"has_rough", plan.shows_rough ? 1u : 0u}, {"keeps_normals", plan.paths_keep_normals() ? 1u : 0u}});
     point_to_world(plan.world.traversal, world_buffers(plan, recording), dispatch);
     recording.dispatch(std::move(dispatch));
     return planes;

@@ -85,8 +85,8 @@ const std::vector<Layout>& layouts() {
         VX_LAYOUT(PathState, VX_MEMBER(PathState, ray), VX_MEMBER(PathState, kind),
                   VX_MEMBER(PathState, stream), VX_MEMBER(PathState, throughput), VX_MEMBER(PathState, scale),
                   VX_MEMBER(PathState, pdf), VX_MEMBER(PathState, image_share), VX_MEMBER(PathState, light),
-                  VX_MEMBER(PathState, surfaces), VX_MEMBER(PathState, vertices),
-                  VX_MEMBER(PathState, is_straight), VX_MEMBER(PathState, next_id)),
+                  VX_MEMBER(PathState, surfaces), VX_MEMBER(PathState, vertices), VX_MEMBER(PathState, flags),
+                  VX_MEMBER(PathState, next_id)),
         VX_LAYOUT(PathPush, VX_MEMBER(PathPush, lanes), VX_MEMBER(PathPush, is_last)),
         VX_LAYOUT(DenoisePush, VX_MEMBER(DenoisePush, size), VX_MEMBER(DenoisePush, step),
                   VX_MEMBER(DenoisePush, share)),
@@ -170,31 +170,40 @@ StructInfo first_in_shaders(const std::string& name) {
 // What shaders read texel by texel, by the place of a member: lib/materials.glsl, lib/lights.glsl,
 // lib/path_start.glsl.
 TEST(StructLayout, members_of_texels_are_where_shaders_look_for_them) {
-    const std::vector<Layout> wanted = {
-        {"SurfaceMaterial",
-         48,
-         {{"albedo", 0}, {"mirror", 12}, {"emission", 16}, {"glass", 28}, {"ior", 32}}},
-        {"LightRecord", 16, {{"cell", 0}, {"what", 12}}},
-        {"AliasEntry", 12, {{"keep", 0}, {"other", 4}, {"pdf", 8}}},
-        {"PathStart",
-         64,
-         {{"cell", 0},
-          {"stream", 12},
-          {"fraction", 16},
-          {"own", 28},
-          {"direction", 32},
-          {"medium", 44},
-          {"normal", 48}}}};
+    const std::vector<Layout> wanted = {{"SurfaceMaterial",
+                                         48,
+                                         {{"albedo", 0},
+                                          {"mirror", 12},
+                                          {"emission", 16},
+                                          {"glass", 28},
+                                          {"ior", 32},
+                                          {"alpha", 36},
+                                          {"metal_row", 40},
+                                          {"glass_row", 44}}},
+                                        {"LightRecord", 16, {{"cell", 0}, {"what", 12}}},
+                                        {"AliasEntry", 12, {{"keep", 0}, {"other", 4}, {"pdf", 8}}},
+                                        {"PathStart",
+                                         64,
+                                         {{"cell", 0},
+                                          {"stream", 12},
+                                          {"fraction", 16},
+                                          {"own", 28},
+                                          {"direction", 32},
+                                          {"medium", 44},
+                                          {"normal", 48},
+                                          {"is_rough", 60}}}};
     const std::vector<Layout> rows = {
         VX_LAYOUT(SurfaceMaterial, VX_MEMBER(SurfaceMaterial, albedo), VX_MEMBER(SurfaceMaterial, mirror),
                   VX_MEMBER(SurfaceMaterial, emission), VX_MEMBER(SurfaceMaterial, glass),
-                  VX_MEMBER(SurfaceMaterial, ior)),
+                  VX_MEMBER(SurfaceMaterial, ior), VX_MEMBER(SurfaceMaterial, alpha),
+                  VX_MEMBER(SurfaceMaterial, metal_row), VX_MEMBER(SurfaceMaterial, glass_row)),
         VX_LAYOUT(LightRecord, VX_MEMBER(LightRecord, cell), VX_MEMBER(LightRecord, what)),
         VX_LAYOUT(AliasEntry, VX_MEMBER(AliasEntry, keep), VX_MEMBER(AliasEntry, other),
                   VX_MEMBER(AliasEntry, pdf)),
         VX_LAYOUT(PathStart, VX_MEMBER(PathStart, cell), VX_MEMBER(PathStart, stream),
                   VX_MEMBER(PathStart, fraction), VX_MEMBER(PathStart, own), VX_MEMBER(PathStart, direction),
-                  VX_MEMBER(PathStart, medium), VX_MEMBER(PathStart, normal))};
+                  VX_MEMBER(PathStart, medium), VX_MEMBER(PathStart, normal),
+                  VX_MEMBER(PathStart, is_rough))};
     for (std::size_t i = 0; i < rows.size(); ++i) {
         EXPECT_EQ(rows[i].size_bytes, wanted[i].size_bytes) << wanted[i].name;
         for (std::size_t m = 0; m < wanted[i].members.size(); ++m)

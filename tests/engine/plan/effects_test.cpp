@@ -48,6 +48,14 @@ SceneFacts without_polish() {
     return facts;
 }
 
+// Rough metal and rough glass, with or without a smooth one.
+SceneFacts rough(bool has_sharp) {
+    SceneFacts facts = rich();
+    facts.has_rough = true;
+    facts.has_sharp = has_sharp;
+    return facts;
+}
+
 SceneFacts without_light() {
     SceneFacts facts = without(&SceneFacts::has_emitters);
     facts.sun_reaches = false;
@@ -110,14 +118,22 @@ TEST(Effects, every_row_gives_its_reason) {
         {"specular mirror", state(Effect::specular, without(&SceneFacts::has_glass)), true,
          "camera rays follow mirrors"},
         {"specular", state(Effect::specular, without_polish()), false, "no used material is glass or mirror"},
+        {"specular rough", state(Effect::specular, rough(false)), true,
+         "camera rays end at rough metal or glass"},
+        {"specular both", state(Effect::specular, rough(true)), true, "camera rays follow mirrors and glass"},
         {"direct needed", state(Effect::direct, rich()), true, "emitters light surfaces"},
         {"direct", state(Effect::direct, without(&SceneFacts::has_emitters)), false,
          "no used material emits"},
         {"caustics needed", state(Effect::caustics, rich()), true, "glass and mirrors gather light"},
         {"caustics of the sun", state(Effect::caustics, without(&SceneFacts::has_emitters)), true,
          "glass and mirrors gather light"},
-        {"caustics rough", state(Effect::caustics, without_polish()), false,
+        {"caustics diffuse", state(Effect::caustics, without_polish()), false,
          "neither glass nor mirror is in the light's way"},
+        {"caustics rough", state(Effect::caustics, rough(false)), false,
+         "glass and metal are rough: they light surfaces as diffuse ones do"},
+        {"caustics of stand-ins", decide_effects(rough(false), {.traces_rough = false})[10], true,
+         "glass and mirrors gather light"},
+        {"caustics both", state(Effect::caustics, rough(true)), true, "glass and mirrors gather light"},
         {"caustics dark", state(Effect::caustics, without_light()), false, "neither emitter nor sun shines"},
         {"indirect needed", state(Effect::indirect, rich()), true, "surfaces send light on"},
         {"indirect of the sky", state(Effect::indirect, without_light()), true, "surfaces send light on"},

@@ -127,6 +127,29 @@ TEST(Techniques, photons_of_caustics_and_paths_of_indirect_light_go_together) {
                  Error);
 }
 
+TEST(Techniques, rough_surfaces_take_paths_for_all_light_unless_others_are_named) {
+    const auto rough = [](std::vector<std::string> overrides) {
+        return test::plan_of(test::repository_scene("rough", overrides), {});
+    };
+    const RenderPlan plan = rough({});
+    EXPECT_TRUE(plan.shows_rough);
+    EXPECT_FALSE(plan.photons.runs());
+    EXPECT_EQ(chosen_by(plan),
+              (std::map<std::string, std::string>{{"caustics", "paths"}, {"indirect", "paths"}}));
+    EXPECT_TRUE(rough({"sun.on=false", "sky.radiance=[0, 0, 0]"}).shows_rough) << "emitters alone";
+    EXPECT_TRUE(rough({"technique.indirect=reference"}).shows_rough);
+    EXPECT_TRUE(rough({"technique.caustics=none"}).shows_rough);
+    for (const char* other : {"technique.caustics=photons", "technique.indirect=none", "technique.ao=hash"}) {
+        const RenderPlan stand_in = rough({other});
+        EXPECT_FALSE(stand_in.shows_rough) << other;
+        EXPECT_TRUE(std::ranges::any_of(stand_in.notes, [](const std::string& note) {
+            return note.starts_with("rough metal is shown as");
+        })) << other;
+    }
+    EXPECT_FALSE(
+        std::ranges::any_of(plan.notes, [](const std::string& note) { return note.starts_with("rough"); }));
+}
+
 std::map<std::string, std::string> chosen_in(const std::string& name,
                                              const std::vector<std::string>& overrides = {},
                                              const PlanRequest& request = {}) {

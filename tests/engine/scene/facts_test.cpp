@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/facts.h"
+#include "scene/lobe_weights.h"
 #include "scene/scene_bounds.h"
 #include "scene/scene_hash.h"
 
@@ -75,14 +76,39 @@ TEST(Facts, materials_that_are_shown_as_something_simpler_are_named_once_a_kind)
     scene.materials[2].roughness = 0.0f;
     const std::vector<std::string> rough = {
         "rough metal is shown as a mix of a mirror and a diffuse surface ('coin')"};
-    EXPECT_EQ(measure_scene(scene).simplified, rough);
+    EXPECT_EQ(measure_scene(scene).simplified_rough, rough);
+    EXPECT_TRUE(measure_scene(scene).simplified.empty());
     scene.materials[1].surface = scene.materials[2].surface = Surface::media;
-    EXPECT_EQ(measure_scene(scene).simplified,
-              (std::vector<std::string>{"a medium is shown as an opaque diffuse surface ('lamp' and 1 more)",
-                                        rough.front()}));
+    EXPECT_EQ(
+        measure_scene(scene).simplified,
+        (std::vector<std::string>{"a medium is shown as an opaque diffuse surface ('lamp' and 1 more)"}));
     scene.materials[3].roughness = 0.0f;
     scene.materials[1].surface = scene.materials[2].surface = Surface::diffuse;
     EXPECT_TRUE(measure_scene(scene).simplified.empty());
+    EXPECT_TRUE(measure_scene(scene).simplified_rough.empty());
+}
+
+TEST(Facts, rough_and_sharp_surfaces_are_told_apart) {
+    Scene scene = small_scene();
+    EXPECT_FALSE(measure_scene(scene).has_rough || measure_scene(scene).has_sharp);
+    scene.spheres[0].material = 3;
+    EXPECT_TRUE(measure_scene(scene).has_rough);
+    EXPECT_FALSE(measure_scene(scene).has_sharp);
+    scene.materials[3].roughness = 1e-4f;
+    EXPECT_FALSE(measure_scene(scene).has_rough) << "below the least roughness";
+    EXPECT_TRUE(measure_scene(scene).has_sharp);
+    scene.materials[3].metallic = 0.0f;
+    EXPECT_FALSE(measure_scene(scene).has_rough || measure_scene(scene).has_sharp);
+}
+
+TEST(Facts, rows_of_gains_are_those_of_rough_materials_each_once) {
+    Scene scene = small_scene();
+    scene.materials.push_back(scene.materials[3]);
+    scene.materials[2].roughness = 0.5f;  // glass
+    const std::vector<GainRow> rows = gain_rows(scene);
+    EXPECT_EQ(rows, (std::vector<GainRow>{{0.25f, 1.5f}, {0.25f, 1.0f / 1.5f}, {0.25f, 0.0f}}));
+    EXPECT_EQ(gain_row_of(rows, {0.25f, 0.0f}), 2u);
+    EXPECT_EQ(gain_row_of(rows, {0.5f, 0.0f}), 0u) << "smooth: there is none";
 }
 
 TEST(Facts, boxes_of_shapes_count_as_their_cells) {
