@@ -22,8 +22,9 @@ bool sends_photons(const Scene& scene, const SceneOptions& options) {
     choose_techniques(options.techniques, settings);
     const SceneFacts facts = measure_scene(scene);
     const EffectStates effects = decide_effects(facts, with_techniques(options.request.effects, settings));
-    return std::ranges::any_of(choose_techniques(effects, {}, settings, facts.has_specular_spheres, facts.has_rough),
-                               [](const ChosenTechnique& chosen) { return chosen.technique->by_photons; });
+    return std::ranges::any_of(
+        choose_techniques(effects, {}, settings, facts.has_specular_spheres, facts.has_rough),
+        [](const ChosenTechnique& chosen) { return chosen.technique->by_photons; });
 }
 
 // Samples of the preset in a scene with photons, unless an override says how many.
