@@ -69,6 +69,19 @@ TEST(Parameters, price_paths_against_occlusion_where_there_is_a_sky_and_against_
     EXPECT_FALSE(settings_of({Effect::voxels, Effect::emission, Effect::indirect}).contains("ao"));
 }
 
+TEST(Parameters, price_microfacets_against_their_stand_in_where_the_plan_shows_them) {
+    RenderPlan plan = plan_with({Effect::spheres, Effect::indirect});
+    EXPECT_FALSE(parameters_of(design_parameters(plan, {})).contains("rough"));
+    plan.shows_rough = true;
+    const ParameterDesign design = design_parameters(plan, {});
+    const auto rough = std::ranges::find(design.parameters, "rough", &Parameter::name);
+    ASSERT_NE(rough, design.parameters.end());
+    ASSERT_EQ(rough->settings.size(), 2u);
+    EXPECT_EQ(design.configurations[rough->settings[0].configuration], Configuration{});
+    EXPECT_TRUE(
+        is_chosen("caustics", "photons", design.configurations[rough->settings[1].configuration].settings));
+}
+
 TEST(Parameters, change_one_setting_and_share_the_default) {
     RenderPlan plan = plan_with({Effect::voxels, Effect::ao});
     plan.world.traversal = Traversal::wide;
