@@ -60,18 +60,18 @@ TEST(SkyImageGrid, middle_looks_along_x_and_left_of_it_is_y) {
 
 // Uniform over the solid angle: heights within a row are uniform, by Archimedes' theorem.
 double deviation_of_heights(const gpu::SkyGrid& grid, gpu::uint row, double stretch) {
-    constexpr int kDraws = 20000, kBins = 20;
+    constexpr int kDraws = 20000, kSkyBins = 20;
     test::TestRandom random(5);
     const double top = std::cos(std::numbers::pi * row / grid.rows);
     const double bottom = std::cos(std::numbers::pi * (row + 1) / grid.rows);
-    std::vector<std::uint64_t> seen(kBins, 0);
+    std::vector<std::uint64_t> seen(kSkyBins, 0);
     for (int i = 0; i < kDraws; ++i) {
         const vec2 place(random.uniform(0.0, 1.0), std::pow(random.uniform(0.0, 1.0), stretch));
         const vec3 direction = gpu::sky_direction(grid, row * grid.columns, place);
         const double part = (top - double{direction.z}) / (top - bottom);
-        ++seen[static_cast<std::size_t>(std::clamp(part * kBins, 0.0, kBins - 1.0))];
+        ++seen[static_cast<std::size_t>(std::clamp(part * kSkyBins, 0.0, kSkyBins - 1.0))];
     }
-    const std::vector<double> expected(kBins, double{kDraws} / kBins);
+    const std::vector<double> expected(kSkyBins, double{kDraws} / kSkyBins);
     return test::chi_square(seen, expected);
 }
 
