@@ -54,6 +54,8 @@ std::string describe(const RenderPlan& plan) {
                         static_cast<double>(needs.total_bytes()) / 1048576.0);
     text += fmt::format("rays      primary {}, ao at most {}, sun at most {}\n", plan.rays.primary,
                         plan.rays.ao, plan.rays.sun);
+    for (const std::string& effect : plan.without)
+        text += fmt::format("without   {}\n", effect);
     for (const std::string& note : plan.notes)
         text += fmt::format("note      {}\n", note);
     return text;

@@ -187,6 +187,7 @@ Json report_json(const Scene& scene, const RenderOutcome& outcome) {
     json["forecast"] = judged_forecast_json(statistics);
     json["next_minute"] = next_minute_json(statistics.next_minute);
     json["faults"] = statistics.faults;
+    json["without"] = outcome.plan.without;
     json["notes"] = outcome.plan.notes;
     json["warnings"] = statistics.warnings;
     return json;
@@ -271,6 +272,7 @@ Json plan_json(const Scene& scene, const RenderPlan& plan) {
     json["memory"] = planned_memory_json(needs);
     json["rays"] = {{"primary", plan.rays.primary}, {"ao", plan.rays.ao}, {"sun", plan.rays.sun}};
     json["forecast"] = forecast_json(std::nullopt);  // without an error target there is no pilot
+    json["without"] = plan.without;
     json["notes"] = plan.notes;
     return json;
 }
@@ -292,6 +294,8 @@ std::string describe(const RenderOutcome& outcome) {
     text += fmt::format("error     {}\n",
                         s.error.is_known() ? error_text(s.error) : "unknown: pixels share occlusion samples");
     if (outcome.denoised) text += denoised_text(*outcome.denoised);
+    for (const std::string& effect : outcome.plan.without)
+        text += fmt::format("without   {}\n", effect);
     text += judged_forecast_text(s);
     if (const std::string minute = next_minute_text(s.next_minute); !minute.empty())
         text += fmt::format("next      {}\n", minute);

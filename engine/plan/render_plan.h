@@ -94,7 +94,8 @@ struct RenderPlan {
     std::uint32_t film_tile_count = 0;
     std::uint32_t tile_rows = 0;  // most rows that one recording renders
     PlannedRays rays;
-    std::vector<std::string> notes;  // what the image will lack, one line each
+    std::vector<std::string> notes;    // what the image will lack, one line each
+    std::vector<std::string> without;  // effects that were switched off although the scene calls for them
 
     bool operator==(const RenderPlan&) const = default;
 

@@ -213,22 +213,22 @@ TEST(PlanNotes, what_the_picture_lacks_is_said) {
 
 // The bound of the series: half of the light comes back at each bounce, so all bounces give as much again.
 TEST(PlanNotes, light_between_surfaces_that_is_left_out_has_a_bound) {
-    const auto notes_without = [](Effect effect, const char* surface) {
+    const auto words_without = [](Effect effect, const char* surface) {
         PlanRequest request;
         request.effects.switches[effect] = Switch::off;
         const Scene scene =
             test::repository_scene("one_voxel", {"material.white.albedo=[0.5, 0.2, 0.1]", surface});
-        return test::plan_of(scene, request).notes;
+        return test::plan_of(scene, request).without;
     };
     const char* matt = "material.white.surface=\"diffuse\"";
-    const std::string words = "is left out, of the image and of its claimed error";
+    const std::string words = ", which the claimed error does not count";
     EXPECT_EQ(
-        notes_without(Effect::indirect, matt),
-        std::vector<std::string>{"indirect " + words + ": at most 100 % of the strongest direct irradiance"});
-    EXPECT_EQ(notes_without(Effect::sun, matt), std::vector<std::string>{"sun " + words});
-    EXPECT_EQ(notes_without(Effect::indirect, "material.white.surface=\"metal\"").front(),
-              "indirect " + words);
-    EXPECT_TRUE(notes_without(Effect::caustics, matt).empty()) << "the scene has none";
+        words_without(Effect::indirect, matt),
+        std::vector<std::string>{"indirect" + words + ": at most 100 % of the strongest direct irradiance"});
+    EXPECT_EQ(words_without(Effect::sun, matt), std::vector<std::string>{"sun" + words});
+    EXPECT_EQ(words_without(Effect::indirect, "material.white.surface=\"metal\"").front(),
+              "indirect" + words);
+    EXPECT_TRUE(words_without(Effect::caustics, matt).empty()) << "the scene has none";
 }
 
 }  // namespace

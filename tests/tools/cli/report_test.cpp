@@ -17,13 +17,14 @@ namespace {
 TEST(Report, render_has_exactly_its_keys) {
     const ScratchFolder scratch;
     const Json report = json_of(small_render(scratch, {"--json", "-", "--seed", "7"}));
-    EXPECT_EQ(keys_of(report),
-              (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
-                                     "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
-                                     "error", "forecast", "faults",
-                                     // Beyond the contract:
-                                     "samples", "stopped", "load_s", "steps", "first_pixel_s", "notes",
-                                     "warnings", "traversal", "occlusion", "photons", "next_minute"}));
+    EXPECT_EQ(
+        keys_of(report),
+        (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "device", "wall_s",
+                               "cpu_s", "peak_rss_mib", "gpu_ms", "passes", "work", "memory", "effects",
+                               "error", "forecast", "faults",
+                               // Beyond the contract:
+                               "samples", "stopped", "load_s", "steps", "first_pixel_s", "notes", "without",
+                               "warnings", "traversal", "occlusion", "photons", "next_minute"}));
     EXPECT_EQ(report["command"], "render");
     EXPECT_EQ(report["seed"], 7);
     EXPECT_EQ(report["size"], Json({32, 18}));
@@ -105,8 +106,8 @@ TEST(Report, plan_promises_what_the_render_does) {
     const Json plan = json_of(words);
     EXPECT_EQ(keys_of(plan),
               (std::set<std::string>{"version", "command", "scene_hash", "seed", "size", "effects", "passes",
-                                     "memory", "forecast", "rays", "notes", "traversal", "occlusion",
-                                     "photons", "techniques", "end_bytes"}));
+                                     "memory", "forecast", "rays", "notes", "without", "traversal",
+                                     "occlusion", "photons", "techniques", "end_bytes"}));
     EXPECT_EQ(plan["traversal"], report["traversal"]);
     EXPECT_EQ(plan["occlusion"]["reason"], report["occlusion"]["reason"]);
     EXPECT_EQ(keys_of(plan["occlusion"]), (std::set<std::string>{"method", "reason", "slots"}));
