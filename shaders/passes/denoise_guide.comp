@@ -41,6 +41,16 @@ vec3 sharp_radiance(Group group, uint k) {
     return radiance(group, k);
 }
 
+// The distance of a plane from the camera, along its normal, voxels. A sphere has that of its tangent plane at the
+// anchor: one number for all of it, because the distances of its tangent planes differ by more than planes do.
+float guide_offset(Hit hit, vec3 normal) {
+    if (is_on_sphere(hit)) {
+        Sphere shape = spheres[hit.sphere].shape;
+        return dot(shape.normal, (shape.anchor - vec3(frame.camera_cell)) - frame.camera_fraction);
+    }
+    return dot(normal, vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction));
+}
+
 void main() {
     uint at = linear_id();
     uint skipped = push.first_pixel % kGroupPixels;
@@ -55,11 +65,10 @@ void main() {
         Hit hit = group.hits[k];
         if (has_rough != 0u) hit = true_hit(hit);
         bool has_normal = is_surface(hit) && hit.face != kFaceInside;
-        vec3 from_camera = vec3(hit.cell - frame.camera_cell) + (hit.fraction - frame.camera_fraction);
         sharp[k] = group.inside[k] ? sharp_radiance(group, k) : vec3(0.0);
         albedo[k] = is_surface(hit) ? group.albedo[k] * group.weights[k] : vec3(0.0);
         normal[k] = has_normal ? surface_normal(hit) : vec3(0.0);
-        offset[k] = has_normal ? dot(normal[k], from_camera) : 0.0;
+        offset[k] = has_normal ? guide_offset(hit, normal[k]) : 0.0;
     }
     if (sums_coverage != 0u) cover(at, group, sharp);
     VX_ADD_VECTORS(GuideSharp, film_group, add_pair, sharp);

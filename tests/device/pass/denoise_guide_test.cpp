@@ -72,6 +72,20 @@ TEST(DenoiseGuide, offset_is_that_of_the_plane) {
         ASSERT_EQ(film_mean(film.sums.at("guide_offset_a")[i], film.even[0]), -20.0f);
 }
 
+// Otherwise only pixels along its contours would be averaged, and show as rings.
+TEST(DenoiseGuide, offset_of_a_sphere_is_one_number_and_its_normals_are_many) {
+    Scene scene = white_scene();
+    scene.settings = {.size = {16, 12}, .spp = 2};
+    scene.spheres.push_back({.centre = {0.0, 0.0, 0.0}, .radius = 5.0, .material = add_diffuse(scene, 0.6f)});
+    scene.camera = camera_towards({0.0, -20.0, 0.0}, {0.0, 0.0, 0.0}, 10.0);  // the sphere alone
+    const FilmSums film = film_of(scene, kSunOnly);
+    const Sums& offsets = film.sums.at("guide_offset_a");
+    EXPECT_LT(offsets.front(), 0) << "it faces the camera";
+    EXPECT_EQ(std::ranges::count(offsets, offsets.front()), std::ranges::ssize(offsets));
+    const Sums& normals = film.sums.at("guide_normal_a");
+    EXPECT_LT(std::ranges::count(normals, normals.front()), 10);
+}
+
 TEST(DenoiseGuide, follows_a_mirror_to_what_is_shaded) {
     Scene scene = white_scene();
     scene.settings = {.size = {16, 12}, .spp = 2};
